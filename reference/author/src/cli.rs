@@ -125,6 +125,10 @@ pub enum Command {
         /// one of them costs nothing
         #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
         independent: bool,
+        /// Measure wrong solutions of no known kind, with the practice exam; fail if one of them costs
+        /// nothing
+        #[arg(long, conflicts_with_all = ["seeds", "pairs", "independent"])]
+        unknown: bool,
         /// Whether to record the result.
         #[command(flatten)]
         record: RecordArgs,

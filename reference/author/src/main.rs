@@ -19,7 +19,7 @@ use author::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, calibrate, table};
 use author::proof::mutants::{self, MutantSelection};
 use author::proof::prove::prove;
 use author::proof::recognition::{
-    recognise, recognise_independent, recognise_pairs, recognise_with_seeds,
+    recognise, recognise_independent, recognise_pairs, recognise_unknown, recognise_with_seeds,
 };
 use author::proof::{failures, matrix};
 use author::solutions::failed_items::FailedItems;
@@ -138,6 +138,22 @@ fn run(command: Command) -> CommandResult {
                 &recognition.summary_line(),
             )?;
             report(&recognition.problems(), &recognition.to_string())
+        }
+        Command::Hints {
+            unknown: true,
+            record,
+            ..
+        } => {
+            let practice = exams::load_practice(root)?;
+            let reference = Sources::reference(root, HANDED_OUT)?;
+            let recognition = recognise_unknown(&solutions()?, &practice, &reference)?;
+            record_result(
+                record,
+                "hints --unknown",
+                PRACTICE,
+                &recognition.summary_line(),
+            )?;
+            report(&recognition.problems, &recognition.to_string())
         }
         Command::Hints {
             seeds: Some(seeds),

@@ -10,10 +10,11 @@ use std::sync::LazyLock;
 use author::exams::load_practice;
 use author::proof::by_heart::grade_by_heart;
 use author::proof::grade::{grade_mistake, variant_losses};
-use author::proof::recognition::{recognise, recognise_independent};
+use author::proof::recognition::{recognise, recognise_independent, recognise_unknown};
 use author::solutions::Solutions;
 use author::solutions::catalogue::Change;
 use author::solutions::independent::{IndependentMistake, independent_mistakes};
+use author::solutions::sources::Sources;
 use author::solutions::variants::Variant;
 use author::solutions::workbench::Workbench;
 use grader::handed_out::RAYS;
@@ -73,6 +74,16 @@ fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
     let (recognised, count) = (recognition.recognised(), recognition.results.len());
     assert!(recognised * 100 >= count * 90, "{recognition}");
     assert!(recognition.misled() == 0, "{recognition}");
+}
+
+#[test]
+fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
+    let reference = Sources::reference(root(), &RAYS).unwrap();
+    let recognition = recognise_unknown(&SOLUTIONS, &practice_exam(), &reference).unwrap();
+    println!("{recognition}");
+    assert_eq!(recognition.problems, [""; 0]);
+    assert!(recognition.false_hints.len() >= 50, "{recognition}");
+    assert_eq!(recognition.misled(), 0, "{recognition}");
 }
 
 #[test]

@@ -44,7 +44,8 @@ impl<'a> Evidence<'a> {
 
     /// Returns the mistakes to name.
     pub(super) fn causes(&self) -> Vec<usize> {
-        let sole = self.with_enough_failures(self.sole_causes(), MIN_FAILED_ITEMS);
+        let mut sole = self.with_enough_failures(self.sole_causes(), MIN_FAILED_ITEMS);
+        sole.retain(|&mistake| !self.misses_everything(mistake));
         if !sole.is_empty() {
             return sole;
         }
@@ -244,6 +245,19 @@ impl<'a> Evidence<'a> {
             wrong.values().any(|answer| !answer.is_miss())
                 || correct
                     .any(|(element, answer)| !answer.is_miss() && !wrong.contains_key(&element))
+        })
+    }
+
+    /// Returns whether no ray in the task hits anything with a mistake. Any code that finds nothing
+    /// answers like it.
+    fn misses_everything(&self, mistake: usize) -> bool {
+        self.items.iter().all(|item| {
+            let wrong = item.wrong.get(&mistake);
+            let mut correct = item.item.signatures.correct_answers.iter().enumerate();
+            correct.all(|(element, correct)| {
+                let wrong = wrong.and_then(|wrong| wrong.get(&element));
+                wrong.unwrap_or(&correct).is_miss()
+            })
         })
     }
 

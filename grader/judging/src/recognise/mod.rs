@@ -1,7 +1,8 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
 //! A false hint is worse than none, so a mistake is named only in four cases. If it gives no answers at
-//! all, several items must fail as they do with it.
+//! all, several items must fail as they do with it. If no ray hits anything with it, it is never named,
+//! since any code that finds nothing answers like it.
 //!
 //! 1. It alone explains all answers in the task.
 //! 2. It explains them together with one other mistake, and no other pair does without it.

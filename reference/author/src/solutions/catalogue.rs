@@ -15,7 +15,7 @@ use crate::solutions::sources::Sources;
 use crate::solutions::toml_file::{TomlFileError, read_toml};
 
 /// A known wrong solution.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mistake {
     /// The task's id, a dot, and a name, such as `sphere.far_first`.
@@ -39,6 +39,10 @@ pub struct Mistake {
     /// Other mistakes of which every sentence of the hint is also true.
     #[serde(default)]
     pub also_true_of: Vec<String>,
+    /// Pairs of other mistakes that together do the same, so that the hint is true of code that makes
+    /// both.
+    #[serde(default)]
+    pub true_of_pairs: Vec<[String; 2]>,
     /// The section of the handout about the mistake, if it differs from the section of the items
     /// that fail.
     #[serde(default)]
@@ -103,7 +107,7 @@ pub enum CatalogueError {
     /// A mistake has no texts, or refers to another mistake for them in a wrong way.
     #[error(
         "{id}: give it a `nudge` and a `hint`, or name in `same_hint_as` another mistake of its task \
-         that has them; `also_true_of` names other mistakes"
+         that has them; `also_true_of` and `true_of_pairs` name other mistakes"
     )]
     Texts {
         /// The id of the mistake.
@@ -180,7 +184,9 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<(), CatalogueError> {
                 })
             }
         };
-        let are_known = mistake.also_true_of.iter().all(|other| ids.contains(other));
+        let others = mistake.also_true_of.iter();
+        let mut others = others.chain(mistake.true_of_pairs.iter().flatten());
+        let are_known = others.all(|other| ids.contains(other));
         if !is_complete || !are_known {
             return Err(CatalogueError::Texts {
                 id: mistake.id.clone(),

@@ -15,6 +15,7 @@ pub mod recording;
 pub mod sources;
 pub mod systematic;
 pub mod toml_file;
+pub mod unknown;
 pub mod variants;
 pub mod workbench;
 
@@ -26,6 +27,7 @@ use crate::solutions::independent::IndependentError;
 use crate::solutions::recording::{Recorder, RecordingError};
 use crate::solutions::sources::Sources;
 use crate::solutions::toml_file::TomlFileError;
+use crate::solutions::unknown::UnknownError;
 use crate::solutions::variants::{Variant, VariantError, variants};
 use crate::solutions::workbench::{Workbench, WorkbenchError};
 
@@ -53,9 +55,18 @@ pub enum SolutionsError {
     /// An independent mistake cannot be used.
     #[error(transparent)]
     Independent(Box<IndependentError>),
+    /// The unknown mistakes cannot be used.
+    #[error(transparent)]
+    Unknown(Box<UnknownError>),
     /// There is no variant with this id.
     #[error("there is no variant {0}: see reference/variants/variants.toml for a list")]
     UnknownVariant(String),
+}
+
+impl From<UnknownError> for SolutionsError {
+    fn from(error: UnknownError) -> Self {
+        SolutionsError::Unknown(Box::new(error))
+    }
 }
 
 impl From<IndependentError> for SolutionsError {
@@ -128,6 +139,19 @@ impl Solutions {
             true_of || other.id == mistake
         });
         fits.any(|(other, _)| self.have_same_hint(&other.id, hint))
+    }
+
+    /// Returns whether the hint of a mistake is true of code that makes two others, given by their ids.
+    pub fn is_hint_true_of_pair(&self, hint: &str, pair: [&str; 2]) -> bool {
+        let is_pair = |[one, other]: &[String; 2]| {
+            pair == [one.as_str(), other.as_str()] || pair == [other.as_str(), one.as_str()]
+        };
+        let mut mistakes = self.mistakes.iter().map(|(mistake, _)| mistake);
+        pair.into_iter()
+            .any(|mistake| self.is_hint_true_of(hint, mistake))
+            || mistakes.any(|mistake| {
+                mistake.true_of_pairs.iter().any(is_pair) && self.have_same_hint(&mistake.id, hint)
+            })
     }
 
     /// Keeps one variant, and drops all others and the mistakes.

@@ -22,6 +22,35 @@ pub enum SkipReason {
     LeafPruned,
 }
 
+/// One of the two children of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The child `l`.
+    L,
+    /// The child `r`.
+    R,
+}
+
+/// Returns whether the leaf is this child of a node that every correct traversal enters, and the ray
+/// clearly misses the leaf's box. So the boxes of the two children alone decide about the leaf.
+pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, side: Side) -> bool {
+    let path = tree.path(leaf);
+    let [.., parent, _] = path[..] else {
+        return false;
+    };
+    let child = match side {
+        Side::L => tree.nodes[parent].l,
+        Side::R => tree.nodes[parent].r,
+    };
+    let is_entered = |rule| {
+        let traversal = Traversal::correct(tree, ray64, rule);
+        traversal.reached_nodes.contains(&(parent, true))
+    };
+    child as usize == leaf
+        && skip_reason(tree, leaf, ray64) == Some(SkipReason::Missed)
+        && TraversalRule::ALL.into_iter().all(is_entered)
+}
+
 /// Returns the reason why no correct traversal with this ray enters the leaf, or `None` if one may
 /// enter it. A reason is returned only if it holds by a clear margin: [`MARGIN`] times the diagonal
 /// of a box.

@@ -27,6 +27,13 @@ pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
 /// contents. This allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
+/// The name of the defect that a box does not contain its primitives.
+pub const BOX_TOO_SMALL: &str = "box too small";
+/// The name of the defect that a box is larger than necessary.
+pub const BOX_TOO_LARGE: &str = "box too large";
+/// The name of the defect that a primitive is not in exactly one leaf.
+pub const LEAVES: &str = "leaves";
+
 /// A tree and the checks on it.
 pub(super) struct TreeAnswer<'a> {
     pub(super) checks: &'a [TreeCheck],
@@ -135,11 +142,11 @@ impl TreeAnswer<'_> {
             TreeCheck::Contains => nodes
                 .iter()
                 .find(|node| !containment_deviation(node).is_right())
-                .map(|node| node.box_defect("box too small")),
+                .map(|node| node.box_defect(BOX_TOO_SMALL)),
             TreeCheck::Tight => nodes
                 .iter()
                 .find(|node| !tightness_deviation(node).is_right())
-                .map(|node| node.box_defect("box too large")),
+                .map(|node| node.box_defect(BOX_TOO_LARGE)),
             TreeCheck::Split => {
                 let all = self.shapes.len();
                 let is_half =
@@ -212,21 +219,27 @@ pub fn tightness_deviation(node: &ReachedNode) -> Deviation {
     Deviation::new(Threshold::BoxTooLarge, in_units_of(limit, out))
 }
 
-fn partition_defect(nodes: &[ReachedNode], primitives: usize) -> Option<TreeDefect> {
-    let mut leaves_of = vec![0; primitives];
+/// Returns the number of leaves that hold each primitive.
+pub fn leaves_of_primitives(nodes: &[ReachedNode], primitives: usize) -> Vec<usize> {
+    let mut leaves = vec![0; primitives];
     for &primitive in nodes
         .iter()
         .filter_map(|node| node.leaf_primitives.as_ref())
         .flatten()
     {
-        leaves_of[primitive] += 1;
+        leaves[primitive] += 1;
     }
-    let (primitive, leaves) = leaves_of
+    leaves
+}
+
+fn partition_defect(nodes: &[ReachedNode], primitives: usize) -> Option<TreeDefect> {
+    let leaves = leaves_of_primitives(nodes, primitives);
+    let (primitive, leaves) = leaves
         .iter()
         .enumerate()
         .find(|(_, leaves)| **leaves != 1)?;
     Some(TreeDefect {
-        what: "leaves",
+        what: LEAVES,
         got: format!("primitive {primitive} of {primitives} is in {leaves} leaves"),
         wanted: "each primitive in exactly one".to_owned(),
     })
@@ -248,4 +261,4 @@ pub fn cost<'a>(nodes: impl IntoIterator<Item = &'a ReachedNode<'a>>) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use protocol::{Shape, Tree, TreeNode};
 
+use super::LEAVES;
 use super::bounds::Bounds;
 use crate::describe;
 
@@ -14,8 +15,8 @@ const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
 /// A defect of a tree, as text for the report.
 ///
-/// `what` and `got` are also part of the signatures of known mistakes in exam files, so changing
-/// their texts makes existing exams recognise fewer mistakes.
+/// `what` is also part of the signatures of known mistakes in exam files, and `got` for some defects,
+/// so changing their texts makes existing exams recognise fewer mistakes.
 pub struct TreeDefect {
     /// The name of the part or property of the tree that is wrong.
     pub what: &'static str,
@@ -90,7 +91,7 @@ pub fn reached_nodes<'a>(
         listed += leaf.as_ref().map_or(0, Vec::len);
         if listed > most {
             return Err(TreeDefect {
-                what: "leaves",
+                what: LEAVES,
                 got: format!("leaves that hold more than {most} primitives in all"),
                 wanted: format!("each of the {} primitives in one leaf", shapes.len()),
             });
@@ -137,7 +138,7 @@ fn leaf_primitives(
     let listed = order.get(start..start.saturating_add(node.size as usize));
     let listed = listed.and_then(|listed| listed.iter().copied().collect::<Option<Vec<_>>>());
     listed.ok_or_else(|| TreeDefect {
-        what: "leaves",
+        what: LEAVES,
         got: format!(
             "leaf {index} holds primitives {start} to {} of {}",
             start as u64 + u64::from(node.size),

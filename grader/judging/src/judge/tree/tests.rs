@@ -4,7 +4,7 @@ use protocol::TreeNode;
 use super::*;
 
 /// Returns spheres of diameter 1 in a row. The distance between neighbouring centres is 2.
-fn row(count: u32) -> Vec<Shape> {
+pub(crate) fn row(count: u32) -> Vec<Shape> {
     let ball = |i| Shape::Sphere {
         center: vec3(2.0 * i as f32, 0.0, 0.0),
         radius: 0.5,
@@ -25,7 +25,7 @@ fn node(first: u32, last: u32, size: u32, l: u32, r: u32) -> TreeNode {
 }
 
 /// Returns a tree over four spheres, with two in each leaf. The root is in the middle of the nodes.
-fn valid_tree() -> Tree {
+pub(crate) fn valid_tree() -> Tree {
     Tree {
         nodes: vec![
             node(0, 1, 2, 0, 0),
@@ -58,7 +58,7 @@ fn judge(
     judgement
 }
 
-const ALL_CHECKS: [TreeCheck; 5] = [
+pub(crate) const ALL_CHECKS: [TreeCheck; 5] = [
     TreeCheck::Partition,
     TreeCheck::Contains,
     TreeCheck::Tight,

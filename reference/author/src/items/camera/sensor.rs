@@ -151,8 +151,9 @@ pub(super) fn film(seed: Seed) -> DeclaredItem {
             id: "camera.film",
             points: 1,
             title: "x is divided by the film's width, and y by its height",
-            look: "The film need not be square, so do not mix up its two sizes or use one of them \
-                   for both axes.",
+            look: "Neither the film nor the sensor need be square. (pixel.x + offset.x) / film.x is a \
+                   fraction of the sensor's width, and (pixel.y + offset.y) / film.y is one of its \
+                   height.",
             section: "camera.md#each-axis-has-its-own-size",
             group: Some(Group::CameraRays),
             needs: &[],

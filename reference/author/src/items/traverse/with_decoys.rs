@@ -6,10 +6,10 @@ use protocol::Ray;
 use super::{add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays};
 use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item};
-use crate::oracle::Ray64;
+use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
 use crate::tree::Tree;
-use crate::tree::decoy::{self, SkipReason};
+use crate::tree::decoy::{self, Side, SkipReason};
 use crate::tree::traversal::Traversal;
 
 /// Returns whether the slides' pseudo-code, taken literally, gives the correct answer for this ray.
@@ -111,10 +111,31 @@ fn misses_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     sibling.is_some_and(|sibling| tree.bounds(sibling).span(ray64).is_none())
 }
 
+/// Returns whether the ray hits a primitive below the leaf's sibling.
+fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
+    let below = |other: &usize| {
+        let sibling = tree.sibling(leaf);
+        sibling.is_some_and(|sibling| tree.path(*other).contains(&sibling))
+    };
+    let leaves = tree.leaves().into_iter().filter(below);
+    let mut primitives = leaves.flat_map(|leaf| tree.primitives(leaf));
+    primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
+}
+
 pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.skips_missed");
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::Missed)
+    };
+    // The slides enter the left child if both are missed, and may enter it if only the right one is
+    // hit: see `both_sides`.
+    let right_of_one = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        decoy::is_missed_child(tree, leaf, ray64, Side::R)
+            && !misses_sibling(tree, leaf, ray64)
+            && !hits_below_sibling(tree, leaf, ray64)
+    };
+    let right_of_none = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        decoy::is_missed_child(tree, leaf, ray64, Side::R) && misses_sibling(tree, leaf, ray64)
     };
     item(
         Declaration {
@@ -129,7 +150,8 @@ pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
         },
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
-            question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &right_of_one, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &right_of_none, SlidesAnswer::Correct),
         ],
     )
 }
@@ -197,10 +219,10 @@ pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
 pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.both_sides");
     let one = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        is_skipped_for(tree, leaf, ray64, SkipReason::Missed) && !misses_sibling(tree, leaf, ray64)
+        decoy::is_missed_child(tree, leaf, ray64, Side::L) && !misses_sibling(tree, leaf, ray64)
     };
     let both = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        is_skipped_for(tree, leaf, ray64, SkipReason::Missed) && misses_sibling(tree, leaf, ray64)
+        decoy::is_missed_child(tree, leaf, ray64, Side::L) && misses_sibling(tree, leaf, ray64)
     };
     let alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::LeafPruned)

@@ -5,6 +5,7 @@ mod difference;
 mod independent;
 mod pairs;
 mod single;
+mod unknown;
 
 use std::collections::BTreeSet;
 
@@ -15,6 +16,7 @@ use judging::recognise::Observations;
 pub use independent::{IndependentRecognition, RecognisedIndependent, recognise_independent};
 pub use pairs::{PairRecognition, recognise_pairs};
 pub use single::{Recognition, recognise, recognise_with_seeds};
+pub use unknown::{UnknownRecognition, recognise_unknown};
 
 use crate::proof::ProofError;
 use crate::solutions::Solutions;

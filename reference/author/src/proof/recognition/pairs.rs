@@ -18,7 +18,7 @@ use crate::solutions::workbench::WorkbenchError;
 /// How pairs of known mistakes are recognised.
 #[derive(Debug, Default)]
 pub struct PairRecognition {
-    /// The number of pairs that get a hint that is true of one of both.
+    /// The number of pairs that get a hint that is true of one or of both together.
     pub with_true_hint: usize,
     /// The pairs that get no hint.
     pub without_hint: Vec<String>,
@@ -59,10 +59,8 @@ pub fn recognise_pairs(
         match outcome {
             None => recognition.impossible += 1,
             Some(hints) => {
-                let is_true = |hint: &String| {
-                    let mut pair = [one, other].into_iter();
-                    pair.any(|mistake| solutions.is_hint_true_of(hint, &mistake.id))
-                };
+                let ids = [one.id.as_str(), other.id.as_str()];
+                let is_true = |hint: &String| solutions.is_hint_true_of_pair(hint, ids);
                 let (fits, others): (BTreeSet<String>, _) = hints.into_iter().partition(is_true);
                 recognition.with_true_hint += usize::from(!fits.is_empty());
                 let pair = || format!("{} with {}", one.id, other.id);

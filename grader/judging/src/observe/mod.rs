@@ -3,6 +3,8 @@
 //! Numbers are observed as multiples of the tolerances with which they are judged, so that a small
 //! scene does not make all mistakes look alike.
 
+mod tree;
+
 use glam::Vec3;
 use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace};
 
@@ -203,22 +205,19 @@ fn direction(direction: Vec3) -> Vec<f32> {
     (unit / DIRECTION).to_array().to_vec()
 }
 
-/// Returns the defect that the judge finds in a tree. Correct builders produce different trees, so
-/// the nodes themselves cannot be compared.
+/// Returns the defect that the judge finds in a tree.
 fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
-    let defect = judge(question, answer).failure.map(|failure| failure.kind);
-    match defect {
-        None => ObservedAnswer::Tree(None),
-        Some(FailureKind::Wrong { what, got, .. }) => {
-            // If the defect has an amount, this is the first word of `got`. Other numbers are
-            // indices, which differ between submissions.
-            let amount = got.split(' ').next().and_then(|word| word.parse().ok());
-            let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
-            let words: Vec<&str> = got.split(' ').filter(is_word).collect();
-            let found = format!("{what}: {}", words.join(" "));
-            ObservedAnswer::Tree(Some((found, amount.unwrap_or(0.0))))
+    let found = judge(question, answer).failure.map(|failure| failure.kind);
+    match (found, &question.question, answer) {
+        (None, ..) => ObservedAnswer::Tree(None),
+        (
+            Some(FailureKind::Wrong { what, got, .. }),
+            Question::Build { shapes, .. },
+            Answer::Tree(ElementOutcome::Value(tree)),
+        ) => ObservedAnswer::Tree(Some(tree::defect(shapes, tree, &what, &got))),
+        (Some(FailureKind::Panicked(panic)), ..) => ObservedAnswer::of_panic(&panic.message),
+        (Some(FailureKind::Wrong { .. } | FailureKind::Protocol(_)), ..) => {
+            ObservedAnswer::NoAnswer(NoAnswerReason::Other)
         }
-        Some(FailureKind::Panicked(panic)) => ObservedAnswer::of_panic(&panic.message),
-        Some(FailureKind::Protocol(_)) => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
     }
 }

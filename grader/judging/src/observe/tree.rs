@@ -1,0 +1,263 @@
+//! What is observed of a wrong tree. Correct builders produce different trees, so neither nodes nor
+//! indices are compared, but the kind of the defect, which nodes have it, and amounts that do not
+//! depend on the order of nodes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use protocol::{Shape, Tree};
+
+use crate::judge::Deviation;
+use crate::judge::tree::bounds::Bounds;
+use crate::judge::tree::reached_nodes::{ReachedNode, reached_nodes};
+use crate::judge::tree::{
+    BOX_TOO_LARGE, BOX_TOO_SMALL, LEAVES, containment_deviation, leaves_of_primitives,
+    tightness_deviation,
+};
+
+/// Returns a name and an amount for the defect `what` that the judge found in a tree, and of which it
+/// said `got`.
+pub(super) fn defect(shapes: &[Shape], tree: &Tree, what: &str, got: &str) -> (String, f32) {
+    match (what, reached_nodes(shapes, tree)) {
+        (BOX_TOO_SMALL, Ok(nodes)) => of_boxes(shapes, tree, &nodes, what, containment_deviation),
+        (BOX_TOO_LARGE, Ok(nodes)) => of_boxes(shapes, tree, &nodes, what, tightness_deviation),
+        (LEAVES, Ok(nodes)) => (of_leaves(&nodes, tree, shapes.len()), 0.0),
+        (LEAVES, Err(_)) => (of_ranges(tree), 0.0),
+        // The indices in the judge's words differ between submissions. If the defect has an amount,
+        // it comes first.
+        _ => {
+            let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
+            let words = Vec::from_iter(got.split(' ').filter(is_word)).join(" ");
+            let first = got.split(' ').next();
+            let amount = first.and_then(|word| word.parse().ok());
+            (format!("{what}: {words}"), amount.unwrap_or(0.0))
+        }
+    }
+}
+
+/// Returns which nodes have wrong boxes, in what way, and by how much the root's box differs from that
+/// of all shapes, as a multiple of the tolerance.
+fn of_boxes(
+    shapes: &[Shape],
+    tree: &Tree,
+    nodes: &[ReachedNode],
+    what: &str,
+    excess: fn(&ReachedNode) -> Deviation,
+) -> (String, f32) {
+    let wrong: Vec<&ReachedNode> = nodes
+        .iter()
+        .filter(|node| !excess(node).is_right())
+        .collect();
+    let kinds: BTreeSet<&str> = wrong
+        .iter()
+        .map(|node| match node.leaf_primitives {
+            None => "interior nodes",
+            Some(_) => "leaves",
+        })
+        .collect();
+    let kinds = Vec::from_iter(kinds).join(" and ");
+    let manner = manner(shapes, tree, nodes, &wrong);
+
+    let mut all = Bounds::EMPTY;
+    for shape in shapes {
+        all.enclose(Bounds::of_shape(shape));
+    }
+    let root = nodes.iter().find(|node| node.index == tree.root);
+    let amount = root.map_or(0.0, |root| {
+        let of_all = ReachedNode {
+            leaf_primitives: None,
+            count: shapes.len(),
+            tight_bounds: all,
+            ..*root
+        };
+        excess(&of_all).value as f32
+    });
+    // Rounding is no property of a mistake.
+    let amount = if amount > 1.0 { amount } else { 0.0 };
+    (format!("{what}: {kinds}{manner}"), amount)
+}
+
+/// Returns what all wrong boxes have in common.
+fn manner(
+    shapes: &[Shape],
+    tree: &Tree,
+    nodes: &[ReachedNode],
+    wrong: &[&ReachedNode],
+) -> &'static str {
+    /// The difference of equal boxes, relative to the diagonal.
+    const EQUAL: f64 = 1e-4;
+    let siblings = siblings(nodes);
+    let is_empty = |node: &&ReachedNode| {
+        let own = Bounds::of_node(node.node);
+        own.min.cmpgt(own.max).any()
+    };
+    let is_of_sibling = |node: &&ReachedNode| {
+        siblings.get(&node.index).is_some_and(|sibling| {
+            let (own, other) = (Bounds::of_node(node.node), sibling.tight_bounds);
+            let close = EQUAL * other.diagonal();
+            (own.min - other.min).abs().max_element() <= close
+                && (own.max - other.max).abs().max_element() <= close
+        })
+    };
+    let materials = shapes.iter().map(Shape::material);
+    if wrong.iter().all(is_empty) {
+        ", empty"
+    } else if wrong.iter().all(is_of_sibling) {
+        ", the sibling's"
+    } else if materials.eq(tree.order.iter().copied()) {
+        ", in the original order"
+    } else {
+        ""
+    }
+}
+
+/// Returns the other child of each node's parent, by the node's index.
+fn siblings<'a>(nodes: &'a [ReachedNode<'a>]) -> BTreeMap<u32, &'a ReachedNode<'a>> {
+    let by_index: BTreeMap<u32, &ReachedNode> =
+        nodes.iter().map(|node| (node.index, node)).collect();
+    let parents = nodes.iter().filter(|node| node.leaf_primitives.is_none());
+    let pairs = parents.flat_map(|parent| {
+        let (l, r) = (parent.node.l, parent.node.r);
+        [(l, r), (r, l)]
+    });
+    pairs
+        .filter_map(|(node, sibling)| Some((node, *by_index.get(&sibling)?)))
+        .collect()
+}
+
+/// Returns whether primitives are in no leaf or in several, and whether no other node is
+/// reached from the root.
+fn of_leaves(nodes: &[ReachedNode], tree: &Tree, primitives: usize) -> String {
+    let counts = leaves_of_primitives(nodes, primitives);
+    let missing = counts.iter().filter(|count| **count == 0).count();
+    let repeated = counts.iter().any(|count| *count > 1);
+    let missing = match missing {
+        0 => "",
+        _ if missing == primitives => " all in none",
+        _ => " some in none",
+    };
+    let repeated = if repeated { " some in several" } else { "" };
+    let alone = match nodes {
+        [_] if tree.root == 0 => ", the first node is alone",
+        [_] => ", one node is alone",
+        _ => "",
+    };
+    format!("{LEAVES}:{missing}{repeated}{alone}")
+}
+
+/// Returns by how much leaves exceed the list of primitives.
+fn of_ranges(tree: &Tree) -> String {
+    let leaves = tree.nodes.iter().filter(|node| node.is_leaf());
+    let ends = leaves.map(|leaf| u64::from(leaf.start) + u64::from(leaf.size));
+    let excess = ends
+        .max()
+        .unwrap_or(0)
+        .saturating_sub(tree.order.len() as u64);
+    match excess {
+        0 => format!("{LEAVES}: unknown primitives"),
+        1 => format!("{LEAVES}: one past the end"),
+        _ => format!("{LEAVES}: far past the end"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use protocol::{Answer, ElementOutcome, Question};
+
+    use crate::exam::{ExamQuestion, Key};
+    use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
+    use crate::observe::observe_tree;
+    use crate::signatures::ObservedAnswer;
+
+    use super::*;
+
+    /// Returns what is observed of a tree over four spheres in a row, in an order of its own, after a
+    /// change.
+    fn defect_after(change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
+        let question = Question::Build {
+            shapes: row(4),
+            max_leaf_size: 2,
+        };
+        let key = Key::Tree {
+            checks: ALL_CHECKS.to_vec(),
+            sweep_cost: None,
+        };
+        let mut tree = valid_tree();
+        tree.order.swap(0, 1);
+        change(&mut tree);
+        let answer = Answer::Tree(ElementOutcome::Value(tree));
+        match observe_tree(&ExamQuestion::new(question, key), &answer) {
+            ObservedAnswer::Tree(defect) => defect,
+            other => panic!("expected a tree, got {other:?}"),
+        }
+    }
+
+    #[track_caller]
+    fn assert_name(expected: &str, change: impl FnOnce(&mut Tree)) {
+        let defect = defect_after(change);
+        assert_eq!(
+            defect.as_ref().map(|(name, _)| name.as_str()),
+            Some(expected)
+        );
+    }
+
+    #[test]
+    fn boxes_are_observed_by_their_nodes_and_what_they_have_in_common() {
+        assert_eq!(defect_after(|_| {}), None);
+        assert_name("box too small: interior nodes", |tree| {
+            tree.nodes[1].max.x = 3.0
+        });
+        assert_name("box too large: leaves", |tree| tree.nodes[2].max.x += 1.0);
+        assert_name("box too large: interior nodes and leaves", |tree| {
+            tree.nodes.iter_mut().for_each(|node| node.max.x += 1.0);
+        });
+        assert_name("box too small: interior nodes, empty", |tree| {
+            (tree.nodes[1].min, tree.nodes[1].max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        });
+        assert_name("box too small: leaves, the sibling's", |tree| {
+            let (l, r) = (tree.nodes[0], tree.nodes[2]);
+            (tree.nodes[0].min, tree.nodes[0].max) = (r.min, r.max);
+            (tree.nodes[2].min, tree.nodes[2].max) = (l.min, l.max);
+        });
+        assert_name("box too small: leaves", |tree| tree.order.rotate_left(1));
+        assert_name("box too large: leaves, in the original order", |tree| {
+            tree.order = vec![0, 1, 2, 3];
+            tree.nodes[0].max.x += 1.0;
+        });
+    }
+
+    #[test]
+    fn the_amount_is_that_of_the_root_and_does_not_depend_on_other_nodes() {
+        let amount = |change: fn(&mut Tree)| defect_after(change).map(|(_, amount)| amount);
+        assert_eq!(amount(|tree| tree.nodes[2].max.x += 1.0), Some(0.0));
+        let diagonal = Vec3::new(7.0, 1.0, 1.0).length();
+        let root = amount(|tree| tree.nodes[1].max.x += 1.0).unwrap();
+        assert!((root * 1e-4 * diagonal - 1.0).abs() < 1e-3, "{root}");
+    }
+
+    #[test]
+    fn leaves_are_observed_by_what_happens_to_primitives() {
+        assert_name("leaves: some in none", |tree| tree.nodes[2].size = 1);
+        assert_name("leaves: some in none some in several", |tree| {
+            tree.nodes[2].start = 1
+        });
+        assert_name("leaves: some in none, one node is alone", |tree| {
+            tree.root = 2
+        });
+        assert_name("leaves: some in none, the first node is alone", |tree| {
+            tree.root = 0
+        });
+        assert_name("leaves: all in none, one node is alone", |tree| {
+            tree.nodes[1].l = tree.nodes[1].r;
+        });
+        assert_name("leaves: one past the end", |tree| tree.nodes[2].start = 3);
+        assert_name("leaves: far past the end", |tree| tree.nodes[2].size = 4);
+        assert_name("leaves: unknown primitives", |tree| tree.order[0] = 77);
+    }
+
+    #[test]
+    fn other_defects_are_observed_by_words_without_indices() {
+        assert_name("child l: node of", |tree| tree.nodes[1].l = 9);
+        assert_name("nodes: node is reached twice", |tree| tree.nodes[1].r = 1);
+    }
+}

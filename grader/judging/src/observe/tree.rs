@@ -1,6 +1,6 @@
-//! What is observed of a wrong tree. Correct builders produce different trees, so neither nodes nor
-//! indices are compared, but the kind of the defect, which nodes have it, and amounts that do not
-//! depend on the order of nodes.
+//! Observes wrong trees. Correct builders produce different trees, so neither nodes nor indices are
+//! compared, but the kind of the defect, which nodes have it, and amounts that do not depend on the
+//! order of nodes.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -15,7 +15,7 @@ use crate::solutions::sources::Sources;
 use crate::solutions::unknown::unknown_mistakes;
 use crate::solutions::{Solutions, SolutionsError};
 
-/// What is said of unknown mistakes with one exam.
+/// The hints that unknown mistakes get with one exam.
 #[derive(Debug, Default)]
 pub struct UnknownRecognition {
     /// Each mistake by its id, with the hints that are not true of it.

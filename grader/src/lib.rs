@@ -19,6 +19,7 @@
 //! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], above [`disk`]; [`system`], [`nearest_name`] |
 
 pub mod alone;
+mod backup;
 pub mod book;
 pub mod build;
 pub mod bundle_version;

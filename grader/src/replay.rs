@@ -1,6 +1,7 @@
 //! Runs a single question again, and shows the whole answer, whether it is right, and what the code
 //! prints.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use judging::describe;
@@ -13,6 +14,7 @@ use crate::build::Builder;
 use crate::clue;
 use crate::error::Error;
 use crate::grade::{collect, source_paths};
+use crate::handed_out::HandedOut;
 use crate::nearest_name::suggestion;
 use crate::options::GradeOptions;
 use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
@@ -40,7 +42,17 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
         writeln!(text, "{}\n", file_message(file, why)).expect("writing to a string cannot fail");
     }
     let paths = source_paths(options, &workspace);
-    let Some(program) = &build.probe else {
+    let needed = files_asked(&exam, item, options.handed_out);
+    let mut missing = build.not_compiled.iter().map(|(file, _)| *file);
+    // In place of a file that does not compile, the program has the one that was handed out.
+    let is_missing = missing.any(|file| needed.contains(file));
+    let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
+        let question = &reference.item;
+        writeln!(
+            text,
+            "{question} needs this file: correct it, and run the same command again"
+        )
+        .expect("writing to a string cannot fail");
         return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
@@ -62,6 +74,19 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
         )),
     }
     Ok(paths.in_text(&text).into_owned())
+}
+
+/// Returns the names of the files whose code answers an item: that of its task, and those of the tasks
+/// that it depends on.
+fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'static str> {
+    let needed = item
+        .needs
+        .iter()
+        .filter_map(|id| exam.items.iter().find(|other| other.id == *id));
+    let tasks = needed.map(|other| other.task).chain([item.task]);
+    tasks
+        .map(|task| handed_out.assignment.info(task).file)
+        .collect()
 }
 
 fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
@@ -185,10 +210,10 @@ impl Replayed {
             printed => format!("\n{printed}"),
         };
         let rows = [
+            ("verdict", self.verdict(item, exam_run)),
             ("asked", describe::element(&exam_question.question, element)),
             ("got", self.got()),
             ("wanted", expected_text(exam_question, element)),
-            ("verdict", self.verdict(item, exam_run)),
             ("printed", printed),
         ];
         let number = item.number(question, element);

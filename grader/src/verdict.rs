@@ -216,7 +216,7 @@ fn score_answers(
     };
     let (verdict, got, wanted) = match &failure.kind {
         FailureKind::Wrong { what, got, wanted } => {
-            score.message = wrong_answer_message(what, failure);
+            score.message = wrong_answer_message(what, item, judgements, (question, failure));
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
         FailureKind::Panicked(panic) if panic.is_unimplemented() => {
@@ -256,14 +256,39 @@ fn score_answers(
     });
 }
 
-fn wrong_answer_message(what: &str, failure: &Failure) -> String {
-    match failure.count {
+/// Returns how many answers are wrong, and `what` is wrong in the one that is shown.
+fn wrong_answer_message(
+    what: &str,
+    item: &Item,
+    judgements: &[Judgement],
+    (question, failure): (usize, &Failure),
+) -> String {
+    let number = item.number(question, failure.element);
+    match wrong_answers(item, judgements, (question, failure)) {
         Some((1, of)) if of > 1 => format!("1 of {of} answers is wrong: {what}"),
         Some((wrong, of)) if of > 1 => {
-            format!("{wrong} of {of} answers are wrong; what is wrong in the first: {what}")
+            format!("{wrong} of {of} answers are wrong; in #{number}: {what}")
         }
         Some(_) | None => format!("wrong: {what}"),
     }
+}
+
+/// Returns the numbers of wrong answers and of all answers, as answers are numbered: across all
+/// questions of the item. The pixels of a path-traced picture are counted by themselves.
+fn wrong_answers(
+    item: &Item,
+    judgements: &[Judgement],
+    (question, failure): (usize, &Failure),
+) -> Option<(usize, usize)> {
+    let (_, of) = failure.count?;
+    if of != item.questions[question].question.count() {
+        return failure.count;
+    }
+    let failures = judgements
+        .iter()
+        .filter_map(|judgement| judgement.failure.as_ref());
+    let wrong = failures.map(|failure| failure.count.map_or(1, |(wrong, _)| wrong));
+    Some((wrong.sum(), item.count()))
 }
 
 /// An item that earned no points, and that another one depends on.

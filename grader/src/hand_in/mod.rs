@@ -3,6 +3,7 @@
 mod archive;
 mod cli;
 mod error;
+mod former;
 mod summary;
 
 use std::path::PathBuf;
@@ -21,6 +22,7 @@ use crate::workspace::Workspace;
 pub use archive::archive_bytes;
 pub use cli::HandInArguments;
 pub use error::HandInError;
+use former::FormerArchive;
 
 /// The name of the archive, in the workspace's root.
 const ARCHIVE: &str = "handin.zip";
@@ -36,6 +38,8 @@ pub struct HandIn {
     original: Submission,
     /// The compiler's errors, and notes about files.
     build: BuildReport,
+    /// The former archive, if it holds work that the new one does not.
+    kept: Option<FormerArchive>,
 }
 
 impl HandIn {
@@ -63,6 +67,7 @@ impl HandIn {
             return Err(HandInError::NothingReadable(original.name).into());
         }
         let bytes = archive_bytes(&original).map_err(HandInError::Archive)?;
+        let kept = former::keep_lost_work(&archive, &original)?;
         atomic_write::write(&bytes, &archive)?;
 
         let submission = read_back(&archive, &original, &bytes)?;
@@ -72,6 +77,7 @@ impl HandIn {
             archive,
             submission,
             original,
+            kept,
         })
     }
 

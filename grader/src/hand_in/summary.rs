@@ -32,6 +32,14 @@ impl fmt::Display for HandIn {
         for note in &self.build.notes {
             writeln!(f, "  note: {}", sanitize_line(note, usize::MAX))?;
         }
+        if let Some(kept) = &self.kept {
+            writeln!(
+                f,
+                "  note: the archive that was here had your work in {}. It is kept as {}.",
+                kept.files.join(", "),
+                display_path(&kept.copy)
+            )?;
+        }
         let given = given_files(self.original.handed_out);
         writeln!(f, "  Nothing else is needed: {given} are given.")?;
         writeln!(f, "\n  {}", self.next_step(&archive))
@@ -56,10 +64,14 @@ impl HandIn {
         if file.is_starter(text) {
             return "as handed out".to_owned();
         }
-        match file.own_lines(text).lines().count() {
+        let lines = match file.own_lines(text).lines().count() {
             1 => "1 line of your own".to_owned(),
             0 => "no lines of your own, but some were removed".to_owned(),
             count => format!("{count} lines of your own"),
+        };
+        match line_with_todo(text) {
+            Some(line) => format!("{lines}; still contains `todo!` (line {line})"),
+            None => lines,
         }
     }
 
@@ -78,6 +90,15 @@ impl HandIn {
             )
         }
     }
+}
+
+/// Returns the number of the first line with a `todo!` outside of a comment.
+fn line_with_todo(text: &str) -> Option<usize> {
+    let code = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or_default());
+    let mut numbered = (1..).zip(code);
+    numbered.find_map(|(number, code)| code.contains("todo!(").then_some(number))
 }
 
 /// Returns the names of the given files as a list for a sentence.

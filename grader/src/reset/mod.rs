@@ -1,7 +1,6 @@
 //! Starts tasks afresh: replaces their methods, or whole files, with the starter's. The old files
 //! are kept.
 
-mod backup;
 mod error;
 mod source_folder;
 
@@ -10,6 +9,7 @@ use std::path::Path;
 
 use judging::assignment::Task;
 
+use crate::backup;
 use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile};
 use crate::report::atomic_write;

@@ -84,6 +84,49 @@ fn without_a_line_of_ones_own_the_exit_code_is_1() {
     assert!(submission.path().with_extension("zip").is_file());
 }
 
+#[test]
+fn an_archive_with_work_that_is_gone_is_kept() {
+    let submission = Submission::reference("erin");
+    assert_eq!(hand_in_beside(&submission).0, Some(0));
+    let archive = submission.path().with_extension("zip");
+    let good = fs::read(&archive).unwrap();
+
+    // The assignment was unpacked again, over one's own work.
+    let starter = Submission::starter("fresh");
+    let text = |file: &str| fs::read(starter.path().join(file)).unwrap();
+    let lost = submission
+        .with("bvh.rs", text("bvh.rs"))
+        .with("camera.rs", text("camera.rs"));
+    let (code, text) = hand_in_beside(&lost);
+    assert_eq!(code, Some(0), "{text}");
+    let note = "note: the archive that was here had your work in camera.rs, bvh.rs. It is kept as \
+                FOLDER/erin.zip.bak-1.";
+    assert!(text.contains(note), "{text}");
+    let kept = archive.with_extension("zip.bak-1");
+    assert!(fs::read(&kept).unwrap() == good);
+
+    // The new archive holds all that there is, so it is replaced.
+    let (_, text) = hand_in_beside(&lost);
+    assert!(!text.contains("is kept"), "{text}");
+    assert!(!archive.with_extension("zip.bak-2").exists());
+}
+
+#[test]
+fn a_todo_that_is_left_is_named() {
+    let submission = Submission::reference("fay").with_replaced(
+        "sphere.rs",
+        "let root = discriminant.sqrt();",
+        "let root: f32 = todo!(\"the root\");",
+    );
+    let (code, text) = hand_in_beside(&submission);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(
+        text.contains("lines of your own; still contains `todo!` (line "),
+        "{text}"
+    );
+    assert_eq!(text.matches("todo!").count(), 1, "{text}");
+}
+
 #[cfg(unix)]
 #[test]
 fn without_arguments_packs_ones_own_work_into_the_assignments_folder() {

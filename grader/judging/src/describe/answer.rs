@@ -9,6 +9,9 @@ use crate::sanitize::sanitize;
 /// Maximum length of a panic message, in characters.
 const MAX_PANIC_CHARS: usize = 2_000;
 
+/// Maximum number of nodes of a tree that are shown. Whoever wants to see all can print them.
+const MAX_NODES: usize = 40;
+
 /// Formats a submission's answer to one element of a question.
 pub fn got(answer: &Answer, element: usize) -> String {
     match answer {
@@ -66,16 +69,26 @@ fn outcome<T>(outcome: Option<&ElementOutcome<T>>, show: impl Fn(&T) -> String) 
 }
 
 fn tree(tree: &Tree) -> String {
-    let nodes = tree.nodes.iter().enumerate().map(|(index, node)| {
-        let (min, max) = (point(node.min), point(node.max));
-        let below = if node.is_leaf() {
-            format!("leaf of {} from {}", node.size, node.start)
-        } else {
-            format!("children {} and {}", node.l, node.r)
-        };
-        format!("\n  {index}: {min} to {max}, {below}")
-    });
-    format!("root {}{}", tree.root, nodes.collect::<String>())
+    let nodes = tree
+        .nodes
+        .iter()
+        .enumerate()
+        .take(MAX_NODES)
+        .map(|(index, node)| {
+            let (min, max) = (point(node.min), point(node.max));
+            let below = if node.is_leaf() {
+                format!("leaf of {} from {}", node.size, node.start)
+            } else {
+                format!("children {} and {}", node.l, node.r)
+            };
+            format!("\n  {index}: {min} to {max}, {below}")
+        });
+    let nodes: String = nodes.collect();
+    let rest = match tree.nodes.len().saturating_sub(MAX_NODES) {
+        0 => String::new(),
+        rest => format!("\n  … and {rest} more nodes"),
+    };
+    format!("root {}{nodes}{rest}", tree.root)
 }
 
 fn hit(hit: &ExpectedHit) -> String {

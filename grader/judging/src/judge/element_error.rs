@@ -23,6 +23,9 @@ pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -
         return Some(with_size(what, mismatch.deviation));
     }
     Some(match judge(&question, &answer).failure?.kind {
+        FailureKind::Wrong { what, got, wanted } if matches!(answer, Answer::Tree(_)) => {
+            format!("{what}: {got}; wanted: {wanted}")
+        }
         FailureKind::Wrong { what, .. } => {
             let measured = measure(&question, &answer).into_iter();
             let deviations = measured.map(Measurement::deciding_deviation);

@@ -15,8 +15,8 @@ use crate::cli::Cli;
 /// because the crates are not linked here.
 const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
 const VIEW_OPTIONS: &str = "grader/view/src/cli.rs";
-/// The flags of Rust's test harness that the handout uses.
-const HARNESS_FLAGS: [&str; 1] = ["--nocapture"];
+/// The flags of `cargo examples`, whose command line is not linked here.
+const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands of other programs that the handout uses.
 pub(super) const OTHER_COMMANDS: [&str; 10] = [
     "rustc",
@@ -108,7 +108,7 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
         || takes(HandInArguments::command())
         || is_authors
         || is_classes
-        || HARNESS_FLAGS.contains(&flag);
+        || EXAMPLES_FLAGS.contains(&flag);
     if known {
         return None;
     }
@@ -140,7 +140,7 @@ fn unknown_option(
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");
-        !HARNESS_FLAGS.contains(word) && !sources.iter().any(|source| source.path == file)
+        !EXAMPLES_FLAGS.contains(word) && !sources.iter().any(|source| source.path == file)
     })?;
     Some(format!("there is no file {unknown}.rs with examples"))
 }

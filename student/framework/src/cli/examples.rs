@@ -5,14 +5,36 @@ use std::collections::BTreeSet;
 use std::env;
 use std::io;
 use std::process::{Command, ExitCode, Output, Stdio};
+use std::time::Duration;
 
+use clap::Parser;
+
+use crate::cli::notice::Notice;
 use crate::suggestion::suggestion;
 
-/// Runs the examples whose paths contain one of the names on the command line, or all of them.
-/// Flags are passed to the test harness. Exit codes: 2 if no example has such a name, else cargo's.
+/// The time after which a student should know that an example has not finished.
+const LONG: Duration = Duration::from_secs(5);
+
+/// Runs the worked examples in your task files
+///
+/// Exit codes: 0 all right; 101 an example fails, or a file does not compile; 2 no example has such a
+/// name.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "cargo examples", bin_name = "cargo examples")]
+struct Arguments {
+    /// A file, such as `sphere`, or a part of an example's name; default: all examples
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+
+    /// Show what your code prints, even if the example is right
+    #[arg(long)]
+    nocapture: bool,
+}
+
+/// Runs the examples in the named files, or whose paths contain one of the names, or all of them.
+/// Exit codes: 2 if no example has such a name, else cargo's.
 pub fn main() -> ExitCode {
-    let arguments: Vec<String> = env::args().skip(1).collect();
-    match run(&arguments) {
+    match run(&Arguments::parse()) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("cannot run cargo: {error}");
@@ -21,7 +43,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &[String]) -> io::Result<ExitCode> {
+fn run(arguments: &Arguments) -> io::Result<ExitCode> {
     let list = cargo_test()
         .arg("--list")
         .stderr(Stdio::inherit())
@@ -30,15 +52,23 @@ fn run(arguments: &[String]) -> io::Result<ExitCode> {
         return Ok(exit_code(list.status.code()));
     }
     let known = example_paths(&list);
-    let mut names = arguments.iter().filter(|name| !name.starts_with('-'));
+    let mut names = arguments.names.iter();
     if let Some(message) = names.find_map(|name| unknown_name(name, &known)) {
         eprintln!("{message}");
         return Ok(ExitCode::from(2));
     }
+    let names = arguments.names.iter().map(|name| filter(name, &known));
+    let notice = Notice::after(
+        LONG,
+        "still running: an example that is not listed above may loop without end (Ctrl-C)"
+            .to_owned(),
+    );
     let status = cargo_test()
-        .arg("--include-ignored")
-        .args(arguments)
+        .args(["--include-ignored", "--format", "pretty"])
+        .args(arguments.nocapture.then_some("--nocapture"))
+        .args(names)
         .status()?;
+    drop(notice);
     Ok(exit_code(status.code()))
 }
 
@@ -56,6 +86,14 @@ fn example_paths(list: &Output) -> Vec<String> {
     let list = String::from_utf8_lossy(&list.stdout);
     let paths = list.lines().filter_map(|line| line.strip_suffix(": test"));
     paths.map(str::to_owned).collect()
+}
+
+/// Returns the harness's filter for a name. That of a file means the examples in it, and not those in
+/// other files whose names contain it.
+fn filter(name: &str, known: &[String]) -> String {
+    let of_file = format!("{name}::");
+    let is_file = known.iter().any(|path| path.starts_with(&of_file));
+    if is_file { of_file } else { name.to_owned() }
 }
 
 /// Returns a message if no example's path contains the name.
@@ -78,7 +116,18 @@ fn exit_code(code: Option<i32>) -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::unknown_name;
+    use super::{filter, unknown_name};
+
+    #[test]
+    fn a_files_name_means_the_examples_in_it() {
+        let known = [
+            "bvh::tests::a_sphere_is_found",
+            "sphere::tests::from_outside",
+        ];
+        let known = known.map(str::to_owned);
+        assert_eq!(filter("sphere", &known), "sphere::");
+        assert_eq!(filter("from_outside", &known), "from_outside");
+    }
 
     #[test]
     fn names_the_files_with_examples_if_no_example_has_the_name() {

@@ -5,6 +5,7 @@ mod error;
 pub mod examples;
 mod files;
 mod image_file;
+mod notice;
 mod options;
 mod parallel;
 mod pixel;

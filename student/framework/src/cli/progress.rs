@@ -7,7 +7,11 @@ use std::time::{Duration, Instant};
 use glam::UVec2;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::notice::Notice;
 use crate::integrator::RenderStats;
+
+/// The time after which rendering without a progress bar says that it goes on.
+const LONG: Duration = Duration::from_secs(10);
 
 /// A progress bar with the remaining time and the rays per second. It is shown only if standard
 /// error is a terminal.
@@ -15,6 +19,8 @@ pub(super) struct Progress {
     bar: ProgressBar,
     rays: AtomicU64,
     started: Instant,
+    /// Without a bar, says that the work goes on.
+    _notice: Option<Notice>,
 }
 
 impl Progress {
@@ -22,8 +28,13 @@ impl Progress {
     pub(super) fn new(rows: u64) -> Self {
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {eta} left  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = ProgressBar::new(rows).with_style(style);
+        let message = "rendering: still running. The picture so far is in the file";
         Progress {
-            bar: ProgressBar::new(rows).with_style(style),
+            _notice: bar
+                .is_hidden()
+                .then(|| Notice::after(LONG, message.to_owned())),
+            bar,
             rays: AtomicU64::new(0),
             started: Instant::now(),
         }

@@ -11,20 +11,29 @@ use indicatif::{ProgressBar, ProgressStyle};
 use protocol::{Interval, Ray, Shape, Tree};
 
 use super::error::RenderError;
+use super::notice::Notice;
 use super::parallel::value_or_error;
 use crate::attempt::attempt;
 use crate::probe::STACK_BYTES;
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// Runs a step, and shows its name meanwhile if standard error is a terminal.
+/// The time after which a step that shows nothing says that it is still running.
+const LONG: Duration = Duration::from_secs(5);
+
+/// Runs a step, and shows its name meanwhile: at once if standard error is a terminal, and otherwise if
+/// it takes long.
 pub(super) fn show<T>(step: &str, code: impl FnOnce() -> T) -> T {
     let spinner = ProgressBar::new_spinner().with_message(format!("{step} …"));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
         spinner.set_style(style);
     }
     spinner.enable_steady_tick(Duration::from_millis(100));
+    let notice = spinner
+        .is_hidden()
+        .then(|| Notice::after(LONG, format!("{step}: still running")));
     let value = code();
+    drop(notice);
     spinner.finish_and_clear();
     value
 }

@@ -8,7 +8,7 @@ use crate::files::{AtPath, PathError};
 
 /// Writes a copy beside the file, with the first number that is free, such as `bvh.rs.bak-1`.
 /// Returns its path. Never replaces a file or follows a link.
-pub(super) fn keep(path: &Path, bytes: &[u8]) -> Result<PathBuf, PathError> {
+pub(crate) fn keep(path: &Path, bytes: &[u8]) -> Result<PathBuf, PathError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut number = 1u32;
     loop {

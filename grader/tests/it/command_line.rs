@@ -216,6 +216,49 @@ fn replays_the_first_wrong_question_of_an_item() {
 }
 
 #[test]
+fn replay_does_not_run_the_stub_in_place_of_a_file_that_does_not_compile() {
+    let broken = |file| {
+        let submission = Submission::reference("broken");
+        submission.with_replaced(file, "use protocol::", "use protocols::")
+    };
+    let text = replay(&broken("sphere.rs"), "sphere.near_side");
+    assert!(text.contains("protocols"), "{text}");
+    let end = "sphere.near_side needs this file: correct it, and run the same command again\n";
+    assert!(text.ends_with(end), "{text}");
+    // Another task's file does not matter.
+    let text = replay(&broken("camera.rs"), "sphere.near_side");
+    assert!(
+        text.contains("every answer to sphere.near_side is right"),
+        "{text}"
+    );
+}
+
+#[test]
+fn replay_of_a_tree_says_first_what_is_wrong_and_shows_its_first_nodes() {
+    let submission = Submission::reference("costly").with_replaced(
+        "bvh.rs",
+        "cost < best.cost",
+        "cost > best.cost",
+    );
+    let text = replay(&submission, "build.cost_town");
+    let mut lines = text.lines().skip(1);
+    let verdict = lines.next().unwrap_or_default();
+    assert!(
+        verdict.starts_with("verdict  wrong: SAH cost: "),
+        "{verdict}"
+    );
+    assert!(
+        verdict.contains(" times that of the best split at every node; wanted: at most "),
+        "{verdict}"
+    );
+    assert!(
+        text.contains("\n  39: ") && !text.contains("\n  40: "),
+        "{text}"
+    );
+    assert!(text.contains(" more nodes\n"), "{text}");
+}
+
+#[test]
 fn replay_tells_an_answer_that_depends_on_earlier_calls() {
     let submission = Submission::reference("counting").with_replaced(
         "sphere.rs",

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::build::diagnostics::Diagnostic;
-use crate::handed_out::TaskFile;
+use crate::handed_out::{ChangedDeclaration, TaskFile, changed_declaration};
 use crate::submission::{Submission, TaskFileError};
 
 /// The reason why a file is not part of the program.
@@ -90,17 +90,32 @@ pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, erro
 /// had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
-    task_files: &[TaskFile],
+    submission: &Submission,
     not_compiled: &mut BTreeMap<&'static str, NotCompiled>,
 ) -> bool {
+    let task_files = submission.handed_out.files;
     let before = not_compiled.len();
-    for file in task_files {
-        let in_file = errors
+    for (file, text) in &submission.files {
+        let of_file = errors
             .iter()
             .filter(|error| error.blamed_file(task_files) == Some(file.name));
-        if let Some(why) = NotCompiled::of_errors(file.name, in_file) {
-            not_compiled.entry(file.name).or_insert(why);
+        let Some(mut why) = NotCompiled::of_errors(file.name, of_file.clone()) else {
+            continue;
+        };
+        let is_elsewhere = !of_file
+            .into_iter()
+            .any(|error| error.originates_in(file.name));
+        let text = text.as_ref().ok().filter(|_| is_elsewhere);
+        let changed = text.and_then(|text| changed_declaration(file, text));
+        if let (NotCompiled::Error { text, .. }, Some(changed)) = (&mut why, changed) {
+            let ChangedDeclaration { now, handed_out } = changed;
+            *text += &format!(
+                "\n\nGiven code calls {} as it was handed out. Change the declaration back:\n  \
+                 now         {now}\n  handed out  {handed_out}",
+                file.name
+            );
         }
+        not_compiled.entry(file.name).or_insert(why);
     }
     not_compiled.len() > before
 }

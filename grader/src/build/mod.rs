@@ -223,7 +223,7 @@ impl Builder {
                     break;
                 }
                 CompileOutcome::Errors(errors) => {
-                    if !blame(&errors, handed_out.files, &mut not_compiled) {
+                    if !blame(&errors, submission, &mut not_compiled) {
                         blame_all(submission, errors[0].text(), &mut not_compiled);
                     }
                 }

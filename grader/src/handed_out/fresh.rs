@@ -4,7 +4,7 @@ use judging::assignment::Task;
 
 use super::method_span::{MethodSpanError, find_method, methods_named};
 use super::tokens::tokens;
-use super::{HandedOut, TaskFile};
+use super::{HandedOut, TaskFile, methods};
 
 /// A task file in which a task's method is as it was handed out.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,6 +65,38 @@ impl HandedOut {
             is_changed,
         })
     }
+}
+
+/// The declaration of a method, as it is and as it was handed out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChangedDeclaration {
+    /// The declaration in the submission, on one line.
+    pub now: String,
+    /// The declaration in the starter, on one line.
+    pub handed_out: String,
+}
+
+/// Returns the first declaration in a file that is not as it was handed out, in more than its format.
+/// Methods that are not found are left to the compiler.
+pub fn changed_declaration(file: &TaskFile, text: &str) -> Option<ChangedDeclaration> {
+    methods(file.starter)
+        .into_iter()
+        .find_map(|(name, method)| {
+            let handed_out = declaration(method);
+            let found = methods_named(text, name).ok()?.into_iter();
+            let found: Vec<String> = found.map(|span| declaration(&text[span.bytes])).collect();
+            let is_there = found.iter().any(|now| tokens(now) == tokens(&handed_out));
+            let now = found.into_iter().next().filter(|_| !is_there)?;
+            Some(ChangedDeclaration { now, handed_out })
+        })
+}
+
+/// Returns a method's text without its documentation, attributes and body, on one line.
+fn declaration(method: &str) -> String {
+    let lines = method.lines().map(str::trim);
+    let code = lines.filter(|line| !line.starts_with("//") && !line.starts_with('#'));
+    let code = code.collect::<Vec<_>>().join(" ");
+    code.split('{').next().unwrap_or_default().trim().to_owned()
 }
 
 /// Returns the type that has the method in the starter, and the method's text.

@@ -14,7 +14,7 @@ use judging::assignment::{Assignment, TaskInfo};
 
 use tokens::{contains, tokens};
 
-pub use fresh::{FreshMethod, FreshMethodError};
+pub use fresh::{ChangedDeclaration, FreshMethod, FreshMethodError, changed_declaration};
 pub use method_span::MethodSpanError;
 pub use rays::RAYS;
 

@@ -77,6 +77,29 @@ fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile()
         .grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
+    let text = graded.report();
+    let advice = "  │ Given code calls sphere.rs as it was handed out. Change the declaration back:
+  │   now         pub fn bbox(&self) -> Option<BBox>
+  │   handed out  pub fn bbox(&self) -> BBox
+";
+    assert!(text.contains(advice), "{text}");
+}
+
+#[test]
+fn an_error_in_ones_own_code_is_not_laid_to_a_changed_declaration() {
+    let graded = Submission::reference("own-error")
+        .with_replaced(
+            "sphere.rs",
+            "pub fn bbox(&self) -> BBox {",
+            "pub fn bbox(self) -> BBox {",
+        )
+        .with_replaced("sphere.rs", "let root = ", "let root: u8 = ")
+        .grade();
+    assert!(
+        !graded.report().contains("Given code calls"),
+        "{}",
+        graded.report()
+    );
 }
 
 /// The file has no `struct Sphere` then, but the compiler's message says more.

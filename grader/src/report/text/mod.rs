@@ -120,16 +120,17 @@ fn write_parts(
     for file in compiler_messages {
         write_compiler_message(out, &file.message)?;
     }
+    // Before the items, because a note can be why they fail.
+    for note in &score.build.notes {
+        let note = sanitize_line(note, usize::MAX);
+        writeln!(out, "\n  note: {note}")?;
+    }
     grey_if(old.build, out);
     for task in &tasks {
         let mut text = String::new();
         write_failing_items(&mut text, task, score, selection, hints)?;
         grey_if(is_old(task), &mut text);
         out.push_str(&text);
-    }
-    for note in &score.build.notes {
-        let note = sanitize_line(note, usize::MAX);
-        writeln!(out, "\n{FAINT}  note: {note}{FAINT:#}")?;
     }
     Ok(())
 }

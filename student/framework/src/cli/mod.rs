@@ -36,6 +36,9 @@ use crate::scene::Scene;
 use crate::submission::{Submission, World};
 use crate::view::{self, ViewMode};
 
+/// The number of primitives above which a picture without a tree takes long.
+const MANY_PRIMITIVES: usize = 200;
+
 /// Runs the command. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
 /// input, 130 after Ctrl-C.
 pub fn main(submission: &dyn Submission) -> ExitCode {
@@ -122,7 +125,14 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     value_or_error(attempt(first), Some(corner))?;
     if tree.nodes.is_empty() && !scene.shapes.is_empty() {
         let count = scene.shapes.len();
-        eprintln!("note: task 3, build: no tree yet, so each ray may test all {count} primitives");
+        let quick = if count > MANY_PRIMITIVES {
+            "; `--samples 4` is enough for a first look"
+        } else {
+            ""
+        };
+        eprintln!(
+            "note: task 3, build: no tree yet, so each ray may test all {count} primitives{quick}"
+        );
     }
     let job = Job {
         options,

@@ -92,6 +92,9 @@ pub(super) fn try_methods(
             Some(middle),
         )
     })?;
+    if let Some(note) = not_numbers(&camera_ray) {
+        eprintln!("{note}");
+    }
     let ray = &scene.camera.placement.to_world(&camera_ray);
     let is_triangle = |shape: &&Shape| !matches!(shape, Shape::Sphere { .. });
     let is_sphere = |shape: &&Shape| matches!(shape, Shape::Sphere { .. });
@@ -120,9 +123,41 @@ pub(super) fn try_methods(
     })
 }
 
+/// Returns a message if a camera ray is not made of numbers: otherwise only its hits would look wrong.
+fn not_numbers(ray: &Ray) -> Option<String> {
+    let is_finite = ray.origin.is_finite() && ray.dir.is_finite();
+    (!is_finite).then(|| {
+        format!(
+            "note: task 1, camera: the ray through the middle of the film is not made of numbers, so it \
+             hits nothing: origin {}, dir {}",
+            ray.origin, ray.dir
+        )
+    })
+}
+
 fn try_method(task: &str, step: &str, method: impl FnOnce() + Send) -> Result<(), RenderError> {
     run(task, step, || {
         attempt(method);
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_camera_ray_that_is_not_made_of_numbers_is_named() {
+        let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
+        assert_eq!(not_numbers(&ray), None);
+        let broken = Ray {
+            dir: Vec3::splat(f32::NAN),
+            ..ray
+        };
+        let note = not_numbers(&broken).unwrap();
+        assert!(
+            note.ends_with("origin [0, 0, 0], dir [NaN, NaN, NaN]"),
+            "{note}"
+        );
+    }
 }

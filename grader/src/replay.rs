@@ -43,9 +43,9 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     }
     let paths = source_paths(options, &workspace);
     let needed = files_asked(&exam, item, options.handed_out);
-    let mut missing = build.not_compiled.iter().map(|(file, _)| *file);
+    let mut missing = build.not_compiled.keys();
     // In place of a file that does not compile, the program has the one that was handed out.
-    let is_missing = missing.any(|file| needed.contains(file));
+    let is_missing = missing.any(|file| needed.contains(*file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
         writeln!(

@@ -186,10 +186,11 @@ mod tests {
         tree.order.swap(0, 1);
         change(&mut tree);
         let answer = Answer::Tree(ElementOutcome::Value(tree));
-        match observe_tree(&ExamQuestion::new(question, key), &answer) {
-            ObservedAnswer::Tree(defect) => defect,
-            other => panic!("expected a tree, got {other:?}"),
-        }
+        let observed = observe_tree(&ExamQuestion::new(question, key), &answer);
+        let ObservedAnswer::Tree(defect) = observed else {
+            panic!("expected a tree, got {observed:?}");
+        };
+        defect
     }
 
     #[track_caller]

@@ -5,7 +5,7 @@ use std::fmt;
 use judging::sanitize::sanitize_line;
 
 use super::HandIn;
-use crate::handed_out::{HandedOut, TaskFile};
+use crate::handed_out::{HandedOut, TaskFile, without_comments};
 use crate::submission::TaskFileError;
 use crate::workspace::display_path;
 
@@ -94,10 +94,8 @@ impl HandIn {
 
 /// Returns the number of the first line with a `todo!` outside of a comment.
 fn line_with_todo(text: &str) -> Option<usize> {
-    let code = text
-        .lines()
-        .map(|line| line.split("//").next().unwrap_or_default());
-    let mut numbered = (1..).zip(code);
+    let code = without_comments(text);
+    let mut numbered = (1..).zip(code.lines());
     numbered.find_map(|(number, code)| code.contains("todo!(").then_some(number))
 }
 

@@ -17,6 +17,7 @@ use tokens::{contains, tokens};
 pub use fresh::{ChangedDeclaration, FreshMethod, FreshMethodError, changed_declaration};
 pub use method_span::MethodSpanError;
 pub use rays::RAYS;
+pub use tokens::without_comments;
 
 /// An assignment as it is handed out.
 #[derive(PartialEq, Eq)]

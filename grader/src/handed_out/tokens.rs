@@ -23,7 +23,7 @@ pub(super) fn tokens(text: &str) -> Vec<&str> {
 
 /// Returns the text without comments. The line breaks in them are kept, so that nothing moves to
 /// another line.
-pub(super) fn without_comments(text: &str) -> String {
+pub fn without_comments(text: &str) -> String {
     let mut rest = text;
     let mut code = String::new();
     for token in tokenize(text, FrontmatterAllowed::No) {

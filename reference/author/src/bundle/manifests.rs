@@ -13,6 +13,10 @@ const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
 /// The manifest keys that are only for tests and benches, which are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
+/// The profiles for benches, and for mutants of the grader. They have settings of packages that are not
+/// in the bundle.
+const STAFF_PROFILES: [&str; 2] = ["bench", "mutants"];
+
 /// The reason why a manifest cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
@@ -64,10 +68,11 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
             key: "workspace.members",
         })?;
     keep_members(members, bundle);
-    // Cargo warns about profile settings of packages that are missing. The bench profile has only
-    // such settings.
+    // Cargo warns about profile settings of packages that are missing.
     if let Some(profiles) = manifest["profile"].as_table_like_mut() {
-        profiles.remove("bench");
+        for profile in STAFF_PROFILES {
+            profiles.remove(profile);
+        }
     }
     bundle.insert("Cargo.toml", manifest.to_string());
 

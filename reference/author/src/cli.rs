@@ -50,89 +50,17 @@ pub enum Command {
         students: bool,
     },
     /// Write the students' bundle, as an archive or as a folder for a Git repository
-    Bundle {
-        /// A file name that ends with .zip, or a new folder
-        #[arg(long, value_name = "PATH", required_unless_present = "check")]
-        out: Option<PathBuf>,
-        /// The students' book to include as handout/book, as built by `cargo book --students`
-        #[arg(long, value_name = "FOLDER")]
-        book: Option<PathBuf>,
-        /// Leave out the files that students write, so that they can unpack the archive over an older
-        /// one
-        #[arg(long, conflicts_with = "check")]
-        update: bool,
-        /// Unpack the bundle with an empty home directory, run the commands that its documents
-        /// show, and grade the starter and the reference
-        #[arg(long)]
-        check: bool,
-    },
+    Bundle(BundleArgs),
     /// Write the autograder package that instructors upload to a platform
-    Package {
-        /// The platform that the package is for
-        platform: Platform,
-        /// A file name that ends with .zip, or a new folder
-        #[arg(long, value_name = "PATH")]
-        out: PathBuf,
-        /// The final exam's seed, a long number that is hard to guess (gradescope only)
-        #[arg(long, value_name = "S", conflicts_with = "exam")]
-        exam_seed: Option<u64>,
-        /// The final exam, as written by `cargo author exam` (gradescope only)
-        #[arg(long, value_name = "FILE")]
-        exam: Option<PathBuf>,
-        /// The policy on points, lateness and visibility; `cargo grade --policy-default` prints the
-        /// default
-        #[arg(long, value_name = "FILE")]
-        policy: Option<PathBuf>,
-        /// Set up and run the package as the platform does, without a network and with half a core;
-        /// grade the reference, the starter, an empty submission and, for gradescope, an attacking
-        /// one (on Linux, as root or with sudo)
-        #[arg(long)]
-        check: bool,
-    },
+    Package(PackageArgs),
     /// Write the items that each known mistake fails with every seed, and the table that shows which
     /// items of the practice exam it fails
-    Mistakes {
-        /// The number of seeds to grade the mistakes with, counting from 0; the default is 100, or 1
-        /// with `--check`
-        #[arg(long, value_name = "N")]
-        seeds: Option<u64>,
-        /// Write only the table, with the lists as they are, which takes a minute
-        #[arg(long, conflicts_with_all = ["seeds", "check"])]
-        table: bool,
-        /// Whether to write or to check the lists and the table.
-        #[command(flatten)]
-        check: CheckArgs,
-        /// Whether to record the result.
-        #[command(flatten)]
-        record: RecordArgs,
-    },
+    Mistakes(MistakesArgs),
     /// Write the table of which sentences of the contract the exam asks, and where
     Coverage(CheckArgs),
     /// Measure how well hints recognise known and unknown mistakes, with the practice exam or with
     /// final exams
-    Hints {
-        /// The seeds of final exams, such as 0..20
-        #[arg(long, value_parser = parse_seeds)]
-        seeds: Option<Range<u64>>,
-        /// Measure two mistakes at once: all pairs in one task, or the given number of them
-        #[arg(long, value_name = "N", conflicts_with = "seeds")]
-        #[allow(
-            clippy::option_option,
-            reason = "absent, without a value, with a value"
-        )]
-        pairs: Option<Option<usize>>,
-        /// Measure known mistakes that are written into variants, with the practice exam; fail if
-        /// one of them costs nothing
-        #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
-        independent: bool,
-        /// Measure wrong solutions of no known kind, with the practice exam; fail if one of them costs
-        /// nothing
-        #[arg(long, conflicts_with_all = ["seeds", "pairs", "independent"])]
-        unknown: bool,
-        /// Whether to record the result.
-        #[command(flatten)]
-        record: RecordArgs,
-    },
+    Hints(HintsArgs),
     /// List the mutants that cargo-mutants generates from the reference, and grade each of them
     Mutants {
         /// Grade only a fixed sample of the mutants
@@ -157,49 +85,149 @@ pub enum Command {
     },
     /// Grade every variant with the exams of all seeds, and every mistake with the exams of the
     /// first few seeds
-    Prove {
-        /// The seeds, such as 0..1000
-        #[arg(long, value_parser = parse_seeds)]
-        seeds: Range<u64>,
-        /// The number of seeds to grade the mistakes with, counting from the first
-        #[arg(long, default_value_t = 10)]
-        mistakes: u64,
-        /// Grade only this variant, such as bvh.wide, and no mistakes
-        #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "record"])]
-        variant: Option<String>,
-        /// Whether to record the result.
-        #[command(flatten)]
-        record: RecordArgs,
-    },
+    Prove(ProveArgs),
     /// Grade a submission that answers the practice exam by heart with the final exams of all seeds,
     /// in which it must earn nothing
-    ByHeart {
-        /// The seeds, such as 0..50
-        #[arg(long, value_parser = parse_seeds)]
-        seeds: Range<u64>,
-        /// Write the submission's files to this folder
-        #[arg(long, value_name = "FOLDER")]
-        out: Option<PathBuf>,
-        /// Whether to record the result.
-        #[command(flatten)]
-        record: RecordArgs,
-    },
+    ByHeart(ByHeartArgs),
     /// Measure how far correct answers and mistakes are from every threshold of the exam
-    Calibrate {
-        /// The seeds that every variant is graded with; the default is 0..200, or 0..2 with
-        /// `--check`
-        #[arg(long, value_parser = parse_seeds)]
-        seeds: Option<Range<u64>>,
-        /// The number of seeds to grade the mistakes with, counting from the first
-        #[arg(long, default_value_t = 3)]
-        mistakes: u64,
-        /// Change nothing and use only a few seeds; fail if a margin is too small
-        #[arg(long)]
-        check: bool,
-        /// Whether to record the result.
-        #[command(flatten)]
-        record: RecordArgs,
-    },
+    Calibrate(CalibrateArgs),
+}
+
+/// The arguments of `cargo author bundle`.
+#[derive(Clone, Debug, Args)]
+pub struct BundleArgs {
+    /// A file name that ends with .zip, or a new folder
+    #[arg(long, value_name = "PATH", required_unless_present = "check")]
+    pub out: Option<PathBuf>,
+    /// The students' book to include as handout/book, as built by `cargo book --students`
+    #[arg(long, value_name = "FOLDER")]
+    pub book: Option<PathBuf>,
+    /// Leave out the files that students write, so that they can unpack the archive over an older
+    /// one
+    #[arg(long, conflicts_with = "check")]
+    pub update: bool,
+    /// Unpack the bundle with an empty home directory, run the commands that its documents
+    /// show, and grade the starter and the reference
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// The arguments of `cargo author package`.
+#[derive(Clone, Debug, Args)]
+pub struct PackageArgs {
+    /// The platform that the package is for
+    pub platform: Platform,
+    /// A file name that ends with .zip, or a new folder
+    #[arg(long, value_name = "PATH")]
+    pub out: PathBuf,
+    /// The final exam's seed, a long number that is hard to guess (gradescope only)
+    #[arg(long, value_name = "S", conflicts_with = "exam")]
+    pub exam_seed: Option<u64>,
+    /// The final exam, as written by `cargo author exam` (gradescope only)
+    #[arg(long, value_name = "FILE")]
+    pub exam: Option<PathBuf>,
+    /// The policy on points, lateness and visibility; `cargo grade --policy-default` prints the
+    /// default
+    #[arg(long, value_name = "FILE")]
+    pub policy: Option<PathBuf>,
+    /// Set up and run the package as the platform does, without a network and with half a core;
+    /// grade the reference, the starter, an empty submission and, for gradescope, an attacking
+    /// one (on Linux, as root or with sudo)
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// The arguments of `cargo author mistakes`.
+#[derive(Clone, Debug, Args)]
+pub struct MistakesArgs {
+    /// The number of seeds to grade the mistakes with, counting from 0; the default is 100, or 1
+    /// with `--check`
+    #[arg(long, value_name = "N")]
+    pub seeds: Option<u64>,
+    /// Write only the table, with the lists as they are, which takes a minute
+    #[arg(long, conflicts_with_all = ["seeds", "check"])]
+    pub table: bool,
+    /// Whether to write or to check the lists and the table.
+    #[command(flatten)]
+    pub check: CheckArgs,
+    /// Whether to record the result.
+    #[command(flatten)]
+    pub record: RecordArgs,
+}
+
+/// The arguments of `cargo author hints`.
+#[derive(Clone, Debug, Args)]
+pub struct HintsArgs {
+    /// The seeds of final exams, such as 0..20
+    #[arg(long, value_parser = parse_seeds)]
+    pub seeds: Option<Range<u64>>,
+    /// Measure two mistakes at once: all pairs in one task, or the given number of them
+    #[arg(long, value_name = "N", conflicts_with = "seeds")]
+    #[allow(
+        clippy::option_option,
+        reason = "absent, without a value, with a value"
+    )]
+    pub pairs: Option<Option<usize>>,
+    /// Measure known mistakes that are written into variants, with the practice exam; fail if
+    /// one of them costs nothing
+    #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
+    pub independent: bool,
+    /// Measure wrong solutions of no known kind, with the practice exam; fail if one of them costs
+    /// nothing
+    #[arg(long, conflicts_with_all = ["seeds", "pairs", "independent"])]
+    pub unknown: bool,
+    /// Whether to record the result.
+    #[command(flatten)]
+    pub record: RecordArgs,
+}
+
+/// The arguments of `cargo author prove`.
+#[derive(Clone, Debug, Args)]
+pub struct ProveArgs {
+    /// The seeds, such as 0..1000
+    #[arg(long, value_parser = parse_seeds)]
+    pub seeds: Range<u64>,
+    /// The number of seeds to grade the mistakes with, counting from the first
+    #[arg(long, default_value_t = 10)]
+    pub mistakes: u64,
+    /// Grade only this variant, such as bvh.wide, and no mistakes
+    #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "record"])]
+    pub variant: Option<String>,
+    /// Whether to record the result.
+    #[command(flatten)]
+    pub record: RecordArgs,
+}
+
+/// The arguments of `cargo author by-heart`.
+#[derive(Clone, Debug, Args)]
+pub struct ByHeartArgs {
+    /// The seeds, such as 0..50
+    #[arg(long, value_parser = parse_seeds)]
+    pub seeds: Range<u64>,
+    /// Write the submission's files to this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+    /// Whether to record the result.
+    #[command(flatten)]
+    pub record: RecordArgs,
+}
+
+/// The arguments of `cargo author calibrate`.
+#[derive(Clone, Debug, Args)]
+pub struct CalibrateArgs {
+    /// The seeds that every variant is graded with; the default is 0..200, or 0..2 with
+    /// `--check`
+    #[arg(long, value_parser = parse_seeds)]
+    pub seeds: Option<Range<u64>>,
+    /// The number of seeds to grade the mistakes with, counting from the first
+    #[arg(long, default_value_t = 3)]
+    pub mistakes: u64,
+    /// Change nothing and use only a few seeds; fail if a margin is too small
+    #[arg(long)]
+    pub check: bool,
+    /// Whether to record the result.
+    #[command(flatten)]
+    pub record: RecordArgs,
 }
 
 /// Returns the folder that a book is built into, given the folder on the command line.

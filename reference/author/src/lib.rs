@@ -10,6 +10,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
+//! | the subcommands | [`commands`] |
 //! | the handout, which is checked against the command line | [`handout`] |
 //! | the command line | [`cli`] |
 //! | packages for platforms; the proof that the exam is right, and what it covers | [`package`], [`proof`], [`coverage`] |
@@ -21,6 +22,7 @@
 
 pub mod bundle;
 pub mod cli;
+pub mod commands;
 pub mod coverage;
 pub mod drawing_data;
 pub mod exams;

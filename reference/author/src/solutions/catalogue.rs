@@ -9,6 +9,7 @@ use grader::handed_out::HandedOut;
 use judging::assignment::Task;
 use judging::section::Section;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use crate::solutions::failed_items::{FailedItems, FailedItemsError};
 use crate::solutions::sources::Sources;
@@ -131,27 +132,18 @@ pub enum CatalogueError {
 /// Reads all known mistakes of an assignment in the workspace at `root`, ordered by task and then
 /// by file. A task without a folder has none.
 pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, CatalogueError> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct File {
-        mistake: Vec<Mistake>,
-    }
-
     let folder = root.join(handed_out.solutions()).join("mistakes");
     let failed = FailedItems::load(root, handed_out)?;
     let mut all: Vec<Mistake> = Vec::new();
     for task in handed_out.assignment.tasks() {
-        for path in toml_files(&folder.join(task.id()))? {
-            let file: File = read_toml(&path)?;
-            for mut mistake in file.mistake {
-                mistake.fails = failed.of_mistake(&mistake.id).to_vec();
-                let known = all.iter().any(|other| other.id == mistake.id);
-                if known || !mistake.id.starts_with(&format!("{task}.")) {
-                    let id = mistake.id;
-                    return Err(CatalogueError::Id { path, id });
-                }
-                all.push(mistake);
+        for (path, mut mistake) in read_mistakes::<Mistake>(&folder.join(task.id()))? {
+            mistake.fails = failed.of_mistake(&mistake.id).to_vec();
+            let known = all.iter().any(|other| other.id == mistake.id);
+            if known || !mistake.id.starts_with(&format!("{task}.")) {
+                let id = mistake.id;
+                return Err(CatalogueError::Id { path, id });
             }
+            all.push(mistake);
         }
     }
     share_hints(&mut all)?;
@@ -196,18 +188,35 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<(), CatalogueError> {
     Ok(())
 }
 
-/// Returns the TOML files in a folder, in the order of their names. A folder that does not exist
-/// has none.
-pub(super) fn toml_files(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
+/// Reads the `[[mistake]]` entries of the TOML files in a folder, in the order of the files, each with
+/// the path of its file. There are none if the folder does not exist.
+pub(super) fn read_mistakes<T: DeserializeOwned>(
+    folder: &Path,
+) -> Result<Vec<(PathBuf, T)>, CatalogueError> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File<T> {
+        mistake: Vec<T>,
+    }
+
     if !folder.exists() {
         return Ok(Vec::new());
     }
-    let mut paths = files::read_dir(folder)?;
-    paths.retain(|path| {
-        path.extension()
+    let mut all = Vec::new();
+    for path in files::read_dir(folder)? {
+        if path
+            .extension()
             .is_some_and(|extension| extension == "toml")
-    });
-    Ok(paths)
+        {
+            let file: File<T> = read_toml(&path)?;
+            all.extend(
+                file.mistake
+                    .into_iter()
+                    .map(|mistake| (path.clone(), mistake)),
+            );
+        }
+    }
+    Ok(all)
 }
 
 impl Mistake {

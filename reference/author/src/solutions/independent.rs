@@ -6,9 +6,8 @@ use judging::assignment::Task;
 use serde::Deserialize;
 
 use crate::solutions::Solutions;
-use crate::solutions::catalogue::{CatalogueError, Change, apply_changes, toml_files};
+use crate::solutions::catalogue::{CatalogueError, Change, apply_changes, read_mistakes};
 use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::read_toml;
 
 /// A known mistake in a variant.
 #[derive(Clone, Debug, Deserialize)]
@@ -59,27 +58,18 @@ pub enum IndependentError {
 pub fn independent_mistakes(
     solutions: &Solutions,
 ) -> Result<Vec<(IndependentMistake, Sources)>, IndependentError> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct File {
-        mistake: Vec<IndependentMistake>,
-    }
-
     let workbench = &solutions.workbench;
     let handed_out = workbench.handed_out();
     let folder = workbench
         .root()
         .join(handed_out.solutions())
         .join("mistakes/independent");
-    let mut all = Vec::new();
-    for path in toml_files(&folder).map_err(CatalogueError::from)? {
-        let file: File = read_toml(&path).map_err(CatalogueError::from)?;
-        for mistake in file.mistake {
-            let sources = mistake.apply(solutions)?;
-            all.push((mistake, sources));
-        }
-    }
-    Ok(all)
+    let all = read_mistakes::<IndependentMistake>(&folder)?.into_iter();
+    all.map(|(_, mistake)| {
+        let sources = mistake.apply(solutions)?;
+        Ok((mistake, sources))
+    })
+    .collect()
 }
 
 impl IndependentMistake {

@@ -6,9 +6,8 @@ use judging::assignment::Task;
 use serde::Deserialize;
 
 use crate::solutions::Solutions;
-use crate::solutions::catalogue::{CatalogueError, Change, Mistake, toml_files};
+use crate::solutions::catalogue::{CatalogueError, Change, Mistake, read_mistakes};
 use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::read_toml;
 
 /// A wrong solution of no known kind.
 #[derive(Clone, Debug, Deserialize)]
@@ -46,12 +45,6 @@ pub fn unknown_mistakes(
     solutions: &Solutions,
     reference: &Sources,
 ) -> Result<Vec<(UnknownMistake, Mistake, Sources)>, UnknownError> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct File {
-        mistake: Vec<UnknownMistake>,
-    }
-
     let workbench = &solutions.workbench;
     let handed_out = workbench.handed_out();
     let folder = workbench
@@ -59,26 +52,23 @@ pub fn unknown_mistakes(
         .join(handed_out.solutions())
         .join("mistakes/unknown");
     let mut all = Vec::new();
-    for path in toml_files(&folder).map_err(CatalogueError::from)? {
-        let file: File = read_toml(&path).map_err(CatalogueError::from)?;
-        for unknown in file.mistake {
-            let is_known = |id: &String| {
-                let mut known = solutions.mistakes.iter();
-                known.any(|(mistake, _)| mistake.id == *id)
-            };
-            let has_task = Task::in_id(&unknown.id).is_some();
-            if !has_task || is_known(&unknown.id) || !unknown.true_hints.iter().all(is_known) {
-                return Err(UnknownError::Names(unknown.id));
-            }
-            let mistake = Mistake {
-                id: unknown.id.clone(),
-                title: unknown.title.clone(),
-                changes: unknown.changes.clone(),
-                ..Mistake::default()
-            };
-            let sources = mistake.apply(reference)?;
-            all.push((unknown, mistake, sources));
+    for (_, unknown) in read_mistakes::<UnknownMistake>(&folder)? {
+        let is_known = |id: &String| {
+            let mut known = solutions.mistakes.iter();
+            known.any(|(mistake, _)| mistake.id == *id)
+        };
+        let has_task = Task::in_id(&unknown.id).is_some();
+        if !has_task || is_known(&unknown.id) || !unknown.true_hints.iter().all(is_known) {
+            return Err(UnknownError::Names(unknown.id));
         }
+        let mistake = Mistake {
+            id: unknown.id.clone(),
+            title: unknown.title.clone(),
+            changes: unknown.changes.clone(),
+            ..Mistake::default()
+        };
+        let sources = mistake.apply(reference)?;
+        all.push((unknown, mistake, sources));
     }
     Ok(all)
 }

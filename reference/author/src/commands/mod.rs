@@ -1,0 +1,111 @@
+//! The subcommands of `cargo author`. Each generates, measures or checks something, prints the result
+//! and, if asked to, writes it into the table of long runs.
+
+mod archives;
+mod book;
+mod changes;
+mod hints;
+mod proofs;
+
+use std::io::{self, Write};
+use std::ops::Range;
+use std::path::Path;
+use std::slice;
+
+use grader::handed_out::{HandedOut, RAYS};
+
+use crate::cli::{Command, RecordArgs};
+use crate::coverage::coverage;
+use crate::generated_file::{GeneratedFile, Mode, write_or_check};
+use crate::solutions::workbench::Workbench;
+use crate::solutions::{Solutions, SolutionsError};
+use crate::{exams, long_runs, scenes, starter};
+
+/// The workspace's root. The paths of generated files are relative to it.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+/// The assignment of all commands.
+const HANDED_OUT: &HandedOut = &RAYS;
+/// The entry of the table of long runs in place of seeds.
+const PRACTICE: &str = "practice";
+
+/// The result of a command; the error is printed.
+pub type CommandResult = Result<(), Box<dyn std::error::Error>>;
+
+/// Runs a subcommand.
+pub fn run(command: Command) -> CommandResult {
+    let root = Path::new(ROOT);
+    match command {
+        Command::Starter(check) => {
+            let files = starter::generated_files(root, HANDED_OUT)?;
+            generate(&files, check.mode(), "starter")
+        }
+        Command::Exams(check) => generate(&exams::generated_files()?, check.mode(), "exams"),
+        Command::Exam { seed } => {
+            let exam = exams::final_exam_text(seed)?;
+            Ok(io::stdout().write_all(exam.as_bytes())?)
+        }
+        Command::Scenes(check) => generate(&scenes::generated_files(), check.mode(), "scenes"),
+        Command::Handout {
+            check,
+            book,
+            students,
+        } => book::handout(root, check.mode(), book, students),
+        Command::Bundle(args) => archives::bundle(root, &args),
+        Command::Package(args) => archives::package(root, &args),
+        Command::Mistakes(args) => proofs::mistakes(root, &args),
+        Command::Mutants {
+            fast,
+            check,
+            record,
+        } => changes::mutants(root, fast, check.mode(), record),
+        Command::Systematic { fast, record } => changes::systematic(fast, record),
+        Command::Coverage(check) => {
+            let practice = exams::load_practice(root)?;
+            let coverage = coverage(root, HANDED_OUT, &practice)?;
+            generate(slice::from_ref(&coverage.table), check.mode(), "coverage")?;
+            report(&coverage.problems, &coverage.summary_line())
+        }
+        Command::Hints(args) => hints::hints(root, args),
+        Command::Prove(args) => proofs::prove(args),
+        Command::ByHeart(args) => proofs::by_heart(root, args),
+        Command::Calibrate(args) => proofs::calibrate(root, args),
+    }
+}
+
+/// Writes generated files, or compares them with the files on disk. `name` is the subcommand of
+/// `cargo author` that writes them.
+fn generate(files: &[GeneratedFile], mode: Mode, name: &str) -> CommandResult {
+    let command = format!("cargo author {name}");
+    Ok(write_or_check(files, Path::new(ROOT), mode, &command)?)
+}
+
+/// Builds all variants and mistakes.
+fn solutions() -> Result<Solutions, SolutionsError> {
+    Solutions::load(Workbench::open(HANDED_OUT)?)
+}
+
+/// Prints the problems and the summary line. Fails if there are problems.
+fn report(problems: &[String], line: &str) -> CommandResult {
+    for problem in problems {
+        eprintln!("{problem}");
+    }
+    println!("{line}");
+    match problems.len() {
+        0 => Ok(()),
+        1 => Err("1 problem was found: see above".into()),
+        count => Err(format!("{count} problems were found: see above").into()),
+    }
+}
+
+/// Writes the result of a run into the table of long runs, if that is wanted.
+fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> CommandResult {
+    if wanted.record {
+        long_runs::record(Path::new(ROOT), run, exams, line)?;
+    }
+    Ok(())
+}
+
+/// Returns seeds as they are written on the command line.
+fn written(seeds: &Range<u64>) -> String {
+    format!("{}..{}", seeds.start, seeds.end)
+}

@@ -1,0 +1,109 @@
+//! `cargo author mistakes`, `prove`, `by-heart` and `calibrate`.
+
+use std::path::Path;
+
+use judging::exam::Exam;
+
+use super::{CommandResult, HANDED_OUT, generate, record_result, report, solutions, written};
+use crate::cli::{ByHeartArgs, CalibrateArgs, MistakesArgs, ProveArgs};
+use crate::exams;
+use crate::generated_file::Mode;
+use crate::proof::by_heart::grade_by_heart;
+use crate::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, table};
+use crate::proof::{self, failures, matrix};
+use crate::solutions::Solutions;
+use crate::solutions::failed_items::FailedItems;
+
+/// Writes the lists of the items that each mistake fails and the table of the practice exam, or
+/// checks them.
+pub(super) fn mistakes(root: &Path, args: &MistakesArgs) -> CommandResult {
+    let mode = args.check.mode();
+    let mut solutions = solutions()?;
+    let practice = exams::load_practice(root)?;
+    if args.table {
+        return write_table_of_mistakes(&solutions, &practice, Mode::Write);
+    }
+    let default = match mode {
+        Mode::Write => failures::MANY_SEEDS,
+        Mode::Check => failures::FEW_SEEDS,
+    };
+    let seeds = args.seeds.unwrap_or(default);
+    let (failed, catches) = failures::failed_items(&solutions, &practice, seeds)?;
+    let thin = catches.problems();
+    let caught = failed.fails.len() - thin.len();
+    let line = format!(
+        "mistakes {}, clearly caught {caught}, seeds {}",
+        failed.fails.len(),
+        failed.seeds
+    );
+    // Before the files are written, so that they do not count as changes of the commit.
+    record_result(args.record, "mistakes", &written(&(0..seeds)), &line)?;
+    let committed = FailedItems::load(root, HANDED_OUT)?;
+    if mode == Mode::Check {
+        let mut problems = failures::problems(&committed, &failed);
+        problems.extend(catches.problems());
+        let line = format!("seeds {}, mistakes {}", failed.seeds, failed.fails.len());
+        report(&problems, &line)?;
+    }
+    // A check with as many seeds must find the same lists.
+    if mode == Mode::Write || failed.seeds == committed.seeds {
+        generate(&[failed.generated_file(HANDED_OUT)?], mode, "mistakes")?;
+    }
+    if mode == Mode::Write {
+        generate(&[catches.generated_file(HANDED_OUT)], mode, "mistakes")?;
+        solutions.set_failed_items(&failed);
+    }
+    write_table_of_mistakes(&solutions, &practice, mode)?;
+    report(&thin, &line)
+}
+
+/// Writes or checks the table of the practice exam.
+fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -> CommandResult {
+    let table = matrix::generated_file(solutions, practice)?;
+    generate(&[table], mode, "mistakes")
+}
+
+/// Grades the variants with the exams of all seeds, and the mistakes with those of the first few.
+pub(super) fn prove(args: ProveArgs) -> CommandResult {
+    let selected = match &args.variant {
+        Some(id) => solutions()?.only_variant(id)?,
+        None => solutions()?,
+    };
+    let seeds = written(&args.seeds);
+    let summary = proof::prove::prove(&selected, args.seeds, args.mistakes)?;
+    record_result(args.record, "prove", &seeds, &summary.summary_line())?;
+    for note in summary.notes() {
+        eprintln!("{note}");
+    }
+    report(&summary.problems(), &summary.summary_line())
+}
+
+/// Grades a submission that answers the practice exam by heart with the final exams of all seeds.
+pub(super) fn by_heart(root: &Path, args: ByHeartArgs) -> CommandResult {
+    let practice = exams::load_practice(root)?;
+    let seeds = written(&args.seeds);
+    let result = grade_by_heart(&solutions()?, &practice, args.seeds)?;
+    if let Some(folder) = args.out {
+        result.sources.write(&folder)?;
+    }
+    record_result(args.record, "by-heart", &seeds, &result.summary_line())?;
+    report(&result.problems(), &result.summary_line())
+}
+
+/// Measures the margins of all thresholds, and writes or checks their table.
+pub(super) fn calibrate(root: &Path, args: CalibrateArgs) -> CommandResult {
+    if args.check {
+        table::check(root)?;
+    }
+    let default = if args.check { FEW_SEEDS } else { MANY_SEEDS };
+    let seeds = args.seeds.unwrap_or(default);
+    let written = written(&seeds);
+    let calibration = proof::calibrate::calibrate(&solutions()?, seeds, args.mistakes)?;
+    let line = calibration.summary_line();
+    record_result(args.record, "calibrate", &written, &line)?;
+    if !args.check {
+        let table = table::generated_file(&calibration);
+        generate(&[table], Mode::Write, "calibrate")?;
+    }
+    report(&calibration.margins.problems(), &line)
+}

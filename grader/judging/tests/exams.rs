@@ -7,11 +7,11 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 use judging::assignment::{RAYS, Task};
-use judging::exam::{Exam, Key};
+use judging::exam::{Exam, ExamQuestion, Key};
 use judging::exam_file;
 use judging::judge::{Failure, judge};
 use judging::recognise::Observations;
-use protocol::{Answer, ElementOutcome, Interval, Ray};
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays};
 use serde_json::{Value, json};
 
 const PRACTICE: &str = include_str!("../../exams/practice.json");
@@ -95,6 +95,7 @@ fn an_exam_is_read_as_it_was_written() {
     let text = serde_json::to_string(&other).unwrap();
     assert!(
         parse(&text)
+            .map(drop)
             .unwrap_err()
             .contains("for the assignment `light`")
     );
@@ -158,6 +159,11 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
             "asks for 100000 x 2 pixels",
         ),
         (
+            format!("/items/{picture}/questions/0/question/camera/camera/film"),
+            json!([4097, 1]),
+            "asks for 4097 x 1 pixels; the maximum is 4096",
+        ),
+        (
             format!("/items/{sphere}/questions/0/key"),
             exam["items"][camera]["questions"][0]["key"].clone(),
             "are of different kinds",
@@ -177,10 +183,45 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
         } else {
             around[key] = value;
         }
-        let error = parse(&changed.to_string()).unwrap_err();
+        let error = parse(&changed.to_string()).map(drop).unwrap_err();
         assert!(error.contains(problem), "{path}: {error}");
     }
-    parse(&exam.to_string()).unwrap();
+    let mut largest = exam;
+    largest["items"][picture]["questions"][0]["question"]["camera"]["camera"]["film"] =
+        json!([4096, 1]);
+    parse(&largest.to_string()).map(drop).unwrap();
+}
+
+#[test]
+fn a_key_of_first_hits_fits_only_the_rays_of_a_view() {
+    let problem_after = |change: fn(&mut ExamQuestion)| {
+        let mut exam = EXAM.clone();
+        let questions = exam.items.iter_mut().flat_map(|item| &mut item.questions);
+        let mut with_first_hits =
+            questions.filter(|question| matches!(question.key, Key::FirstHits { .. }));
+        change(with_first_hits.next().unwrap());
+        parse(&serde_json::to_string(&exam).unwrap()).err()
+    };
+    fn add_alternative(question: &mut ExamQuestion, after_the_last: u32) {
+        if let Key::FirstHits { hits, alternatives } = &mut question.key {
+            alternatives.push((hits.len() as u32 - 1 + after_the_last, None));
+        }
+    }
+    assert_eq!(problem_after(|question| add_alternative(question, 0)), None);
+    for change in [
+        |question: &mut ExamQuestion| add_alternative(question, 1),
+        |question: &mut ExamQuestion| {
+            if let Question::Shapes { rays, .. }
+            | Question::Traverse { rays, .. }
+            | Question::BuildAndTraverse { rays, .. } = &mut question.question
+            {
+                *rays = Rays::List(rays.to_vec());
+            }
+        },
+    ] {
+        let problem = problem_after(change).unwrap_or_default();
+        assert!(problem.contains("are of different kinds"), "{problem}");
+    }
 }
 
 /// Returns the answers of a camera that maps each right direction to another.

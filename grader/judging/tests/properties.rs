@@ -9,6 +9,7 @@ use judging::assignment::RAYS;
 use judging::exam::{Exam, ExamQuestion, ExpectedHit, Key, RayCheck, Surface};
 use judging::exam_file;
 use judging::judge::{Credit, judge, measure, mismatches};
+use judging::observe::{expected, observe};
 use proptest::prelude::*;
 use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
 
@@ -193,6 +194,30 @@ fn the_keys_own_answer_passes() {
         assert_eq!(judgement.credit, Credit::FULL, "{:?}", judgement.failure);
         let wrong = mismatches(question, answer).unwrap_or_default();
         assert!(wrong.iter().all(Option::is_none));
+    }
+}
+
+#[test]
+fn the_keys_own_answer_is_observed_as_expected() {
+    for item in &PRACTICE.items {
+        let answers: Option<Vec<Answer>> = item.questions.iter().map(keys_answer).collect();
+        let Some(answers) = answers else { continue };
+        let (observed, expected) = (observe(item, &answers), expected(item));
+        let is_picture = |question: &ExamQuestion| {
+            matches!(question.key, Key::FirstHits { .. } | Key::Radiance { .. })
+        };
+        let elements = item.questions.iter();
+        let elements = elements.filter(|question| !is_picture(question));
+        let count = elements.map(|question| question.question.count()).sum();
+        assert_eq!(
+            (observed.len(), expected.len()),
+            (count, count),
+            "{}",
+            item.id
+        );
+        for (observed, expected) in observed.iter().zip(&expected) {
+            assert!(observed.matches(expected), "{}: {observed:?}", item.id);
+        }
     }
 }
 

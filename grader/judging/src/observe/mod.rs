@@ -221,3 +221,6 @@ fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

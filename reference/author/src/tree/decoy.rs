@@ -51,6 +51,23 @@ pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, side: Side) -> b
         && TraversalRule::ALL.into_iter().all(is_entered)
 }
 
+/// Returns whether the ray misses the box of the leaf's sibling.
+pub fn misses_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
+    let sibling = tree.sibling(leaf);
+    sibling.is_some_and(|sibling| tree.bounds(sibling).span(ray64).is_none())
+}
+
+/// Returns whether the ray hits a primitive below the leaf's sibling.
+pub fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
+    let below = |other: &usize| {
+        let sibling = tree.sibling(leaf);
+        sibling.is_some_and(|sibling| tree.path(*other).contains(&sibling))
+    };
+    let leaves = tree.leaves().into_iter().filter(below);
+    let mut primitives = leaves.flat_map(|leaf| tree.primitives(leaf));
+    primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
+}
+
 /// Returns the reason why no correct traversal with this ray enters the leaf, or `None` if one may
 /// enter it. A reason is returned only if it holds by a clear margin: [`MARGIN`] times the diagonal
 /// of a box.

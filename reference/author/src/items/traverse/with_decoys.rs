@@ -6,7 +6,7 @@ use protocol::Ray;
 use super::{add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays};
 use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item};
-use crate::oracle::{Ray64, scan};
+use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::Tree;
 use crate::tree::decoy::{self, Side, SkipReason};
@@ -105,21 +105,20 @@ fn is_skipped_for(tree: &Tree, leaf: usize, ray64: &Ray64, reason: SkipReason) -
     decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Returns whether the ray misses the box of the leaf's sibling.
-fn misses_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
-    let sibling = tree.sibling(leaf);
-    sibling.is_some_and(|sibling| tree.bounds(sibling).span(ray64).is_none())
+/// Accepts the leaves that the ray misses, and that are this child of a node of which it hits the
+/// other child's box.
+fn missed_alone(side: Side) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+    move |tree, leaf, ray64| {
+        decoy::is_missed_child(tree, leaf, ray64, side) && !decoy::misses_sibling(tree, leaf, ray64)
+    }
 }
 
-/// Returns whether the ray hits a primitive below the leaf's sibling.
-fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
-    let below = |other: &usize| {
-        let sibling = tree.sibling(leaf);
-        sibling.is_some_and(|sibling| tree.path(*other).contains(&sibling))
-    };
-    let leaves = tree.leaves().into_iter().filter(below);
-    let mut primitives = leaves.flat_map(|leaf| tree.primitives(leaf));
-    primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
+/// Accepts the leaves that the ray misses, and that are this child of a node of which it misses both
+/// children's boxes.
+fn missed_with_sibling(side: Side) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+    move |tree, leaf, ray64| {
+        decoy::is_missed_child(tree, leaf, ray64, side) && decoy::misses_sibling(tree, leaf, ray64)
+    }
 }
 
 pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
@@ -129,14 +128,10 @@ pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
     };
     // The slides enter the left child if both are missed, and may enter it if only the right one is
     // hit: see `both_sides`.
-    let right_of_one = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, Side::R)
-            && !misses_sibling(tree, leaf, ray64)
-            && !hits_below_sibling(tree, leaf, ray64)
+    let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        missed_alone(Side::R)(tree, leaf, ray64) && !decoy::hits_below_sibling(tree, leaf, ray64)
     };
-    let right_of_none = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, Side::R) && misses_sibling(tree, leaf, ray64)
-    };
+    let with_sibling = missed_with_sibling(Side::R);
     item(
         Declaration {
             id: "traverse.skips_missed",
@@ -150,8 +145,8 @@ pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
         },
         vec![
             question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
-            question_with_decoys(&mut rng, &right_of_one, SlidesAnswer::Correct),
-            question_with_decoys(&mut rng, &right_of_none, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &after_nothing, SlidesAnswer::Correct),
+            question_with_decoys(&mut rng, &with_sibling, SlidesAnswer::Correct),
         ],
     )
 }
@@ -218,13 +213,9 @@ pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
 
 pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.both_sides");
-    let one = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, Side::L) && !misses_sibling(tree, leaf, ray64)
-    };
-    let both = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, Side::L) && misses_sibling(tree, leaf, ray64)
-    };
-    let alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+    let missed_alone = missed_alone(Side::L);
+    let with_sibling = missed_with_sibling(Side::L);
+    let pruned_alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::LeafPruned)
             && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
     };
@@ -241,10 +232,10 @@ pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
             needs: &[Group::TriangleHits, Group::Boxes],
         },
         vec![
-            question_with_decoys(&mut rng, &one, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &both, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &both, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &alone, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &missed_alone, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &with_sibling, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &with_sibling, SlidesAnswer::Wrong),
+            question_with_decoys(&mut rng, &pruned_alone, SlidesAnswer::Wrong),
         ],
     )
 }

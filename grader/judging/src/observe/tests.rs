@@ -1,0 +1,116 @@
+//! Tests of observed numbers: they are multiples of the tolerances of their own question.
+
+use glam::Vec2;
+use protocol::Shape;
+
+use super::*;
+
+/// Returns the observed numbers of each element of one question.
+fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
+    let observed = observe_question(question, answer).into_iter();
+    let numbers = observed.map(|answer| match answer {
+        ObservedAnswer::Numbers(numbers) => numbers,
+        other => panic!("there are no numbers in {other:?}"),
+    });
+    numbers.collect()
+}
+
+/// Asserts that each number of the wrong answers differs from the correct one by this many tolerances.
+fn assert_tolerances_apart(wrong: &[Vec<f32>], correct: &[Vec<f32>], expected: f32) {
+    assert_eq!(wrong.len(), 2, "one entry for each element");
+    let pairs = wrong.iter().flatten().zip(correct.iter().flatten());
+    for (wrong, correct) in pairs {
+        let tolerances = wrong - correct;
+        assert!(
+            (tolerances - expected).abs() < 0.1,
+            "{tolerances} tolerances, not {expected}"
+        );
+    }
+}
+
+/// The tolerance of each element is that of its own ray: the second one begins a hundred times farther
+/// away.
+#[test]
+fn distances_are_multiples_of_the_tolerance_of_their_ray() {
+    let ray = |x: f32| Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X);
+    let (near, far) = (8.0, 800.0);
+    let hit = |distance: f32| ExpectedHit {
+        distance,
+        position: Vec3::X,
+        normal: Vec3::X,
+        uv: Vec2::ZERO,
+        material: 0,
+    };
+    let question = ExamQuestion::new(
+        Question::Shapes {
+            shapes: vec![Shape::Sphere {
+                center: Vec3::ZERO,
+                radius: 1.0,
+                material: 0,
+            }],
+            rays: Rays::List(vec![ray(near), ray(far)]),
+        },
+        Key::Hits {
+            checks: vec![HitCheck::Distance],
+            hits: vec![Some(hit(near - 1.0)), Some(hit(far - 1.0))],
+        },
+    );
+    let answer = |tolerances: f32| {
+        let trace = |from: f32| Trace {
+            distance: from - 1.0 + tolerances * LENGTH * from,
+            position: Vec3::X,
+            normal: Vec3::X,
+            uv: Vec2::ZERO,
+            origin: Vec3::X * from,
+            material: 0,
+        };
+        let traces = [near, far].map(|from| ElementOutcome::Value(Some(trace(from))));
+        Answer::Hits(traces.to_vec())
+    };
+    let correct = numbers(&question, &answer(0.0));
+    assert_tolerances_apart(&numbers(&question, &answer(6.0)), &correct, 6.0);
+    let expected = expected_elements(&question);
+    assert_eq!(expected, observe_question(&question, &answer(0.0)));
+}
+
+#[test]
+fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
+    let (near, far) = (8.0, 800.0);
+    let query = |x: f32| (Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X), Interval::AHEAD);
+    let span = |from: f32, error: f32| Interval::new(from - 1.0 + error, from + 1.0 + error);
+    let question = ExamQuestion::new(
+        Question::BBox {
+            min: -Vec3::ONE,
+            max: Vec3::ONE,
+            queries: vec![query(near), query(far)],
+        },
+        Key::Spans {
+            spans: vec![Some(span(near, 0.0)), Some(span(far, 0.0))],
+        },
+    );
+    let answer = |tolerances: f32| {
+        let spans = [near, far].map(|from| Some(span(from, tolerances * LENGTH * from)));
+        Answer::Spans(spans.map(ElementOutcome::Value).to_vec())
+    };
+    let correct = numbers(&question, &answer(0.0));
+    assert_tolerances_apart(&numbers(&question, &answer(6.0)), &correct, 6.0);
+    let expected = expected_elements(&question);
+    assert_eq!(expected, observe_question(&question, &answer(0.0)));
+}
+
+#[test]
+fn each_material_is_far_from_the_others() {
+    let of = |material: u32| {
+        let trace = Trace {
+            distance: 1.0,
+            position: Vec3::X,
+            normal: Vec3::X,
+            uv: Vec2::ZERO,
+            origin: Vec3::ZERO,
+            material,
+        };
+        observe_hit(&[HitCheck::Material], Some(&trace), 1.0)
+    };
+    assert!(of(1).matches(&of(1)));
+    assert!(!of(1).matches(&of(2)));
+}

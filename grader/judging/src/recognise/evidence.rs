@@ -98,8 +98,7 @@ impl<'a> Evidence<'a> {
         let mut members = BTreeSet::new();
         for &one in &self.mistakes {
             for &other in self.mistakes.range(one + 1..) {
-                let mut items = self.items.iter();
-                if items.all(|item| item.is_explained_by(&[one, other])) {
+                if self.is_explained_by_pair(one, other) {
                     let pair = BTreeSet::from([self.hint(one), self.hint(other)]);
                     let both_needed =
                         self.affects_more_than(one, other) && self.affects_more_than(other, one);
@@ -114,10 +113,55 @@ impl<'a> Evidence<'a> {
             }
         }
         let hints = hints.unwrap_or_default();
-        let named = members.into_iter();
+        members.retain(|&mistake| hints.contains(self.hint(mistake)));
+        let named = members.iter().copied();
         named
-            .filter(|&mistake| hints.contains(self.hint(mistake)))
+            .filter(|&mistake| !self.has_rival_beside(&members, mistake))
             .collect()
+    }
+
+    /// Returns whether two mistakes explain all answers, and not by leaving most of them open: where
+    /// both change the same numbers, anything can come out.
+    fn is_explained_by_pair(&self, one: usize, other: usize) -> bool {
+        let (mut wrong_items, mut items_of_one) = (0, 0);
+        let (mut certain, mut open) = (0, 0);
+        for item in &self.items {
+            if !item.is_explained_by(&[one, other]) {
+                return false;
+            }
+            let alone = [one, other].map(|mistake| item.is_explained_by(&[mistake]));
+            // With both mistakes, a number that both change is not what it is with one of them.
+            if alone[0] != alone[1] && item.is_changed_differently_by(one, other) {
+                return false;
+            }
+            if item.is_wrong() {
+                wrong_items += 1;
+                items_of_one += usize::from(alone.contains(&true));
+            }
+            let counts = item.certain_and_open(one, other);
+            certain += counts.0;
+            open += counts.1;
+        }
+        3 * items_of_one >= 2 * wrong_items && certain >= open
+    }
+
+    /// Returns whether a mistake with another hint, which is not one of `members`, explains the items
+    /// that this mistake explains alone, and half of all items that it affects itself.
+    fn has_rival_beside(&self, members: &BTreeSet<usize>, mistake: usize) -> bool {
+        let affected = self.affected(mistake);
+        let explained: Vec<_> = affected
+            .filter(|item| item.is_explained_by(&[mistake]))
+            .collect();
+        let is_rival = |other: usize| {
+            let mut explained_alike = explained.iter();
+            self.hint(other) != self.hint(mistake)
+                && !members.contains(&other)
+                && explained_alike.all(|item| item.is_explained_by(&[other]))
+                && self.explained(other) >= explained.len()
+                && 2 * self.explained(other) >= self.affected(other).count()
+        };
+        let mut others = self.mistakes.iter().copied();
+        others.any(is_rival)
     }
 
     /// Returns whether a mistake affects an item that another one leaves correct.
@@ -171,7 +215,8 @@ impl<'a> Evidence<'a> {
             items >= 3
                 && 2 * items > wrong
                 && 4 * items >= 3 * affected
-                && agreeing >= 3.max(per_difference * differing)
+                && agreeing >= 3
+                && agreeing > per_difference * differing
                 && !others.any(is_rival)
         };
         let mistakes = self.mistakes.iter().copied();
@@ -296,6 +341,39 @@ impl Observed<'_> {
                 .collect();
             answer.is_made_of(correct, &wrong)
         })
+    }
+
+    /// Returns whether there is an answer of which two mistakes change the numbers, each in its own
+    /// way.
+    fn is_changed_differently_by(&self, one: usize, other: usize) -> bool {
+        let (Some(by_one), Some(by_other)) = (self.wrong.get(&one), self.wrong.get(&other)) else {
+            return false;
+        };
+        let is_number = |answer: &ObservedAnswer| matches!(answer, ObservedAnswer::Numbers(_));
+        by_one.iter().any(|(element, answer)| {
+            let both = by_other.get(element);
+            both.is_some_and(|other| {
+                is_number(answer) && is_number(other) && !answer.matches(other)
+            })
+        })
+    }
+
+    /// Of the answers that two mistakes change, returns how many are those of one of them, and how many
+    /// are others, as is possible where both change them.
+    fn certain_and_open(&self, one: usize, other: usize) -> (usize, usize) {
+        let wrong =
+            |mistake: usize, element: usize| self.wrong.get(&mistake)?.get(&element).copied();
+        let (mut certain, mut open) = (0, 0);
+        for (element, answer) in self.answers.iter().enumerate() {
+            match (wrong(one, element), wrong(other, element)) {
+                (None, None) => {}
+                (Some(one), Some(other)) if !answer.matches(one) && !answer.matches(other) => {
+                    open += 1;
+                }
+                (Some(_), _) | (None, Some(_)) => certain += 1,
+            }
+        }
+        (certain, open)
     }
 }
 

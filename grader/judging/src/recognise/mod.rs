@@ -5,7 +5,8 @@
 //! since any code that finds nothing answers like it.
 //!
 //! 1. It alone explains all answers in the task.
-//! 2. It explains them together with one other mistake, and no other pair does without it.
+//! 2. It explains them together with one other mistake, and no other pair does without it. Most answers
+//!    must be those of one of the two: where both change an answer, anything can come out.
 //! 3. It explains every item that it affects, which are most of the wrong ones, and no other known
 //!    mistake explains these items. Other items of the task may be wrong for another reason.
 //! 4. It explains nearly all answers to the items that it affects, which are most of the wrong ones,

@@ -37,9 +37,9 @@ fn sum(file: &Value, key: &str) -> u64 {
 
 /// Returns a value of each entry in a list, without quotes.
 fn column(list: &Value, key: &str) -> Vec<String> {
-    let text = |entry: &Value| match &entry[key] {
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
+    let text = |entry: &Value| match entry[key].as_str() {
+        Some(text) => text.to_owned(),
+        None => entry[key].to_string(),
     };
     list.as_array().unwrap().iter().map(text).collect()
 }

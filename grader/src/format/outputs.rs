@@ -317,11 +317,12 @@ mod tests {
     #[test]
     fn the_folder_of_the_files_is_relative_to_the_checkout() {
         let folder = folder_in_checkout(STARTER.as_ref(), &RAYS);
-        // On GitHub, the checkout is the whole workspace.
-        assert!(
-            ["starter", "grader/starter"].contains(&folder.as_str()),
-            "{folder}"
-        );
+        // On GitHub, the checkout is the whole workspace, if that is where the tests run.
+        let current = env::current_dir().unwrap().canonicalize().unwrap();
+        let checkout = env::var_os("GITHUB_WORKSPACE").map_or(current.clone(), PathBuf::from);
+        let checkout = checkout.canonicalize();
+        let is_inside = checkout.is_ok_and(|checkout| current.starts_with(checkout));
+        assert_eq!(folder.ends_with(STARTER), is_inside, "{folder}");
         let elsewhere = tempfile::tempdir().unwrap();
         fs::write(elsewhere.path().join("bvh.rs"), "").unwrap();
         assert_eq!(folder_in_checkout(elsewhere.path(), &RAYS), "");

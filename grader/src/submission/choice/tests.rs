@@ -111,6 +111,8 @@ fn built(folders: &[(String, Vec<(usize, String)>)]) -> Vec<Candidate> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn the_order_of_the_listing_does_not_matter(folders in any_candidates(), from in 0usize..5) {
         let mut turned = folders.clone();

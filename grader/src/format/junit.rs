@@ -138,3 +138,18 @@ impl<'a> FromIterator<&'a ItemScore> for Counts {
 fn is_xml_char(character: &char) -> bool {
     matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::is_xml_char;
+
+    #[test]
+    fn characters_that_xml_forbids_are_left_out() {
+        assert!("a\t\r\n é\u{fffd}😀".chars().all(|c| is_xml_char(&c)));
+        assert!(
+            !"\0\u{7}\u{1b}\u{fffe}\u{ffff}"
+                .chars()
+                .any(|c| is_xml_char(&c))
+        );
+    }
+}

@@ -16,6 +16,8 @@ mod junit;
 pub mod outputs;
 mod prairielearn;
 mod redact;
+#[cfg(test)]
+mod sample;
 mod sentence;
 mod size;
 mod spec;
@@ -43,3 +45,6 @@ pub static FORMATS: [&FormatSpec; 10] = [
 fn to_json(value: &serde_json::Value) -> String {
     format!("{value:#}\n")
 }
+
+#[cfg(test)]
+mod tests;

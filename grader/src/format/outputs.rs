@@ -194,3 +194,164 @@ fn find_methods(submission: &Submission) -> BTreeMap<Task, MethodLocation> {
     let tasks = submission.handed_out.assignment.tasks.iter();
     tasks.map(location).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::format::sample;
+    use crate::handed_out::RAYS;
+
+    /// The folder with the starter's files, relative to the package, in which Cargo runs the tests.
+    const STARTER: &str = "starter";
+
+    fn specs(formats: &[&str]) -> Vec<OutputSpec> {
+        formats.iter().map(|text| text.parse().unwrap()).collect()
+    }
+
+    fn outputs(formats: &[&str], folder: &Path) -> Outputs {
+        let starter = Path::new(env!("CARGO_MANIFEST_DIR")).join(STARTER);
+        let submission = Submission::collect(&starter, &RAYS).unwrap();
+        let hints = HintDetail::Nudge;
+        Outputs::new(
+            &specs(formats),
+            folder,
+            STARTER.as_ref(),
+            &submission,
+            hints,
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn each_format_gets_its_file_in_the_folder_or_at_the_requested_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let requested = folder.path().join("mine.xml");
+        let junit = format!("junit={}", requested.display());
+        let outputs = outputs(&["json", "text", &junit], folder.path());
+        let paths: Vec<&Path> = outputs.paths().collect();
+        assert_eq!(paths, [folder.path().join("report.txt"), requested.clone()]);
+        outputs.write(&sample::open).unwrap();
+        let text = fs::read_to_string(folder.path().join("report.txt")).unwrap();
+        assert!(text.contains("9 / 28"), "{text}");
+        assert!(fs::read_to_string(requested).unwrap().starts_with("<?xml"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn without_outputs_no_view_is_made() {
+        let outputs = Outputs::default();
+        assert!(outputs.is_empty());
+        outputs
+            .write(&|| panic!("nothing is to be written"))
+            .unwrap();
+    }
+
+    #[test]
+    fn an_output_follows_the_text_of_earlier_commands() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("report.txt");
+        let mut outputs = outputs(&["text"], folder.path());
+        assert!(!outputs.is_empty());
+        "before\n".clone_into(&mut outputs.files[0].existing_text);
+        outputs.write(&sample::open).unwrap();
+        let text = fs::read_to_string(path).unwrap();
+        assert!(text.starts_with("before\n\n  ann"), "{text}");
+    }
+
+    #[test]
+    fn only_some_formats_print_commands() {
+        let folder = tempfile::tempdir().unwrap();
+        let commands = |formats: &[&str]| {
+            let outputs = outputs(formats, folder.path());
+            outputs.runner_commands(&sample::open())
+        };
+        assert_eq!(commands(&["text", "junit"]), "");
+        let github = format!("github={}", folder.path().join("a.md").display());
+        assert!(commands(&["text", &github]).starts_with("::error file="));
+    }
+
+    /// Tests cannot set environment variables, so this one reads a file that Cargo names in one.
+    #[test]
+    fn a_file_that_the_platform_names_keeps_its_text() {
+        static SHARED: FormatSpec = FormatSpec {
+            file: "own.txt",
+            shared_file: Some("CARGO_MANIFEST_PATH"),
+            ..FormatSpec::EMPTY
+        };
+        let Some(manifest) = env::var_os("CARGO_MANIFEST_PATH") else {
+            return;
+        };
+        let mut spec = OutputSpec {
+            format: &SHARED,
+            path: None,
+        };
+        let output = resolve_output(&spec, "out".as_ref()).unwrap();
+        assert_eq!(output.path, PathBuf::from(manifest));
+        assert!(output.existing_text.contains("name = \"grader\""));
+        spec.path = Some("mine.txt".into());
+        let output = resolve_output(&spec, "out".as_ref()).unwrap();
+        assert_eq!(output.path, PathBuf::from("mine.txt"));
+        assert_eq!(output.existing_text, "");
+    }
+
+    #[test]
+    fn a_format_names_a_variable_that_is_not_set() {
+        static NEEDS_BOTH: FormatSpec = FormatSpec {
+            id: "needy",
+            variables: &["CARGO_MANIFEST_DIR", "NO_TEST_SETS_THIS"],
+            ..FormatSpec::EMPTY
+        };
+        let mut known = BTreeMap::new();
+        let error = read_variables(&NEEDS_BOTH, &mut known).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "--format needy needs the environment variable NO_TEST_SETS_THIS, which is not set: \
+             grade on the platform's runner, or set CARGO_MANIFEST_DIR, NO_TEST_SETS_THIS"
+        );
+        let keys: Vec<&str> = known.into_keys().collect();
+        assert_eq!(keys, ["CARGO_MANIFEST_DIR"]);
+    }
+
+    #[test]
+    fn the_folder_of_the_files_is_relative_to_the_checkout() {
+        let folder = folder_in_checkout(STARTER.as_ref(), &RAYS);
+        // On GitHub, the checkout is the whole workspace, if that is where the tests run.
+        let current = env::current_dir().unwrap().canonicalize().unwrap();
+        let checkout = env::var_os("GITHUB_WORKSPACE").map_or(current.clone(), PathBuf::from);
+        let checkout = checkout.canonicalize();
+        let is_inside = checkout.is_ok_and(|checkout| current.starts_with(checkout));
+        assert_eq!(folder.ends_with(STARTER), is_inside, "{folder}");
+        let elsewhere = tempfile::tempdir().unwrap();
+        fs::write(elsewhere.path().join("bvh.rs"), "").unwrap();
+        assert_eq!(folder_in_checkout(elsewhere.path(), &RAYS), "");
+        assert_eq!(folder_in_checkout("tests".as_ref(), &RAYS), "");
+    }
+
+    #[test]
+    fn each_method_is_found_in_its_own_file() {
+        let methods = outputs(&[], "out".as_ref()).context.methods;
+        for task in RAYS.assignment.tasks {
+            let text = RAYS.task_file(task.file).unwrap().starter;
+            let head = format!("pub fn {}(", task.method);
+            let before = text.split(&head).next().unwrap();
+            let line = u32::try_from(before.matches('\n').count()).unwrap() + 1;
+            let expected = MethodLocation {
+                file: task.file,
+                line: Some(line),
+            };
+            assert_eq!(methods[&task.task()], expected, "{}", task.id);
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_missing_has_no_line() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("sphere.rs"), "\n  pub fn hit(&self)").unwrap();
+        let submission = Submission::collect(folder.path(), &RAYS).unwrap();
+        let methods = find_methods(&submission);
+        let lines: Vec<Option<u32>> = methods.values().map(|method| method.line).collect();
+        assert_eq!(lines, [None, None, None, Some(2), None, None]);
+    }
+}

@@ -206,3 +206,122 @@ fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
     });
     items
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::{StudentView, sample};
+
+    fn item<'a>(view: &'a StudentView, id: &str) -> &'a ItemScore {
+        let mut items = view.visible.items();
+        items.find(|item| item.id == id).unwrap()
+    }
+
+    /// The sample has something for each field, at each visibility.
+    #[test]
+    fn students_see_what_the_policy_allows() {
+        let view = sample::restricted();
+        let visible = serde_json::to_value(&view.visible).unwrap();
+        insta::assert_snapshot!("restricted", format!("{visible:#}"));
+    }
+
+    #[test]
+    fn nothing_but_text_for_people_changes_in_an_open_exam() {
+        let (score, view) = (sample::score(), sample::open());
+        for (own, shown) in score.items().zip(view.visible.items()) {
+            let (staff, evidence) = (None, own.evidence.as_ref().map(sanitized_evidence));
+            let expected = ItemScore {
+                staff,
+                evidence,
+                ..own.clone()
+            };
+            assert_eq!(*shown, expected);
+        }
+        let asked = &item(&view, "camera.unit_length")
+            .evidence
+            .as_ref()
+            .unwrap()
+            .asked;
+        assert_eq!(asked, "pixel\\u{1b}[2J (1, 2)");
+        assert_eq!(view.visible.rerun_command, RerunCommand::default());
+    }
+
+    #[test]
+    fn a_hidden_item_is_named_by_its_task() {
+        let view = sample::restricted();
+        let blocked = item(&view, "traverse.closest_hit");
+        let by = "bbox".to_owned();
+        assert_eq!(blocked.verdict, Verdict::Blocked { by });
+        assert_eq!(blocked.message, "depends on bbox: fix that first");
+        let carried = item(&view, "traverse.any_hit");
+        assert!(!carried.message.contains("bbox") && !carried.message.is_empty());
+        // Only hidden ones: students know the others.
+        let by_other = Verdict::Blocked {
+            by: "sphere.near_side".to_owned(),
+        };
+        assert_eq!(
+            without_hidden_id(&by_other, &["bbox.flat".to_owned()]),
+            by_other
+        );
+    }
+
+    #[test]
+    fn a_verdict_follows_from_points() {
+        let verdicts = [0, 1, 2, 3].map(|points| verdict_from_points(points, 3));
+        let partial = Verdict::Partial;
+        assert_eq!(
+            verdicts,
+            [Verdict::Wrong, partial.clone(), partial, Verdict::Pass]
+        );
+        assert_eq!(verdict_from_points(0, 0), Verdict::Wrong);
+    }
+
+    #[test]
+    fn points_alone_still_tell_that_an_item_is_not_graded() {
+        let shown = |level: &str| {
+            let policy = format!("[visibility.items]\ntraverse = '{level}'");
+            sample::view(
+                &sample::of_final_exam(sample::unfinished_score()),
+                &policy,
+                0,
+            )
+        };
+        let points = shown("points");
+        assert_eq!(item(&points, "traverse.any_hit").verdict, Verdict::Pending);
+        assert_eq!(
+            item(&points, "traverse.closest_hit").verdict,
+            Verdict::Wrong
+        );
+        let hidden = shown("hidden");
+        assert_eq!(
+            item(&hidden, "traverse.not_shown").verdict,
+            Verdict::Pending
+        );
+    }
+
+    #[test]
+    fn hidden_items_pass_together_if_each_of_them_does() {
+        let hidden = |score: Score| {
+            let policy = "[visibility]\nfinal = 'hidden'";
+            sample::view(&sample::of_final_exam(score), policy, 0)
+        };
+        let perfect = hidden(sample::perfect_score());
+        assert!(
+            perfect
+                .visible
+                .items()
+                .all(|item| item.verdict == Verdict::Pass)
+        );
+        let partial = hidden(sample::score());
+        let verdict = |id| item(&partial, id).verdict.clone();
+        assert_eq!(verdict("sphere.not_shown"), Verdict::Partial);
+        assert_eq!(verdict("triangle.not_shown"), Verdict::Wrong);
+        assert_eq!(
+            item(&partial, "bbox.not_shown").title,
+            "one item that is not shown"
+        );
+        let sphere = item(&partial, "sphere.not_shown");
+        assert_eq!(sphere.title, "3 items that are not shown");
+        assert_eq!((sphere.points, sphere.max_points), (3, 5));
+    }
+}

@@ -119,3 +119,43 @@ impl fmt::Display for Sentence<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_verdict_has_its_sentence() {
+        let blocked = Verdict::Blocked {
+            by: "bbox.flat".to_owned(),
+        };
+        let verdicts = [
+            Verdict::Pass,
+            Verdict::Partial,
+            Verdict::Wrong,
+            Verdict::Panicked,
+            Verdict::Unimplemented,
+            Verdict::TimedOut,
+            Verdict::OutOfMemory,
+            Verdict::Crashed,
+            Verdict::Protocol,
+            Verdict::NotCompiled,
+            blocked,
+            Verdict::Pending,
+        ];
+        let line = |verdict: &Verdict| {
+            let sentence = Sentence::new(verdict, false);
+            format!("{}: {sentence}", verdict.label())
+        };
+        insta::assert_snapshot!(verdicts.each_ref().map(line).join("\n"));
+    }
+
+    #[test]
+    fn an_item_graded_with_the_reference_says_so() {
+        let sentence = |verdict| Sentence::new(verdict, true).to_string();
+        let passed = sentence(&Verdict::Pass);
+        assert!(passed.starts_with("graded with the reference's other files"));
+        let wrong = sentence(&Verdict::Wrong);
+        assert_eq!(wrong, format!("an answer is wrong; {passed}"));
+    }
+}

@@ -109,3 +109,41 @@ impl FromStr for OutputSpec {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::sample;
+
+    #[test]
+    fn a_format_is_named_with_or_without_a_path() {
+        let parsed = |text: &str| {
+            let spec: OutputSpec = text.parse().unwrap();
+            (format!("{:?}", spec.format), spec.path)
+        };
+        assert_eq!(parsed("junit"), ("junit".to_owned(), None));
+        assert_eq!(parsed("json"), ("json".to_owned(), None));
+        let path = Some(PathBuf::from("a=b.md"));
+        assert_eq!(parsed("github=a=b.md"), ("github".to_owned(), path));
+    }
+
+    #[test]
+    fn only_a_format_with_a_file_of_its_own_takes_a_path() {
+        let error = |text: &str| text.parse::<OutputSpec>().unwrap_err();
+        let no_path = "expected a path after `=`; score.json always goes to --out";
+        assert_eq!(error("json=score.json"), no_path);
+        assert_eq!(error("junit="), no_path);
+        let unknown = error("gradescop");
+        assert!(unknown.starts_with("the formats are json, text, html, gradescope,"));
+    }
+
+    #[test]
+    fn the_file_of_a_task_of_another_assignment_is_unknown() {
+        let context = sample::context();
+        assert_eq!(
+            context.file_of(Task::in_id("traverse.x").unwrap()),
+            "bvh.rs"
+        );
+        assert_eq!(context.file_of(Task::in_id("other.x").unwrap()), "");
+    }
+}

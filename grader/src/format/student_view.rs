@@ -122,3 +122,91 @@ fn hidden_ids(policy: &Policy, score: &Score) -> Vec<String> {
     let hidden = items.filter(|item| !policy.visibility(&score.exam, &item.id).is_shown_now());
     hidden.map(|item| item.id.clone()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::sample;
+
+    /// Returns what students see of the sample as a final exam, with these exceptions.
+    fn view(items: &str) -> StudentView {
+        let policy = format!("[visibility]\nfinal = 'all'\n[visibility.items]\n{items}");
+        sample::view(&sample::of_final_exam(sample::score()), &policy, 0)
+    }
+
+    fn visibility(view: &StudentView, id: &str) -> Visibility {
+        let mut items = view.all_items.iter();
+        items.find(|entry| entry.item.id == id).unwrap().visibility
+    }
+
+    #[test]
+    fn a_task_is_open_only_if_all_of_its_items_are() {
+        let view = view("'triangle.edge' = 'points'");
+        assert_eq!(visibility(&view, "triangle.edge"), Visibility::Points);
+        assert_eq!(visibility(&view, "triangle.inside"), Visibility::Feedback);
+        assert_eq!(visibility(&view, "camera.corners"), Visibility::All);
+    }
+
+    #[test]
+    fn items_that_are_not_open_anyway_stay_as_they_are() {
+        let view = view("triangle = 'points'\n'triangle.edge' = 'hidden'");
+        assert_eq!(visibility(&view, "triangle.inside"), Visibility::Points);
+        assert_eq!(visibility(&view, "triangle.edge"), Visibility::Hidden);
+    }
+
+    #[test]
+    fn the_time_is_shown_only_with_everything_else() {
+        assert_eq!(view("").milliseconds(), Some(1_500));
+        assert_eq!(view("'bbox.flat' = 'feedback'").milliseconds(), None);
+    }
+
+    #[test]
+    fn hidden_items_are_summed_up_in_one() {
+        let view = view("'build.memory' = 'hidden'\n'build.depth' = 'after_due'");
+        let items = view
+            .visible_items()
+            .filter(|(task, _)| task.id.id() == "build");
+        let ids: Vec<&str> = items.map(|(_, item)| item.id.as_str()).collect();
+        assert_eq!(ids, ["build.partition", "build.leaves", "build.not_shown"]);
+        assert_eq!(view.visible_items().count(), 13);
+        assert_eq!(view.all_items.len(), 14);
+    }
+
+    #[test]
+    fn points_that_count_as_earned_need_no_explanation() {
+        assert_eq!(view("").counted_text(), None);
+        let late = sample::late().counted_text().unwrap();
+        assert!(late.starts_with("16 of 56 points count"), "{late}");
+    }
+
+    #[test]
+    fn a_notice_counts_graded_items_only_if_none_is_hidden() {
+        let notice = |policy: &str| {
+            let score = sample::of_final_exam(sample::unfinished_score());
+            sample::view(&score, policy, 0).unfinished_notice()
+        };
+        let of = |count: &str| {
+            Some(format!(
+                "UNFINISHED: {count} items are graded; the others have no points yet"
+            ))
+        };
+        assert_eq!(notice(""), of("13 of 14"));
+        assert_eq!(
+            notice("[visibility.items]\nbbox = 'hidden'"),
+            of("only some")
+        );
+        assert_eq!(view("").unfinished_notice(), None);
+    }
+
+    #[test]
+    fn one_file_that_compiles_is_enough_to_be_graded() {
+        assert!(!view("").nothing_compiled());
+        let mut score = sample::score();
+        for task in &mut score.tasks {
+            for item in &mut task.items {
+                item.verdict = Verdict::NotCompiled;
+            }
+        }
+        assert!(sample::view(&score, "", 0).nothing_compiled());
+    }
+}

@@ -175,3 +175,73 @@ pub fn places(paths: &[String]) -> String {
     };
     paths.iter().map(name).collect::<Vec<_>>().join(" and ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn path_error(kind: ErrorKind) -> PathError {
+        PathError {
+            action: "read",
+            path: "ann".into(),
+            source: kind.into(),
+        }
+    }
+
+    #[test]
+    fn only_a_fault_of_the_machine_costs_no_points() {
+        let archive = |why| SubmissionError::Archive {
+            path: "a.zip".into(),
+            why,
+        };
+        let faults = [
+            SubmissionError::Machine(path_error(ErrorKind::TimedOut)),
+            archive(ArchiveError::Machine("timed out".to_owned())),
+        ];
+        assert!(faults.iter().all(SubmissionError::is_machine_fault));
+        let others = [
+            SubmissionError::Unreadable(path_error(ErrorKind::NotFound)),
+            archive(ArchiveError::Empty),
+            SubmissionError::NotFound("ann".into()),
+            SubmissionError::TooManyFiles("ann".into()),
+        ];
+        assert!(!others.iter().any(SubmissionError::is_machine_fault));
+    }
+
+    #[test]
+    fn missing_and_forbidden_files_are_the_submissions_own_fault() {
+        for kind in [ErrorKind::NotFound, ErrorKind::PermissionDenied] {
+            assert!(is_about_submission(&kind.into()), "{kind}");
+        }
+        for kind in [ErrorKind::TimedOut, ErrorKind::Other] {
+            assert!(!is_about_submission(&kind.into()), "{kind}");
+        }
+    }
+
+    #[test]
+    fn a_list_of_names_ends_with_the_number_of_others() {
+        let list = |count: usize| {
+            let names: Vec<String> = (1..=count).map(|n| n.to_string()).collect();
+            listed(&names)
+        };
+        assert_eq!(list(0), "no files");
+        assert_eq!(list(2), "1, 2");
+        let ten = "1, 2, 3, 4, 5, 6, 7, 8, 9, 10";
+        assert_eq!(list(10), ten);
+        assert_eq!(list(12), format!("{ten} and 2 more"));
+        assert_eq!(listed(&["a\u{7}".to_owned()]), "a\\u{7}");
+    }
+
+    #[test]
+    fn the_top_of_a_submission_has_a_name() {
+        let paths = [String::new(), "old".to_owned()];
+        assert_eq!(places(&paths), "its top level and old");
+        let error = ambiguous("ann".as_ref(), AmbiguousSource(paths.into()));
+        assert!(
+            error
+                .to_string()
+                .contains("differ, in its top level and old:"),
+            "{error}"
+        );
+    }
+}

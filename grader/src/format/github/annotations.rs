@@ -63,3 +63,50 @@ fn is_annotated(verdict: &Verdict) -> bool {
         | VerdictKind::Pending => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::sample;
+
+    /// A file that does not compile, and one item of each task that can be fixed by itself.
+    #[test]
+    fn the_first_mistake_of_each_task_is_annotated() {
+        insta::assert_snapshot!(annotations(&sample::open(), &sample::context()));
+    }
+
+    #[test]
+    fn a_perfect_submission_is_not_annotated() {
+        let perfect = sample::view(&sample::perfect_score(), "", 0);
+        assert_eq!(annotations(&perfect, &sample::context()), "");
+    }
+
+    #[test]
+    fn files_at_the_top_of_the_checkout_have_no_folder() {
+        let mut context = sample::context();
+        assert_eq!(checkout_path("bvh.rs", &context), "student/src/bvh.rs");
+        context.folder.clear();
+        assert_eq!(checkout_path("bvh.rs", &context), "bvh.rs");
+    }
+
+    #[test]
+    fn an_item_without_a_message_is_annotated_with_its_title() {
+        let policy = "[visibility]\npractice = 'points'";
+        let view = sample::view(&sample::score(), policy, 0);
+        let annotations = annotations(&view, &sample::context());
+        let camera = annotations.lines().nth(1).unwrap();
+        assert!(
+            camera.ends_with("::camera.unit_length: unit length"),
+            "{camera}"
+        );
+    }
+
+    #[test]
+    fn no_more_is_annotated_than_github_shows() {
+        let mut score = sample::score();
+        let file = score.build.not_compiled[0].clone();
+        score.build.not_compiled = vec![file; 20];
+        let annotations = annotations(&sample::view(&score, "", 0), &sample::context());
+        assert_eq!(annotations.lines().count(), MAX_ANNOTATIONS);
+    }
+}

@@ -67,4 +67,10 @@ mod tests {
         let (one, other) = (random_token().unwrap(), random_token().unwrap());
         assert!(one.len() == 32 && one != other);
     }
+
+    #[test]
+    fn commands_are_stopped_around_a_text() {
+        let text = with_commands_stopped("::error::mine", "token");
+        assert_eq!(text, "::stop-commands::token\n::error::mine\n::token::\n");
+    }
 }

@@ -63,4 +63,33 @@ mod tests {
         assert_eq!(with_counted(&again, &[]), page);
         assert_eq!(with_counted("no marks", &["1".to_owned()]), "no marks");
     }
+
+    #[test]
+    fn a_finished_page_is_updated_in_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("feedback.html");
+        let page = format!("<h1>ann</h1>{}<p>", marks().into_string());
+        std::fs::write(&path, &page).unwrap();
+        let text = ["45 of 50".to_owned()];
+        write_counted(&path, &text).unwrap();
+        let read = || std::fs::read_to_string(&path).unwrap();
+        assert_eq!(read(), with_counted(&page, &text));
+        assert_ne!(read(), page);
+        // Nor does it change again.
+        write_counted(&path, &text).unwrap();
+        assert_eq!(read(), with_counted(&page, &text));
+    }
+
+    #[test]
+    fn a_page_is_neither_created_nor_written_without_need() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("feedback.html");
+        write_counted(&path, &["45 of 50".to_owned()]).unwrap();
+        assert!(!path.exists());
+        std::fs::write(&path, "no marks").unwrap();
+        let modified = || std::fs::metadata(&path).unwrap().modified().unwrap();
+        let before = modified();
+        write_counted(&path, &["45 of 50".to_owned()]).unwrap();
+        assert_eq!(modified(), before);
+    }
 }

@@ -73,3 +73,37 @@ impl<R: ReaderAt> ReaderAt for LimitedReader<R> {
         budget.read_within(buffer, |buffer| inner.read_at(buffer, offset))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_as_many_bytes_as_the_budget_has() {
+        let (mut reader, budget) = LimitedReader::new(&b"hello"[..], 3);
+        let mut buffer = [0; 2];
+        assert_eq!(reader.read(&mut buffer).unwrap(), 2);
+        assert_eq!(&buffer, b"he");
+        assert!(!budget.is_exhausted());
+        assert_eq!(reader.read(&mut buffer).unwrap(), 1);
+        assert!(budget.is_exhausted());
+        let error = reader.read(&mut buffer).unwrap_err();
+        assert_eq!(error.to_string(), "it has more bytes than may be read");
+        // Reading nothing is possible at any time.
+        assert_eq!(reader.read(&mut []).unwrap(), 0);
+        budget.reset(9);
+        assert_eq!(reader.read(&mut buffer).unwrap(), 2);
+        assert_eq!(&buffer, b"lo");
+    }
+
+    #[test]
+    fn bytes_count_at_any_offset() {
+        let (reader, budget) = LimitedReader::new(&b"hello"[..], 4);
+        let mut buffer = [0; 3];
+        assert_eq!(reader.read_at(&mut buffer, 2).unwrap(), 3);
+        assert_eq!(&buffer, b"llo");
+        assert_eq!(reader.read_at(&mut buffer, 0).unwrap(), 1);
+        assert_eq!(buffer[0], b'h');
+        assert!(budget.is_exhausted() && reader.read_at(&mut buffer, 0).is_err());
+    }
+}

@@ -312,3 +312,169 @@ fn reports_the_name_of_an_encrypted_file() {
         ArchiveError::Encrypted("bvh.rs".to_owned())
     );
 }
+
+#[test]
+fn names_the_kind_of_each_archive_that_it_does_not_read() {
+    let kinds: [(&[u8], &str); 5] = [
+        (b"Rar!\x1a\x07", ".rar"),
+        (b"7z\xbc\xaf\x27\x1c", ".7z"),
+        (b"\xfd7zXZ\0", ".xz"),
+        (b"BZh91AY", ".bz2"),
+        (b"\x28\xb5\x2f\xfd", ".zst"),
+    ];
+    for (head, kind) in kinds {
+        assert_eq!(collect_error(head), ArchiveError::UnsupportedKind(kind));
+    }
+    assert_eq!(collect_error(&[b'x'; 1024]), ArchiveError::NotAnArchive);
+}
+
+#[test]
+fn recognises_archives_by_their_names_in_any_case() {
+    for name in ["a.zip", "a.TAR.GZ", "a.rar", "a.7z"] {
+        assert!(is_archive_name(name), "{name}");
+    }
+    for name in ["a.rs", "zip", "a.zip.txt"] {
+        assert!(!is_archive_name(name), "{name}");
+    }
+}
+
+#[test]
+fn a_name_is_without_the_extension_of_an_archive() {
+    let names = [
+        "alice.tar.gz",
+        "alice.b.ZIP",
+        "alice.tgz",
+        "alice.txt",
+        ".zip",
+    ];
+    let stems = names.map(without_extension);
+    assert_eq!(stems, ["alice", "alice.b", "alice", "alice.txt", ".zip"]);
+}
+
+#[test]
+fn paths_are_relative_and_without_dots() {
+    for (path, normalized) in [
+        ("a/./b", "a/b"),
+        (r"a\b", "a/b"),
+        ("./a//b/", "a/b"),
+        ("..a", "..a"),
+    ] {
+        assert_eq!(normalize_path(path), Ok(normalized.to_owned()));
+    }
+    for path in ["/a", "C:a", "..", "a/../b"] {
+        let outside = ArchiveError::PathOutside(path.to_owned());
+        assert_eq!(normalize_path(path), Err(outside));
+    }
+}
+
+#[test]
+fn lists_folders_and_only_regular_files() {
+    let listing = |bytes: &[u8]| {
+        let archive = write_archive("a.tar", bytes);
+        let listing = Archive::open(&archive.path).unwrap().listing().unwrap();
+        let paths: Vec<String> = listing
+            .members
+            .into_iter()
+            .map(|member| member.path)
+            .collect();
+        (paths, listing.folders, listing.errors.len())
+    };
+    let none = Vec::<String>::new;
+    let folder = vec!["a/b".to_owned()];
+    let file = vec!["a/bvh.rs".to_owned()];
+    let directory = tar_with("a/b/", EntryType::Directory, b"");
+    assert_eq!(listing(&directory), (none(), folder, 0));
+    for kind in [EntryType::Regular, EntryType::Continuous] {
+        assert_eq!(
+            listing(&tar_with("a/bvh.rs", kind, b"x")),
+            (file.clone(), none(), 0)
+        );
+    }
+    // Git stores the id of the commit in such a header.
+    let comment = tar_with("pax_global_header", EntryType::XGlobalHeader, b"");
+    assert_eq!(listing(&comment), (none(), none(), 0));
+    // The folder of a link is listed, so that its person can be told.
+    let link = tar_with("ann/bvh.rs", EntryType::Symlink, b"");
+    assert_eq!(listing(&link), (none(), vec!["ann".to_owned()], 1));
+}
+
+#[test]
+fn a_tar_is_read_at_once_and_a_zip_file_by_file() {
+    let batch_size = |bytes: &[u8]| {
+        let archive = write_archive("a", bytes);
+        Archive::open(&archive.path).unwrap().batch_size()
+    };
+    assert_eq!(batch_size(&zip(FILES)), 1);
+    assert_eq!(batch_size(&tar(FILES)), MAX_MEMBERS);
+}
+
+#[test]
+fn a_file_as_long_as_the_limit_is_read_in_full() {
+    const LIMIT: usize = 1 << 20;
+    // A file that cannot be compressed takes more bytes in the archive than by itself.
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+    let long = vec![b' '; LIMIT];
+    writer.start_file("bvh.rs", options).unwrap();
+    writer.write_all(&long).unwrap();
+    let stored = writer.finish().unwrap().into_inner();
+    for bytes in [stored, tar(&[("bvh.rs", &long)])] {
+        let submission = collect("a", &bytes).unwrap();
+        assert_eq!(
+            text(&submission, "bvh.rs").as_ref().map(String::len),
+            Ok(LIMIT)
+        );
+    }
+    let longer = vec![b' '; LIMIT + 1];
+    for bytes in [zip(&[("bvh.rs", &longer)]), tar(&[("bvh.rs", &longer)])] {
+        let archive = write_archive("a", &bytes);
+        let (found, _) = candidates(&archive.path, "", &RAYS).unwrap();
+        let too_long = Err(TaskFileError::TooLong("bvh.rs"));
+        assert_eq!(found[0].files.task_files["bvh.rs"], too_long);
+    }
+}
+
+#[test]
+fn only_rust_files_in_folders_that_are_handed_in_count() {
+    let files: Files = &[
+        ("hw/bvh.rs", b"tree"),
+        ("hw/notes.txt", b"no"),
+        ("hw/target/bvh.rs", b"another"),
+        ("hw/.git/sphere.rs", b"another"),
+    ];
+    for bytes in [zip(files), tar(files)] {
+        let submission = collect("a", &bytes).unwrap();
+        assert_eq!(*text(&submission, "bvh.rs"), Ok("tree".to_owned()));
+        let missing = Err(TaskFileError::Missing("sphere.rs"));
+        assert_eq!(*text(&submission, "sphere.rs"), missing);
+        assert_eq!(submission.notes, Vec::<String>::new());
+    }
+}
+
+#[test]
+fn the_folders_in_an_archive_are_named_with_it() {
+    let archive = write_archive("a.zip", &zip(&[("bvh.rs", b"1"), ("old/bvh.rs", b"2")]));
+    let (found, names) = candidates(&archive.path, "a.zip", &RAYS).unwrap();
+    let folders: Vec<&str> = found
+        .iter()
+        .map(|candidate| candidate.folder.as_str())
+        .collect();
+    assert_eq!(folders, ["a.zip", "a.zip/old"]);
+    assert_eq!(names, ["bvh.rs", "old"]);
+}
+
+#[test]
+fn folders_with_task_files_are_counted_up_to_a_limit() {
+    let count = |folders: usize| {
+        let paths: Vec<String> = (0..folders).map(|n| format!("{n}/bvh.rs")).collect();
+        let files: Vec<(&str, &[u8])> = paths
+            .iter()
+            .map(|path| (path.as_str(), &b"x"[..]))
+            .collect();
+        let archive = write_archive("a.zip", &zip(&files));
+        candidates(&archive.path, "", &RAYS).map(|(found, _)| found.len())
+    };
+    assert_eq!(count(32).unwrap(), 32);
+    let why = ArchiveError::TooManyFiles;
+    assert!(matches!(count(33), Err(SubmissionError::Archive { why: found, .. }) if found == why));
+}

@@ -111,6 +111,8 @@ fn built(folders: &[(String, Vec<(usize, String)>)]) -> Vec<Candidate> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn the_order_of_the_listing_does_not_matter(folders in any_candidates(), from in 0usize..5) {
         let mut turned = folders.clone();
@@ -130,4 +132,61 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn folders_of_tools_and_of_the_project_are_skipped() {
+    for name in [".git", "target", "__MACOSX", "grader"] {
+        assert!(is_skipped(name, &RAYS), "{name}");
+    }
+    for name in ["src", "student", "old", "targets"] {
+        assert!(!is_skipped(name, &RAYS), "{name}");
+    }
+}
+
+#[test]
+fn a_copy_has_a_number() {
+    assert!(is_numbered_copy("bvh (12).rs", "bvh.rs"));
+    for name in [
+        "bvh ().rs",
+        "bvh (x).rs",
+        "bvh (1x).rs",
+        "bvh.rs",
+        "bvh(1).rs",
+    ] {
+        assert!(!is_numbered_copy(name, "bvh.rs"), "{name}");
+    }
+}
+
+#[test]
+fn the_assignments_folders_come_before_those_below_another_and_these_before_the_rest() {
+    let folders = [
+        "",
+        "src",
+        "student/src",
+        "a",
+        "a/src",
+        "a/student/src",
+        "a/b",
+    ];
+    let ranks = folders.map(|folder| rank(folder, &RAYS));
+    assert_eq!(ranks, [0, 1, 2, 3, 4, 5, 6]);
+}
+
+#[test]
+fn a_choice_is_complete_if_every_file_was_written() {
+    let is_complete = |files: &[(usize, &str)]| {
+        let choice = choose(vec![candidate("src", files)], &RAYS).unwrap();
+        choice.unwrap().is_complete
+    };
+    assert!(is_complete(&all("new")));
+    assert!(!is_complete(&all("new")[1..]));
+    let mut files = all("new");
+    files[0].1 = "";
+    assert!(!is_complete(&files), "one file is the starter's");
+}
+
+#[test]
+fn without_task_files_there_is_no_choice() {
+    assert!(choose(Vec::new(), &RAYS).unwrap().is_none());
 }

@@ -1,0 +1,331 @@
+//! Tests of all formats with the same score: its numbers, and a snapshot of each text.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
+
+use super::sample::{self, LATE, RESTRICTED};
+use super::{FORMATS, FormatContext, FormatSpec, StudentView};
+use crate::score::Verdict;
+
+fn format(id: &str) -> &'static FormatSpec {
+    let mut formats = FORMATS.into_iter();
+    formats.find(|format| format.id == id).unwrap()
+}
+
+/// Returns the file of a format, in a form that people can read.
+fn rendered(id: &str, view: &StudentView) -> String {
+    let text = format(id).render.unwrap()(view, &sample::context());
+    match text.strip_prefix("result=") {
+        Some(result) if id == "github-classroom" => {
+            let result = STANDARD.decode(result.trim_end()).unwrap();
+            format!("{:#}", serde_json::from_slice::<Value>(&result).unwrap())
+        }
+        _ => text,
+    }
+}
+
+fn json(id: &str, view: &StudentView) -> Value {
+    serde_json::from_str(&rendered(id, view)).unwrap()
+}
+
+/// Returns the sum of a number over the tests of a file. A test without the number counts nothing.
+fn sum(file: &Value, key: &str) -> u64 {
+    let tests = file["tests"].as_array().unwrap().iter();
+    tests.filter_map(|test| test[key].as_u64()).sum()
+}
+
+/// Returns a value of each entry in a list, without quotes.
+fn column(list: &Value, key: &str) -> Vec<String> {
+    let text = |entry: &Value| match entry[key].as_str() {
+        Some(text) => text.to_owned(),
+        None => entry[key].to_string(),
+    };
+    list.as_array().unwrap().iter().map(text).collect()
+}
+
+#[test]
+fn each_format_has_its_own_name_and_file() {
+    let files = FORMATS.map(|format| (format.id, format.file));
+    let expected = [
+        ("json", "score.json"),
+        ("text", "report.txt"),
+        ("html", "feedback.html"),
+        ("gradescope", "gradescope.json"),
+        ("classroom50", "classroom50.json"),
+        ("junit", "junit.xml"),
+        ("github", "github.md"),
+        ("github-classroom", "github-classroom.txt"),
+        ("check50", "check50.json"),
+        ("prairielearn", "prairielearn.json"),
+    ];
+    assert_eq!(files, expected);
+}
+
+#[test]
+fn only_classroom50_needs_variables_of_its_runner() {
+    let with_variables = FORMATS.into_iter().filter(|f| !f.variables.is_empty());
+    let ids: Vec<&str> = with_variables.map(|f| f.id).collect();
+    assert_eq!(ids, ["classroom50"]);
+    assert_eq!(format("classroom50").variables.len(), 9);
+}
+
+#[test]
+fn files_that_a_platform_shares_between_commands_are_appended_to() {
+    let shared = FORMATS.map(|format| format.shared_file);
+    let shared: Vec<&str> = shared.into_iter().flatten().collect();
+    assert_eq!(shared, ["GITHUB_STEP_SUMMARY", "GITHUB_OUTPUT"]);
+}
+
+#[test]
+fn only_the_score_file_is_not_rendered() {
+    let not_rendered = FORMATS.into_iter().filter(|f| f.render.is_none());
+    assert_eq!(not_rendered.map(|f| f.id).collect::<Vec<_>>(), ["json"]);
+}
+
+/// The texts of all formats but the page, whose style is long.
+#[test]
+fn everything_is_shown_of_the_practice_exam() {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_omit_expression(true);
+    settings.add_filter(r#""version": "[0-9.]+""#, r#""version": "1.2.3""#);
+    settings.bind(|| {
+        for format in FORMATS {
+            let is_short = format.id != "html" && format.render.is_some();
+            if is_short {
+                insta::assert_snapshot!(format.id, rendered(format.id, &sample::late()));
+            }
+        }
+    });
+}
+
+#[test]
+fn the_page_says_how_many_points_count() {
+    let sentence = "16 of 56 points count towards the grade: 9 of 28 points earned";
+    assert!(rendered("html", &sample::late()).contains(sentence));
+    let on_time = rendered("html", &sample::open());
+    assert!(on_time.contains("unit length") && !on_time.contains("towards the grade"));
+}
+
+#[test]
+fn platforms_get_the_points_that_count() {
+    let late = sample::late();
+    assert_eq!(json("gradescope", &late)["score"], 16);
+    let classroom50 = json("classroom50", &late);
+    assert_eq!(
+        (&classroom50["score"], &classroom50["max-score"]),
+        (&16.into(), &56.into())
+    );
+    let share = json("prairielearn", &late)["score"].as_f64().unwrap();
+    assert!((share - 16.0 / 56.0).abs() < 1e-9);
+    // The reporter adds up the tests' points, so there is no place for others.
+    assert_eq!(json("github-classroom", &late)["max_score"], 28);
+}
+
+#[test]
+fn the_points_of_all_tests_are_those_earned() {
+    let views = [sample::open(), sample::late(), sample::restricted()];
+    for view in views {
+        let points = |format: &str, points: &str, max_points: &str| {
+            let file = json(format, &view);
+            (sum(&file, points), sum(&file, max_points))
+        };
+        assert_eq!(points("gradescope", "score", "max_score"), (9, 28));
+        assert_eq!(points("classroom50", "score", "max-score"), (9, 28));
+        assert_eq!(points("prairielearn", "points", "max_points"), (9, 28));
+        assert_eq!(points("github-classroom", "score", "").0, 9);
+        let rows = rendered("github", &view);
+        let row = rows.lines().find(|row| row.contains("spheres")).unwrap();
+        assert_eq!(row, "| Task 2: spheres | 3 | 5 |");
+    }
+}
+
+#[test]
+fn an_explanation_of_the_grade_is_one_more_test() {
+    let (on_time, late) = (sample::open(), sample::late());
+    for id in ["classroom50", "github-classroom"] {
+        let count = |view: &StudentView| json(id, view)["tests"].as_array().unwrap().len();
+        assert_eq!((count(&on_time), count(&late)), (14, 15), "{id}");
+    }
+    let count = |view: &StudentView| json("check50", view)["results"].as_array().unwrap().len();
+    assert_eq!((count(&on_time), count(&late)), (14, 15));
+}
+
+#[test]
+fn junit_counts_the_results_of_each_kind() {
+    let file = rendered("junit", &sample::open());
+    let document = roxmltree::Document::parse(&file).unwrap();
+    let counts = |element: roxmltree::Node| {
+        let count = |name| element.attribute(name).unwrap().parse::<u32>().unwrap();
+        ["tests", "failures", "errors", "skipped"].map(count)
+    };
+    let all = document.root_element();
+    assert_eq!(counts(all), [14, 5, 5, 1]);
+    let suites: Vec<[u32; 4]> = all.children().map(counts).collect();
+    let of_tasks = [
+        [2, 1, 0, 0],
+        [2, 2, 0, 0],
+        [3, 2, 0, 0],
+        [1, 0, 1, 0],
+        [4, 0, 4, 0],
+        [2, 0, 0, 1],
+    ];
+    assert_eq!(suites, of_tasks);
+}
+
+#[test]
+fn a_check_that_was_not_run_has_neither_passed_nor_failed() {
+    let results = &json("check50", &sample::open())["results"];
+    let passed = [
+        "true", "false", "false", "false", "true", "false", "false", "null", "null", "null",
+        "null", "null", "null", "true",
+    ];
+    assert_eq!(column(results, "passed"), passed);
+}
+
+#[test]
+fn a_dependency_is_named_only_if_it_is_shown() {
+    let blocked = |view: &StudentView| {
+        let results = json("check50", view)["results"].take();
+        let names = column(&results, "name");
+        let index = names.iter().position(|name| name == "traverse.closest_hit");
+        results[index.unwrap()]["dependency"].clone()
+    };
+    assert_eq!(blocked(&sample::open()), "bbox.flat");
+    assert_eq!(blocked(&sample::restricted()), Value::Null);
+}
+
+#[test]
+fn a_check_without_a_message_is_explained_by_its_verdict() {
+    let points_only = sample::view(&sample::of_final_exam(sample::score()), RESTRICTED, 0);
+    let results = json("check50", &points_only)["results"].take();
+    let cause = |name: &str| {
+        let index = column(&results, "name")
+            .iter()
+            .position(|other| other == name);
+        results[index.unwrap()]["cause"]["rationale"].clone()
+    };
+    assert_eq!(cause("sphere.far_root"), "partial");
+    assert_eq!(cause("sphere.from_inside"), "wrong");
+}
+
+#[test]
+fn a_review_without_a_link_of_its_own_is_at_the_commit() {
+    let mut context = sample::context();
+    let render = format("classroom50").render.unwrap();
+    let review = |context: &FormatContext| {
+        let file: Value = serde_json::from_str(&render(&sample::open(), context)).unwrap();
+        file["review"].clone()
+    };
+    assert_eq!(review(&context), "the REVIEW_URL");
+    context.variables.insert("REVIEW_URL", String::new());
+    assert_eq!(review(&context), "the COMMIT_URL");
+}
+
+#[test]
+fn the_reporter_shows_whether_all_points_were_earned() {
+    let status = |score| {
+        let file = json("github-classroom", &sample::view(&score, "", 0));
+        let mut tests = column(&file["tests"], "status");
+        tests.dedup();
+        (column(&Value::from(vec![file]), "status").remove(0), tests)
+    };
+    assert_eq!(
+        status(sample::perfect_score()),
+        ("pass".to_owned(), vec!["pass".to_owned()])
+    );
+    let (all, tests) = status(sample::score());
+    assert_eq!(
+        (all.as_str(), tests[0].as_str(), tests[1].as_str()),
+        ("fail", "pass", "fail")
+    );
+    assert_eq!(status(sample::unfinished_score()).0, "error");
+}
+
+#[test]
+fn gradescope_shows_no_status_of_an_item_that_is_not_graded() {
+    let unfinished = sample::view(&sample::unfinished_score(), "", 0);
+    let statuses = column(&json("gradescope", &unfinished)["tests"], "status");
+    assert_eq!(statuses[0], "passed");
+    assert!(statuses[1..4].iter().all(|status| status == "failed"));
+    assert_eq!(statuses.last().unwrap(), "null");
+}
+
+#[test]
+fn gradescope_shows_each_item_when_the_policy_says() {
+    let file = json("gradescope", &sample::restricted());
+    let visibility = column(&file["tests"], "visibility");
+    let (last, items) = visibility.split_last().unwrap();
+    let mut expected = ["visible"; 14];
+    expected[7] = "after_due_date";
+    (expected[10], expected[11]) = ("after_published", "hidden");
+    assert_eq!(items, expected);
+    assert_eq!(last, "after_published", "the explanation of the total");
+    assert_eq!(column(&file["tests"], "number").last().unwrap(), "7");
+}
+
+#[test]
+fn gradescope_tells_no_total_that_includes_hidden_points() {
+    let file = json("gradescope", &sample::restricted());
+    let output = file["output"].as_str().unwrap();
+    let rules = "Some items are not shown yet.\n\nTowards the grade: 28 points count as 56; handed \
+                 in 1 day late, so 10 % of the points earned are deducted.\n\nerror: expected";
+    assert!(output.starts_with(rules), "{output}");
+    // A program can choose how long it runs.
+    assert_eq!(file.get("execution_time"), None);
+}
+
+#[test]
+fn gradescope_explains_a_total_when_it_is_shown() {
+    let last = |policy: &str, late_days: u64| {
+        let view = sample::view(&sample::of_final_exam(sample::score()), policy, late_days);
+        let tests = json("gradescope", &view)["tests"].take();
+        tests.as_array().unwrap().last().unwrap().clone()
+    };
+    let after_due = "[visibility.items]\nbbox = 'after_due'";
+    let until_due = last(&format!("{LATE}\n{after_due}"), 1);
+    assert_eq!(until_due["name"], "What counts towards the grade");
+    assert_eq!(until_due["visibility"], "after_due_date");
+    // If everything is shown, the text above the tests explains the total.
+    assert_eq!(last(LATE, 1)["name"], "any hit");
+    assert_eq!(last(after_due, 0)["name"], "any hit");
+}
+
+#[test]
+fn a_submission_of_which_nothing_compiles_costs_no_attempt() {
+    let mut score = sample::score();
+    for task in &mut score.tasks {
+        for line in &mut task.items {
+            let (id, points) = (&line.id, line.max_points);
+            *line = sample::item(id, 0, points, Verdict::NotCompiled, "does not compile");
+        }
+    }
+    let file = json("prairielearn", &sample::view(&score, "", 0));
+    assert_eq!(file["gradable"], false);
+    let errors = file["format_errors"][0].as_str().unwrap();
+    assert!(errors.starts_with("error: expected `;`"), "{errors}");
+    assert_eq!(json("prairielearn", &sample::open())["gradable"], true);
+}
+
+#[test]
+fn long_compiler_errors_are_shown_in_full() {
+    let mut score = sample::score();
+    score.build.not_compiled[0].message = "x".repeat(10_000);
+    let view = sample::view(&score, "", 0);
+    for id in ["gradescope", "prairielearn", "github"] {
+        assert!(rendered(id, &view).contains(&"x".repeat(10_000)), "{id}");
+    }
+}
+
+#[test]
+fn an_unfinished_grade_is_announced() {
+    let unfinished = sample::view(&sample::unfinished_score(), "", 0);
+    let notice = "UNFINISHED: 13 of 14 items are graded; the others have no points yet";
+    for id in ["text", "gradescope", "prairielearn", "github"] {
+        assert!(rendered(id, &unfinished).contains(notice), "{id}");
+        assert!(
+            !rendered(id, &sample::open()).contains("UNFINISHED"),
+            "{id}"
+        );
+    }
+}

@@ -172,3 +172,34 @@ fn can_have_hint(verdict: &Verdict) -> bool {
         | VerdictKind::Pending => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hints_are_for_wrong_answers_and_for_a_known_reason_why_there_is_none() {
+        for verdict in [
+            Verdict::Partial,
+            Verdict::Wrong,
+            Verdict::Panicked,
+            Verdict::TimedOut,
+            Verdict::OutOfMemory,
+            Verdict::Crashed,
+        ] {
+            assert!(can_have_hint(&verdict), "{verdict:?}");
+        }
+        for verdict in [
+            Verdict::Pass,
+            Verdict::Unimplemented,
+            Verdict::Protocol,
+            Verdict::NotCompiled,
+            Verdict::Blocked {
+                by: "bbox.flat".to_owned(),
+            },
+            Verdict::Pending,
+        ] {
+            assert!(!can_have_hint(&verdict), "{verdict:?}");
+        }
+    }
+}

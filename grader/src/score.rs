@@ -348,7 +348,7 @@ impl Score {
 mod tests {
     use super::*;
     use crate::handed_out::RAYS;
-    use crate::verdict::tests::{exam, pending};
+    use crate::small_exam::{exam, pending};
 
     /// Returns the score of an exam with these items.
     fn score(ids: &[&str]) -> Score {

@@ -373,4 +373,4 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
 }
 
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;

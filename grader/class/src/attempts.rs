@@ -146,11 +146,13 @@ mod tests {
             vec![person("A. Lee", "", "ann")],
             vec![person("Bob", "", ""), person("Ann", "", "other")],
             vec![person("Ann", "A@x.edu", "ANN")],
+            // Either identifier is enough from then on.
+            vec![person("A. Lee", "", "ann"), person("Bob", "", "")],
         ];
         let groups = attempts_by_person(rows.iter().map(Vec::as_slice));
         let expected = [
-            vec![(0, 0), (1, 0), (3, 0)],
-            vec![(0, 1), (2, 0)],
+            vec![(0, 0), (1, 0), (3, 0), (4, 0)],
+            vec![(0, 1), (2, 0), (4, 1)],
             vec![(2, 1)],
         ];
         assert_eq!(groups, expected);

@@ -8,9 +8,9 @@ use crate::handed_out::RAYS;
 use crate::options::Dependents;
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
+use crate::small_exam::{exam, pending};
 use crate::submission::TaskFileError;
 use crate::task_selection::TaskSelection;
-use crate::verdict::tests::{exam, pending};
 
 fn submission() -> Submission {
     let files = RAYS.files.iter();

@@ -177,7 +177,7 @@ mod tests {
     use std::path::Path;
 
     use crate::policy::{DEFAULT, Policy};
-    use crate::verdict::tests::exam;
+    use crate::small_exam::exam;
 
     #[test]
     fn documented_default_equals_the_built_in_default() {

@@ -59,7 +59,7 @@ fn answered(questions: Vec<ExamQuestion>, judgements: Vec<Judgement>) -> ItemSco
     item_score(&item("bbox.through", questions), &outcome, &RAYS)
 }
 
-/// Returns the score of an item with this outcome, in one text.
+/// Returns the score of an item that asks two questions and has this outcome.
 fn without_answer(outcome: &ItemOutcome) -> ItemScore {
     item_score(&item("bbox.through", vec![boxes(2)]), outcome, &RAYS)
 }

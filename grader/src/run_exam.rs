@@ -172,3 +172,113 @@ fn can_have_hint(verdict: &Verdict) -> bool {
         | VerdictKind::Pending => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::build::NotCompiled;
+    use crate::handed_out::RAYS;
+    use crate::small_exam::{boxes, exam, item, pending};
+
+    #[test]
+    fn every_item_of_a_submission_that_does_not_compile_is_recorded() {
+        let folder = tempfile::tempdir().unwrap();
+        let why = NotCompiled::MissingDeclaration("x");
+        let files = RAYS.file_names().map(|file| (file, why.clone()));
+        let build = Build::without_programs(folder.path(), files.collect());
+        let exam = exam(&["sphere.uv", "bbox.flat", "sphere.normal"]);
+        let mut score = pending(&exam);
+        let mut open = Vec::new();
+        run_exam(&exam, &build, Budget::default(), &mut score, |score, _| {
+            let items = score.items();
+            let items = items.filter(|item| item.verdict == Verdict::Pending);
+            open.push((items.count(), score.complete));
+            io::Result::Ok(())
+        })
+        .unwrap();
+        assert_eq!(open, [(2, false), (1, false), (0, false), (0, true)]);
+        assert!(
+            score
+                .items()
+                .all(|item| item.verdict == Verdict::NotCompiled)
+        );
+        let asked: Vec<Task> = score
+            .timings
+            .stages
+            .asking
+            .iter()
+            .map(|(t, _)| *t)
+            .collect();
+        assert_eq!(asked, RAYS.assignment.tasks().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn grading_stops_if_the_progress_cannot_be_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let build = Build::without_programs(folder.path(), BTreeMap::new());
+        let exam = exam(&["sphere.uv", "sphere.normal"]);
+        let mut score = pending(&exam);
+        let mut calls = 0;
+        let stopped = run_exam(&exam, &build, Budget::default(), &mut score, |_, _| {
+            calls += 1;
+            Err(io::Error::other("the disk is full"))
+        });
+        assert!(stopped.is_err());
+        assert_eq!((calls, score.complete), (1, false));
+    }
+
+    #[test]
+    fn an_item_is_not_run_if_what_it_depends_on_would_stop_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let build = Build::without_programs(folder.path(), BTreeMap::new());
+        let others = pending(&exam(&["bbox.flat"]));
+        let bbox = RAYS.assignment.task_of("bbox.flat").unwrap();
+        let mut dependent = item("traverse.root", vec![boxes(1)]);
+        dependent.needs = vec!["bbox.flat".to_owned()];
+        let verdict = |item: &Item, stopped: &[Task], has_blocked_fault: bool| {
+            let mut sessions = TaskSessions::new(&build);
+            sessions.has_blocked_fault = has_blocked_fault;
+            let stopped = stopped.iter().copied().collect();
+            let mut allowance = Allowance::new(Budget::default());
+            let graded = sessions.grade_item(item, &others, &stopped, &mut allowance);
+            graded.unwrap().0.verdict
+        };
+        let blocked = Verdict::Blocked {
+            by: "bbox.flat".to_owned(),
+        };
+        assert_eq!(verdict(&dependent, &[bbox], false), blocked);
+        assert_eq!(verdict(&dependent, &[], true), blocked);
+        // Otherwise, it is asked, here of a submission without a program.
+        assert_eq!(verdict(&dependent, &[], false), Verdict::Pending);
+        let independent = item("traverse.flat", vec![boxes(1)]);
+        assert_eq!(verdict(&independent, &[bbox], true), Verdict::Pending);
+    }
+
+    #[test]
+    fn hints_are_for_wrong_answers_and_for_a_known_reason_why_there_is_none() {
+        for verdict in [
+            Verdict::Partial,
+            Verdict::Wrong,
+            Verdict::Panicked,
+            Verdict::TimedOut,
+            Verdict::OutOfMemory,
+            Verdict::Crashed,
+        ] {
+            assert!(can_have_hint(&verdict), "{verdict:?}");
+        }
+        for verdict in [
+            Verdict::Pass,
+            Verdict::Unimplemented,
+            Verdict::Protocol,
+            Verdict::NotCompiled,
+            Verdict::Blocked {
+                by: "bbox.flat".to_owned(),
+            },
+            Verdict::Pending,
+        ] {
+            assert!(!can_have_hint(&verdict), "{verdict:?}");
+        }
+    }
+}

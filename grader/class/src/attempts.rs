@@ -129,6 +129,7 @@ fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<At
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::tests::{graded, policy, result};
 
     fn person(name: &str, email: &str, login: &str) -> Person {
         Person {
@@ -145,13 +146,120 @@ mod tests {
             vec![person("A. Lee", "", "ann")],
             vec![person("Bob", "", ""), person("Ann", "", "other")],
             vec![person("Ann", "A@x.edu", "ANN")],
+            // Either identifier is enough from then on.
+            vec![person("A. Lee", "", "ann"), person("Bob", "", "")],
         ];
         let groups = attempts_by_person(rows.iter().map(Vec::as_slice));
         let expected = [
-            vec![(0, 0), (1, 0), (3, 0)],
-            vec![(0, 1), (2, 0)],
+            vec![(0, 0), (1, 0), (3, 0), (4, 0)],
+            vec![(0, 1), (2, 0), (4, 1)],
             vec![(2, 1)],
         ];
         assert_eq!(groups, expected);
+    }
+
+    /// Returns a row for each submission: its id, its outcome and its time.
+    fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
+        let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
+            let mut result = result(id, &["Ann"], outcome.clone());
+            result.info.submitted = time.map(str::to_owned);
+            ClassRow::new(result, policy, vec![Vec::new()])
+        };
+        submissions.iter().map(row).collect()
+    }
+
+    /// Returns the points that count for each submission of one person, or why none count.
+    fn counted(rule: &str, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<String> {
+        let policy = policy(&format!("[attempts]\ncounts = {rule:?}"));
+        let mut rows = rows(&policy, submissions);
+        apply_rule(&policy, &mut rows);
+        let text = |row: &ClassRow| match (&row.grades[0].counted, &row.grades[0].problem) {
+            (Some(counted), None) => counted.points.to_string(),
+            (None, Some(GradeProblem::OtherAttempt(id))) => format!("see {id}"),
+            (None, Some(GradeProblem::SeveralAttempts(ids))) => format!("or {}", ids.join(", ")),
+            other => format!("{other:?}"),
+        };
+        rows.iter().map(text).collect()
+    }
+
+    fn nothing() -> EntryOutcome {
+        EntryOutcome::NothingToGrade("empty".to_owned())
+    }
+
+    /// Three submissions: the first has the most points, and the second is the last.
+    fn three() -> [(&'static str, EntryOutcome, Option<&'static str>); 3] {
+        [
+            ("a", graded(80), Some("2026-11-20T10:00:00Z")),
+            ("b", graded(60), Some("2026-11-22T10:00:00Z")),
+            ("c", graded(80), Some("2026-11-21T10:00:00Z")),
+        ]
+    }
+
+    #[test]
+    fn without_a_rule_a_person_chooses_among_all_attempts() {
+        assert_eq!(counted("ask", &three()), ["or b, c", "or a, c", "or a, b"]);
+        let with_nothing = [("a", graded(80), None), ("b", nothing(), None)];
+        assert_eq!(counted("ask", &with_nothing), ["or b", "or a"]);
+        assert_eq!(counted("ask", &three()[..1]), ["80"]);
+    }
+
+    #[test]
+    fn the_latest_attempt_counts_if_all_times_are_known() {
+        assert_eq!(counted("latest", &three()), ["see b", "60", "see b"]);
+        let [a, b, _] = three();
+        let undated = [a, b, ("c", graded(80), None)];
+        assert_eq!(
+            counted("latest", &undated),
+            ["or b, c", "or a, c", "or a, b"]
+        );
+    }
+
+    #[test]
+    fn the_first_of_the_best_attempts_counts() {
+        assert_eq!(counted("best", &three()), ["80", "see a", "see a"]);
+        let [a, b, c] = three();
+        assert_eq!(counted("best", &[b, c, a]), ["see c", "80", "see c"]);
+    }
+
+    #[test]
+    fn an_attempt_that_was_not_graded_keeps_the_others_waiting() {
+        let fault = EntryOutcome::Fault("disk".to_owned());
+        let [a, b, _] = three();
+        let attempts = [a, b, ("c", fault, Some("2026-11-19T10:00:00Z"))];
+        for rule in ["best", "latest"] {
+            assert_eq!(counted(rule, &attempts), ["or b, c", "or a, c", "or a, b"]);
+        }
+    }
+
+    #[test]
+    fn with_a_rule_an_attempt_without_files_does_not_count() {
+        let attempts = [
+            ("a", nothing(), Some("2026-11-23T10:00:00Z")),
+            ("b", graded(60), None),
+        ];
+        for rule in ["best", "latest"] {
+            assert_eq!(counted(rule, &attempts), ["see b", "60"]);
+        }
+        let nothing_at_all = [("a", nothing(), None), ("b", nothing(), None)];
+        assert_eq!(counted("best", &nothing_at_all), ["or b", "or a"]);
+    }
+
+    #[test]
+    fn points_whose_time_is_unclear_are_not_compared() {
+        let attempts = [
+            ("a", graded(80), Some("yesterday")),
+            ("b", graded(60), None),
+        ];
+        assert_eq!(counted("best", &attempts), ["or b", "or a"]);
+    }
+
+    #[test]
+    fn attempts_of_different_people_do_not_compete() {
+        let policy = Policy::default();
+        let mut rows = rows(&policy, &three()[..2]);
+        rows[1].result.info.people = vec![Person::named("Bob")];
+        let before = rows.clone();
+        apply_rule(&policy, &mut rows);
+        assert_eq!(rows, before);
     }
 }

@@ -160,7 +160,8 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::outcome::TaskScore;
+    use crate::model::tests::{graded, result};
+    use crate::outcome::{EntryOutcome, TaskScore};
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
@@ -212,5 +213,99 @@ mod tests {
         let was = score(&[("a", 2, "pass")]);
         assert_eq!(compare_scores("x", &was, Some(&was.clone())), None);
         assert!(compare_scores("x", &was, None).is_some());
+    }
+
+    #[test]
+    fn points_that_were_gained_are_explained_by_the_verdict_before() {
+        let with_message = |verdict: &str, points, message: &str| {
+            let mut score = score(&[("a", points, verdict)]);
+            score.tasks[0].items[0].message = message.to_owned();
+            score
+        };
+        let why = |was: &ScoreSummary, now: &ScoreSummary| {
+            compare_scores("x", was, Some(now)).unwrap().items[0]
+                .why
+                .clone()
+        };
+        let (wrong, partial) = (
+            with_message("wrong", 0, "3 of 4 answers are wrong"),
+            with_message("partial", 1, "1 of 4 answers is wrong"),
+        );
+        assert_eq!(
+            why(&wrong, &partial),
+            "partial: 1 of 4 answers is wrong; it was wrong: 3 of 4 answers are wrong"
+        );
+        assert_eq!(why(&partial, &wrong), "wrong: 3 of 4 answers are wrong");
+        let other = score(&[("b", 1, "partial")]);
+        let drift = compare_scores("x", &other, Some(&wrong)).unwrap();
+        let reasons: Vec<&str> = drift.items.iter().map(|item| item.why.as_str()).collect();
+        assert_eq!(
+            reasons,
+            ["wrong: 3 of 4 answers are wrong", "no longer in the exam"]
+        );
+    }
+
+    #[test]
+    fn a_total_that_differs_is_a_drift_even_if_no_item_does() {
+        let was = score(&[("a", 2, "pass")]);
+        let now = ScoreSummary {
+            points: 1,
+            ..was.clone()
+        };
+        let drift = compare_scores("x", &was, Some(&now)).unwrap();
+        assert_eq!(
+            (drift.was, drift.now, drift.items),
+            (2, Some(1), Vec::new())
+        );
+        let gone = compare_scores("x", &was, None).unwrap();
+        assert_eq!((gone.was, gone.now, gone.items), (2, None, Vec::new()));
+    }
+
+    #[test]
+    fn a_removed_entry_is_named_with_its_people_and_points() {
+        let text = |id: &str, names: &str, points| {
+            let (id, names) = (id.to_owned(), names.to_owned());
+            RemovedEntry { id, names, points }.to_string()
+        };
+        assert_eq!(text("ann", "ann", Some(7)), "ann: 7 points");
+        assert_eq!(
+            text("7001", "Ann + Bob", Some(7)),
+            "7001 (Ann + Bob): 7 points"
+        );
+        assert_eq!(text("ann", "ann", None), "ann: no score");
+    }
+
+    #[test]
+    fn entries_that_left_the_class_are_found_with_their_scores() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path());
+        let nothing = EntryOutcome::NothingToGrade("empty".to_owned());
+        for (id, outcome) in [("a", graded(80)), ("b", graded(70)), ("c", nothing)] {
+            store.save_graded(&result(id, &["Ann"], outcome), "key", 1);
+        }
+        // A folder without a result, such as that of a killed run.
+        std::fs::create_dir(store.entry_folder("d")).unwrap();
+        let removed = find_removed(&store, &["a", "e"]).unwrap();
+        let removed: Vec<String> = removed.iter().map(ToString::to_string).collect();
+        assert_eq!(removed, ["b (Ann): 70 points", "c (Ann): no score"]);
+        assert_eq!(find_removed(&store, &["a", "b", "c"]).unwrap(), []);
+    }
+
+    #[test]
+    fn a_resubmission_is_compared_with_the_score_that_was_set_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path());
+        let results = [("a", 80), ("b", 70)].map(|(id, points)| {
+            let was = result(id, &["Ann"], graded(points));
+            store.save_graded(&was, "key", 1);
+            store.set_score_aside(id, 1).unwrap();
+            result(id, &["Ann"], graded(70))
+        });
+        let drifts = find_resubmitted(&store, &results).unwrap();
+        let drifts: Vec<_> = drifts
+            .iter()
+            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
+            .collect();
+        assert_eq!(drifts, [("a", 80, Some(70))]);
     }
 }

@@ -170,4 +170,71 @@ mod tests {
         assert!(unmatched_extensions(&policy, people.iter()).is_empty());
         assert_eq!(unmatched_extensions(&policy, [].iter()), ["ann"]);
     }
+
+    #[test]
+    fn a_late_flag_counts_as_the_first_second_after_the_grace_period() {
+        let policy = policy("[late]\ngrace_minutes = 5");
+        let late = lateness(&policy, &late_flag(), &Person::default());
+        assert_eq!(late, Ok(Lateness { seconds: 301 }));
+    }
+
+    fn submitted(time: &str, late: bool) -> EntryInfo {
+        EntryInfo {
+            late,
+            submitted: Some(time.to_owned()),
+            ..EntryInfo::default()
+        }
+    }
+
+    #[test]
+    fn a_time_and_a_due_time_decide_whatever_the_platform_says() {
+        let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z");
+        let nobody = Person::default();
+        let seconds = |time: &str, late| {
+            let late = lateness(&policy, &submitted(time, late), &nobody);
+            late.map(|late| late.seconds)
+        };
+        assert_eq!(seconds("2026-11-20T11:00:00Z", true), Ok(0));
+        assert_eq!(seconds("2026-11-20T12:00:07Z", false), Ok(7));
+        let info = submitted("2026-11-20T12:00:07Z", false);
+        assert!(!is_undated(&policy, &info));
+        let unclear = seconds("yesterday", false).unwrap_err();
+        assert!(matches!(unclear, UnclearTime::Submitted { text, .. } if text == "yesterday"));
+    }
+
+    #[test]
+    fn a_time_that_decides_nothing_is_not_read() {
+        let info = submitted("yesterday", true);
+        assert_eq!(submission_time(&Policy::default(), &info), Ok(None));
+        let late = lateness(&Policy::default(), &info, &Person::default());
+        assert_eq!(late, Ok(Lateness { seconds: 1 }));
+        // The latest attempt is chosen by its time, even without a due time.
+        let latest = policy("[attempts]\ncounts = 'latest'");
+        assert!(submission_time(&latest, &info).is_err());
+        let dated = submitted("2026-11-20T12:00:00Z", false);
+        let time = submission_time(&latest, &dated).unwrap();
+        assert_eq!(time.unwrap().to_string(), "2026-11-20T12:00:00Z");
+        let due = policy("[late]\ndue = 2026-11-20T12:00:00Z");
+        assert!(submission_time(&due, &info).is_err());
+    }
+
+    #[test]
+    fn the_extension_in_the_roster_counts_like_one_in_the_policy() {
+        let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z\n[late.extensions]\n'team a' = 1");
+        let info = submitted("2026-11-22T12:00:00Z", false);
+        let hours = |group: &str, extension: &str| {
+            let person = Person {
+                group: group.to_owned(),
+                extension: extension.to_owned(),
+                ..Person::named("Ann")
+            };
+            let late = lateness(&policy, &info, &person);
+            late.map(|late| late.seconds / 3600)
+        };
+        assert_eq!(hours("", ""), Ok(48));
+        assert_eq!(hours("Team A", ""), Ok(24));
+        assert_eq!(hours("Team A", "2"), Ok(0));
+        let unclear = hours("", "some").unwrap_err();
+        assert!(matches!(unclear, UnclearTime::Extension { text, .. } if text == "some"));
+    }
 }

@@ -239,3 +239,129 @@ fn parse_row(
         author,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use grader::handed_out::RAYS;
+
+    use super::*;
+    use crate::model::tests::{graded, result};
+
+    /// Reads a list with these rows. The columns are in another order than in the documentation.
+    fn read(rows: &[&str]) -> Result<ManualPointsList, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("manual.csv");
+        let text = format!("author,student,task,comment,delta\n{}\n", rows.join("\n"));
+        std::fs::write(&path, text).unwrap();
+        ManualPointsList::read(&path, &RAYS).map_err(|error| without_folder(&error))
+    }
+
+    /// Returns the message from the name of the file on.
+    fn without_folder(error: &ManualPointsError) -> String {
+        let text = error.to_string();
+        text[text.find("manual.csv").unwrap()..].to_owned()
+    }
+
+    fn ann() -> Person {
+        Person {
+            email: "ann@x.edu".to_owned(),
+            ..Person::named("Ann Lee")
+        }
+    }
+
+    #[test]
+    fn a_row_is_read_with_its_number_and_belongs_to_its_student() {
+        let list = read(&["Kim,bob,bbox,,2", "Kim, ANN@x.edu ,sphere,nice, -1"]).unwrap();
+        let points = list.of(&ann());
+        assert_eq!(
+            points,
+            [ManualPoints {
+                row: 3,
+                student: "ANN@x.edu".to_owned(),
+                task: "sphere".to_owned(),
+                delta: -1,
+                comment: "nice".to_owned(),
+                author: "Kim".to_owned(),
+            }]
+        );
+        assert_eq!(points[0].to_string(), "sphere: -1 point by Kim: nice");
+        let of_bob = list.of(&Person::named("Bob"));
+        assert_eq!(of_bob[0].to_string(), "bbox: +2 points by Kim");
+        assert_eq!(list.of(&Person::named("Eve")), []);
+    }
+
+    #[test]
+    fn a_row_that_cannot_be_used_says_why() {
+        let rows = [
+            "Kim,Ann,spheres,,1",
+            "Kim,,sphere,,1",
+            ",Ann,sphere,,1",
+            "Kim,Ann,sphere,,1.5",
+        ];
+        let errors = rows.map(|row| read(&["Kim,Ann,bbox,,1", row]).unwrap_err());
+        insta::assert_snapshot!(errors.join("\n"), @r#"
+        manual.csv, row 3: there is no task "spheres"; the tasks are camera, triangle, sphere, bbox, build, traverse
+        manual.csv, row 3: the columns student and author must not be empty
+        manual.csv, row 3: the columns student and author must not be empty
+        manual.csv, row 3: delta is "1.5": it must be a whole number of points, such as 2 or -1
+        "#);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("manual.csv");
+        std::fs::write(&path, "student,task,delta,comment\n").unwrap();
+        let error = ManualPointsList::read(&path, &RAYS).unwrap_err();
+        assert_eq!(
+            without_folder(&error),
+            "manual.csv has no column author: manual points need the columns student, task, \
+             delta, comment and author"
+        );
+    }
+
+    #[test]
+    fn each_row_belongs_to_exactly_one_person_and_task() {
+        let check = |rows: &[&str], people: &[&Person]| {
+            let checked = read(rows).unwrap().check_students(people);
+            checked.map_err(|error| without_folder(&error))
+        };
+        let (ann, other) = (ann(), Person::named("Ann Lee"));
+        let by_name = ["Kim,Ann Lee,bbox,,1"];
+        assert_eq!(check(&by_name, &[&Person::named("Bob"), &ann]), Ok(()));
+        // Two submissions of one person.
+        assert_eq!(check(&by_name, &[&ann, &ann]), Ok(()));
+        let two_tasks = ["Kim,Ann Lee,bbox,,1", "Kim,ann@x.edu,sphere,,1"];
+        assert_eq!(check(&two_tasks, &[&ann]), Ok(()));
+        let two_people = ["Kim,Ann Lee,bbox,,1", "Kim,Bob,bbox,,1"];
+        assert_eq!(check(&two_people, &[&ann, &Person::named("Bob")]), Ok(()));
+        let errors = [
+            check(&by_name, &[&Person::named("Bob")]),
+            check(&by_name, &[&ann, &other]),
+            check(&["Kim,Ann Lee,bbox,,1", "Kim,ann@x.edu,bbox,,1"], &[&ann]),
+        ];
+        let errors = errors.map(Result::unwrap_err);
+        insta::assert_snapshot!(errors.join("\n"), @r#"
+        manual.csv, row 2: nobody with the name or identifier "Ann Lee" handed something in: write the email address, the student number, the account name or the full name
+        manual.csv, row 2: "Ann Lee" could be Ann Lee or Ann Lee: write the email address or the student number
+        manual.csv, row 3: row 2 has points for the same student and task: write them in one row
+        "#);
+    }
+
+    #[test]
+    fn a_task_keeps_between_none_and_all_of_its_points() {
+        let check = |task: &str, delta: i32| {
+            let list = read(&[&format!("Kim,Ann,{task},,{delta}")]).unwrap();
+            let result = result("a", &["Ann"], graded(80));
+            let own = list.of(&result.info.people[0]);
+            let checked = list.check_range(&own, result.score().unwrap());
+            checked.map_err(|error| without_folder(&error))
+        };
+        for delta in [20, -80, 0] {
+            assert_eq!(check("sphere", delta), Ok(()), "{delta}");
+        }
+        let errors = [check("sphere", 21), check("sphere", -81), check("bbox", 1)];
+        let errors = errors.map(Result::unwrap_err);
+        insta::assert_snapshot!(errors.join("\n"), @r"
+        manual.csv, row 2: +21 points are out of range: 80 of 100 points were earned for sphere
+        manual.csv, row 2: -81 points are out of range: 80 of 100 points were earned for sphere
+        manual.csv, row 2: the exam has no items of the task bbox: remove the row
+        ");
+    }
+}

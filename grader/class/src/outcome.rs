@@ -149,3 +149,49 @@ impl EntryResult {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns a score file in which one number is this one, and the others are small.
+    fn parse(place: usize, number: u64) -> Result<ScoreSummary, serde_json::Error> {
+        let mut numbers = [1; 6];
+        numbers[place] = number;
+        let [points, max, task, task_max, item, item_max] = numbers;
+        ScoreSummary::parse(&format!(
+            r#"{{"points": {points}, "max_points": {max}, "tasks": [{{
+                "id": "sphere", "title": "", "points": {task}, "max_points": {task_max},
+                "items": [{{"id": "sphere.uv", "title": "", "points": {item},
+                    "max_points": {item_max}, "verdict": "pass", "message": "", "hints": []}}]
+            }}]}}"#
+        ))
+    }
+
+    #[test]
+    fn no_number_in_a_score_file_may_be_more_than_an_exam_has() {
+        for place in 0..6 {
+            assert!(parse(place, 100_000).is_ok(), "{place}");
+            let error = parse(place, 100_001).unwrap_err().to_string();
+            assert_eq!(error, "100001 points are more than an exam can have");
+        }
+        assert!(parse(0, 1 << 32).is_err());
+    }
+
+    #[test]
+    fn a_score_has_the_items_of_all_tasks_and_only_graded_entries_have_one() {
+        let score = parse(0, 7).unwrap();
+        let ids: Vec<&str> = score.items().map(|item| item.id.as_str()).collect();
+        assert_eq!(ids, ["sphere.uv"]);
+        let result = |outcome| EntryResult {
+            id: String::new(),
+            info: EntryInfo::default(),
+            outcome,
+        };
+        let graded = result(EntryOutcome::Graded(Box::new(score.clone())));
+        assert_eq!(graded.score(), Some(&score));
+        let why = String::new;
+        assert_eq!(result(EntryOutcome::NothingToGrade(why())).score(), None);
+        assert_eq!(result(EntryOutcome::Fault(why())).score(), None);
+    }
+}

@@ -129,3 +129,78 @@ impl Settings {
         differ.map(|(name, _, _)| name).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::store::tests::run;
+
+    fn other_settings() -> Settings {
+        Settings {
+            exam_hash: "other".to_owned(),
+            ..run().settings
+        }
+    }
+
+    #[test]
+    fn a_regrade_is_compared_with_the_last_finished_round() {
+        let first = Run {
+            finished: true,
+            was_finished: true,
+            entries: vec!["a".to_owned()],
+            ..run()
+        };
+        assert!(!first.is_unfinished_regrade());
+        assert!(!run().is_unfinished_regrade(), "there is nothing before it");
+        let second = first.next_round(other_settings());
+        assert_eq!((second.round, second.finished), (2, false));
+        assert_eq!(second.before, Some(first.settings.clone()));
+        assert_eq!(second.settings, other_settings());
+        assert!(second.must_save_previous && second.is_unfinished_regrade());
+        assert!(second.entries.is_empty());
+
+        // It is stopped, after the scores were saved: those scores stay.
+        let saved = Run {
+            must_save_previous: false,
+            ..second.clone()
+        };
+        let third = saved.next_round(first.settings.clone());
+        assert_eq!((third.round, third.must_save_previous), (3, false));
+        assert_eq!(third.before, Some(first.settings.clone()));
+
+        // It is finished, so that the next regrade is compared with it.
+        let finished = Run {
+            was_finished: true,
+            ..saved
+        };
+        assert!(!finished.is_unfinished_regrade());
+        let third = finished.next_round(first.settings);
+        assert_eq!((third.round, third.must_save_previous), (3, true));
+        assert_eq!(third.before, Some(other_settings()));
+    }
+
+    #[test]
+    fn settings_that_differ_are_named() {
+        let own = run().settings;
+        assert_eq!(own.differences(&own), Vec::<&str>::new());
+        assert_eq!(own.differences(&other_settings()), ["the exam"]);
+        let other = Settings {
+            // The name of the exam says nothing about its questions.
+            exam: "x".to_owned(),
+            grader: "x".to_owned(),
+            built_with: "x".to_owned(),
+            isolation: "x".to_owned(),
+            options: "x".to_owned(),
+            ..own.clone()
+        };
+        assert_eq!(
+            own.differences(&other),
+            [
+                "the grader",
+                "the compiler, the dependencies or the reference",
+                "the isolation",
+                "the options"
+            ]
+        );
+    }
+}

@@ -74,3 +74,44 @@ impl Build {
         })
     }
 }
+
+#[cfg(test)]
+impl Build {
+    /// Returns a build without programs, in this folder. These files did not compile.
+    pub fn without_programs(
+        folder: &Path,
+        not_compiled: BTreeMap<&'static str, NotCompiled>,
+    ) -> Self {
+        use crate::build::dependencies::Dependencies;
+        use crate::build::linker::SystemLinker;
+        use crate::build::rustc::Rustc;
+        use crate::build::toolchain::Toolchain;
+        use crate::sandbox::Sandbox;
+
+        let rustc = Rustc {
+            toolchain: Toolchain {
+                cargo: PathBuf::new(),
+                rustc: PathBuf::new(),
+                linker: SystemLinker::find(),
+            },
+            dependencies: Dependencies {
+                externs: BTreeMap::new(),
+                folder: PathBuf::new(),
+            },
+            cache: None,
+            sandbox: Sandbox::none(),
+        };
+        Build {
+            handed_out: &crate::handed_out::RAYS,
+            probe: None,
+            not_compiled,
+            interrupt: Interrupt::default(),
+            substitutions: Vec::new(),
+            control: Control {
+                rustc,
+                folder: folder.to_owned(),
+            },
+            _build_dir: BuildDir::new_in(folder).unwrap(),
+        }
+    }
+}

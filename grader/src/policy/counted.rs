@@ -152,11 +152,7 @@ mod tests {
 
     /// Returns the explanation for 90 of 100 points, this many hours late.
     fn explanation(policy: &str, hours: u64) -> String {
-        let policy: Policy = toml::from_str(policy).unwrap();
-        let late = Lateness {
-            seconds: hours * 60 * 60,
-        };
-        policy.counted_points(90, 100, late).explanation()
+        counted(policy, 90, 0, hours).explanation()
     }
 
     #[test]
@@ -174,6 +170,81 @@ mod tests {
                 late("closed_after_days = 0"),
             ]
             .join("\n")
+        );
+    }
+
+    /// Returns the points of a submission that earned this many of 100, which its staff changed by
+    /// `manual`, and which was handed in this many hours late.
+    fn counted(policy: &str, earned: u32, manual: i32, hours: u64) -> super::CountedPoints {
+        let policy: Policy = toml::from_str(policy).unwrap();
+        let late = Lateness {
+            seconds: hours * 60 * 60,
+        };
+        policy.counted_points_with(earned, 100, manual, late)
+    }
+
+    #[test]
+    fn names_the_points_given_by_hand() {
+        let explanation = |manual| counted("", 90, manual, 0).explanation();
+        insta::assert_snapshot!([1, 2, -1, -2].map(explanation).join("\n"), @r"
+        91 of 100 points count towards the grade: 90 of 100 points earned, 1 point added by hand.
+        92 of 100 points count towards the grade: 90 of 100 points earned, 2 points added by hand.
+        89 of 100 points count towards the grade: 90 of 100 points earned, 1 point taken off by hand.
+        88 of 100 points count towards the grade: 90 of 100 points earned, 2 points taken off by hand.
+        ");
+    }
+
+    #[test]
+    fn names_days_in_the_singular_and_in_the_plural() {
+        let late = |rules: &str, hours| explanation(&format!("[late]\n{rules}"), hours);
+        let texts = [
+            late("percent_per_day = 10", 1),
+            late("percent_per_day = 10\nfree_days = 2", 49),
+            late("closed_after_days = 2", 49),
+        ];
+        insta::assert_snapshot!(texts.join("\n"), @r"
+        81 of 100 points count towards the grade: 90 of 100 points earned, handed in 1 day late, so 10 % of the points earned are deducted.
+        81 of 100 points count towards the grade: 90 of 100 points earned, handed in 3 days late; after 2 free days, 10 % of the points earned are deducted.
+        0 of 100 points count towards the grade: 90 of 100 points earned, handed in 3 days late, and nothing counts after 2 days.
+        ");
+    }
+
+    #[test]
+    fn points_that_count_as_earned_need_no_explanation() {
+        assert_eq!(counted("", 90, 0, 0).explanation_if_changed(), None);
+        for changed in [
+            counted("[points]\nout_of = 50", 90, 0, 0),
+            // Half of nothing is nothing, but the maximum differs.
+            counted("[points]\nout_of = 50", 0, 0, 0),
+            counted("", 90, 1, 0),
+            // More than all points cannot be had, but somebody has tried to give them.
+            counted("", 100, 1, 0),
+            counted("", 90, 0, 1),
+            counted("[late]\npercent_per_day = 10", 90, 0, 1),
+        ] {
+            let explanation = changed.explanation();
+            assert_eq!(changed.explanation_if_changed(), Some(explanation));
+        }
+    }
+
+    #[test]
+    fn rules_do_not_tell_the_points_of_a_submission() {
+        let rules = |policy: &str, hours| counted(policy, 90, 5, hours).rules();
+        assert_eq!(rules("", 0), None);
+        assert_eq!(
+            rules("[points]\nout_of = 50", 0).as_deref(),
+            Some("Towards the grade: 100 points count as 50.")
+        );
+        assert_eq!(
+            rules("", 25).as_deref(),
+            Some("Towards the grade: handed in 2 days late, which costs nothing.")
+        );
+        assert_eq!(
+            rules("[points]\nout_of = 50\n[late]\npercent_per_day = 10", 1).as_deref(),
+            Some(
+                "Towards the grade: 100 points count as 50; handed in 1 day late, so 10 % of the \
+                 points earned are deducted."
+            )
         );
     }
 }

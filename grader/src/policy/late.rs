@@ -266,4 +266,22 @@ mod tests {
         }
         assert_eq!(Policy::default().lateness(at(time), &[]), None);
     }
+
+    #[test]
+    fn a_limit_is_named_only_if_it_costs_points() {
+        let on_time = policy("").counted_points(100, 100, Lateness::NONE);
+        assert_eq!(on_time.deduction, Deduction::None);
+        let deduction = |text: &str| policy(text).counted_points(100, 100, hours(1)).deduction;
+        assert_eq!(deduction(""), Deduction::None);
+        assert_eq!(deduction("[late]\nmost_percent = 99"), Deduction::Limit(99));
+        let percent = Deduction::Percent {
+            percent: 10,
+            of: PercentBase::Earned,
+            free_days: 0,
+        };
+        assert_eq!(
+            deduction("[late]\npercent_per_day = 10\nmost_percent = 90"),
+            percent
+        );
+    }
 }

@@ -174,7 +174,10 @@ fn line_offset(text: &str, key: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use crate::policy::{DEFAULT, Policy};
+    use crate::small_exam::exam;
 
     #[test]
     fn documented_default_equals_the_built_in_default() {
@@ -195,5 +198,75 @@ mod tests {
         assert!(policy.late.due.is_some() && policy.late.closed_after_days.is_some());
         assert_eq!(policy.late.extensions.len(), 2);
         assert_eq!(policy.visibility.items.len(), 2);
+    }
+
+    fn error(text: &str) -> String {
+        let error = Policy::from_text(Path::new("policy.toml"), text).unwrap_err();
+        error.to_string()
+    }
+
+    #[test]
+    fn an_invalid_policy_is_rejected_with_the_line_and_what_must_be_there() {
+        let texts = [
+            "[points]\n# Half.\n  out_of = 0\n",
+            "[late]\ngrace_minutes = 5\nfree_days = 1\npercent_per_day = 101",
+            "[late]\nmost_percent = 101",
+            "[late]\nmost_percent = 1\nsurprise = 2",
+            "[late]\ndue = 2026-11-20T23:59:59",
+            "[late]\ntimezone = 'Europe/Atlantis'",
+            "late",
+        ];
+        let first_lines = texts.map(|text| {
+            let error = error(text);
+            let end = "\n`cargo grade --policy-default` prints all keys with explanations";
+            error.strip_suffix(end).unwrap().to_owned()
+        });
+        insta::assert_snapshot!(first_lines.join("\n"));
+    }
+
+    #[test]
+    fn a_percentage_may_be_anything_up_to_100() {
+        for percent in [0, 99, 100] {
+            let text = format!("[late]\npercent_per_day = {percent}\nmost_percent = {percent}");
+            let policy = Policy::from_text(Path::new("policy.toml"), &text).unwrap();
+            assert_eq!(policy.late.percent_per_day, percent);
+            assert_eq!(policy.late.most_percent, percent);
+        }
+    }
+
+    #[test]
+    fn a_policy_is_read_from_its_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("policy.toml");
+        let error = Policy::read(&path).unwrap_err().to_string();
+        assert!(error.contains("read the policy"), "{error}");
+        assert!(error.contains("`cargo grade --policy-default`"), "{error}");
+        let text = "[points]\nout_of = 50\n[late]\ntimezone = 'UTC'\ndue = 2026-11-20T23:59:59Z";
+        std::fs::write(&path, text).unwrap();
+        assert_eq!(Policy::read_text(&path).unwrap(), text);
+        let policy = Policy::read(&path).unwrap();
+        assert_eq!(policy.points.out_of, Some(50));
+        assert!(policy.late.timezone.is_some() && policy.late.due.is_some());
+    }
+
+    #[test]
+    fn an_exception_for_an_item_that_the_exam_does_not_have_is_rejected() {
+        let path = Path::new("policy.toml");
+        let exam = exam(&["sphere.uv"]);
+        let check = |name: &str| {
+            let text = format!("[visibility.items]\n'{name}' = 'hidden'");
+            let policy = Policy::from_text(path, &text).unwrap();
+            policy.check(path, &exam).map_err(|error| error.to_string())
+        };
+        assert_eq!(check("sphere.uv"), Ok(()));
+        assert_eq!(check("sphere"), Ok(()));
+        assert_eq!(
+            check("sphere.vu"),
+            Err(
+                "the policy policy.toml: [visibility.items] names `sphere.vu`, but the exam `small` \
+                 has no task or item of that name: correct it or remove the line"
+                    .to_owned()
+            )
+        );
     }
 }

@@ -146,4 +146,40 @@ mod tests {
                 .contains("created_at")
         );
     }
+
+    #[test]
+    fn the_file_is_read_from_its_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("submission_metadata.json");
+        let error = SubmissionTime::read(&path).unwrap_err().to_string();
+        assert!(error.contains("read Gradescope's"), "{error}");
+        let text = r#"{"created_at": "2026-11-20T23:00:10Z", "assignment": {"due_date": null}}"#;
+        std::fs::write(&path, text).unwrap();
+        let read = SubmissionTime::read(&path).unwrap();
+        assert_eq!(read, SubmissionTime::parse(text).unwrap());
+        assert_eq!(read.submitted.to_string(), "2026-11-20T23:00:10Z");
+        std::fs::write(&path, "{}").unwrap();
+        let error = SubmissionTime::read(&path).unwrap_err().to_string();
+        assert!(
+            error.contains("submission_metadata.json has no valid submission time"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn the_latest_extension_in_a_group_counts_for_the_platforms_due_date_as_well() {
+        let text = r#"{
+            "created_at": "2026-11-22T12:00:00Z",
+            "assignment": {"due_date": "2026-11-20T12:00:00Z"},
+            "users": [{"name": "Ann", "email": "ann@x.edu"}, {"name": "Bob"}]
+        }"#;
+        let submission = SubmissionTime::parse(text).unwrap();
+        let late = |rules: &str| {
+            let policy: Policy = toml::from_str(rules).unwrap();
+            policy.lateness_of(&submission).seconds / 3600
+        };
+        assert_eq!(late(""), 48);
+        assert_eq!(late("[late.extensions]\n'ann@x.edu' = 1"), 24);
+        assert_eq!(late("[late.extensions]\n'ann@x.edu' = 1\nbob = 2"), 0);
+    }
 }

@@ -102,4 +102,18 @@ mod tests {
             Some("bbox.flat")
         );
     }
+
+    #[test]
+    fn only_what_is_not_hidden_is_shown_now() {
+        for shown in [Visibility::All, Visibility::Feedback, Visibility::Points] {
+            assert!(shown.is_shown_now(), "{shown:?}");
+        }
+        for hidden in [
+            Visibility::AfterDue,
+            Visibility::AfterPublished,
+            Visibility::Hidden,
+        ] {
+            assert!(!hidden.is_shown_now(), "{hidden:?}");
+        }
+    }
 }

@@ -172,6 +172,9 @@ mod tests {
             ("11/25/2026 10:00 AM", "2026-11-25T09:00:00Z"),
             ("25/11/2026, 10:00", "2026-11-25T09:00:00Z"),
             ("5/5/2026 10:00", "2026-05-05T08:00:00Z"),
+            ("25/11/2026 10:00:30", "2026-11-25T09:00:30Z"),
+            // The first year of four digits.
+            ("25/11/1000 10:00", "1000-11-25T09:06:32Z"),
         ] {
             assert_eq!(read(text).as_deref(), Ok(expected), "{text}");
         }
@@ -188,6 +191,11 @@ mod tests {
             "13/13/2026 10:00",
             "2026-02-30 10:00",
             "1795212065",
+            // The year could be the day.
+            "25/11/26 10:00",
+            "25/11/999 10:00",
+            // The name of a time zone ends.
+            "2026-11-25 10:00 [Europe/Berlin",
         ] {
             assert_eq!(read(text), Err(TimeError::UnknownForm), "{text}");
         }

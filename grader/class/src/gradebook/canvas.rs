@@ -94,9 +94,9 @@ fn find_target(
         Some(column) => {
             name == column
                 || without_assignment_number(name) == column
-                || assignment_number(name) == column
+                || assignment_number(name) == Some(column)
         }
-        None => !assignment_number(name).is_empty(),
+        None => assignment_number(name).is_some(),
     };
     let found: Vec<(usize, &str)> = names
         .into_iter()
@@ -128,24 +128,18 @@ fn find_target(
     }
 }
 
-/// Returns `123456` for `Path Tracer (123456)`, and an empty string for a title without a number.
-fn assignment_number(title: &str) -> &str {
-    let inner = title
-        .strip_suffix(')')
-        .and_then(|title| title.rsplit_once('('));
-    let number = inner.map_or("", |(_, number)| number);
-    if number.bytes().all(|byte| byte.is_ascii_digit()) {
-        number
-    } else {
-        ""
-    }
+/// Returns `123456` for `Path Tracer (123456)`, and `None` for a title without a number.
+fn assignment_number(title: &str) -> Option<&str> {
+    let (_, number) = title.strip_suffix(')')?.rsplit_once('(')?;
+    let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+    is_number.then_some(number)
 }
 
 /// Returns `Path Tracer` for `Path Tracer (123456)`.
 fn without_assignment_number(title: &str) -> &str {
     match assignment_number(title) {
-        "" => title,
-        number => title[..title.len() - number.len() - 2].trim_end(),
+        None => title,
+        Some(number) => title[..title.len() - number.len() - 2].trim_end(),
     }
 }
 

@@ -120,3 +120,192 @@ fn an_equal_grade_in_another_format_is_not_a_change() {
                    set out_of in the policy";
     assert_eq!(filled.warnings, [warning]);
 }
+
+#[test]
+fn a_cell_is_filled_in_only_if_points_count_and_it_may_change() {
+    let moodles = "Identifier,Full name,Grade,Maximum Grade,Grade can be changed
+Participant 1,Ann,,100.00,Yes
+Participant 2,Bob,12.50,100.00,no
+Participant 3,Carl,EX,100.00,Yes
+Participant 4,Dora,80.00,100.00,Yes
+Participant 5,Eve,,100.00,Yes
+Participant 6,Finn,,100.00,Yes
+";
+    let people = [1, 2, 3, 4, 5, 6].map(|number| number.to_string());
+    let people = people.map(|number| ("x", person("", "", "", &number)));
+    let mut class = class(&people);
+    for row in &mut class.rows[4..] {
+        row.grades[0].counted = None;
+    }
+    class.rows[4].result.outcome = EntryOutcome::NothingToGrade("empty".to_owned());
+    class.rows[5].grades[0].problem = Some(GradeProblem::SeveralAttempts(vec!["b".to_owned()]));
+    let filled = fill_moodle(list(moodles).path(), &class).unwrap();
+    let change = CellChange {
+        who: "Ann".to_owned(),
+        was: String::new(),
+        now: "80".to_owned(),
+    };
+    assert_eq!(filled.changes, [change]);
+    insta::assert_snapshot!(filled.table.to_csv(), @"
+    Identifier,Full name,Grade,Maximum Grade,Grade can be changed
+    Participant 1,Ann,80,100.00,Yes
+    Participant 2,Bob,12.50,100.00,no
+    Participant 3,Carl,EX,100.00,Yes
+    Participant 4,Dora,80.00,100.00,Yes
+    Participant 5,Eve,,100.00,Yes
+    Participant 6,Finn,,100.00,Yes
+    ");
+    insta::assert_snapshot!(filled.warnings.join("\n"), @"
+    Bob: the platform does not allow changes; left unchanged
+    Carl is excused; left unchanged
+    Eve: nothing to grade; left unchanged
+    Finn: b of the same person could count as well: remove one, or set `counts` under [attempts] in the policy; left unchanged
+    ");
+}
+
+#[test]
+fn an_attempt_that_does_not_count_is_not_filled_in_and_needs_no_warning() {
+    let people = [
+        ("a", person("", "", "u1", "")),
+        ("b", person("", "", "u1", "")),
+    ];
+    let mut class = class(&people);
+    let grade = &mut class.rows[0].grades[0];
+    (grade.counted, grade.problem) = (None, Some(GradeProblem::OtherAttempt("b".to_owned())));
+    let filled = fill_canvas(list(CANVAS).path(), Some("7"), &class).unwrap();
+    assert_eq!(cells(&filled), ["100", "80", "", ""]);
+    assert_eq!(filled.warnings, Vec::<String>::new());
+}
+
+#[test]
+fn every_key_of_a_platform_finds_its_row() {
+    let login = |login: &str| Person {
+        login: login.to_owned(),
+        ..Person::default()
+    };
+    let at_canvas = [
+        ("number", person("", "", "", "7001")),
+        ("sid", person("", "", " U1 ", "")),
+        ("login", login("jdoe")),
+        // Where people log in with their address, Canvas has it instead of an account name.
+        ("email", person("", "JDoe", "", "")),
+        ("name", person("jane doe", "", "", "")),
+    ];
+    for (key, person) in at_canvas {
+        let filled = fill_canvas(list(CANVAS).path(), Some("7"), &class(&[("x", person)])).unwrap();
+        assert_eq!(cells(&filled), ["100", "80", "", ""], "{key}");
+    }
+    let moodles = "Identifier,Full name,ID number,Email address,Grade\n\
+                   Participant 5,Ann,u1,ann@x.edu,\nParticipant 6,Bob,u2,,\n";
+    let gradescopes = "First Name,Last Name,SID,Email,Total Score,Max Points\n\
+                       Ann,Lee,u1,ann@x.edu,,50\nBob,Kim,u2,bob@x.edu,,50\n";
+    for (key, person) in [
+        ("number", person("", "", "", "5")),
+        ("sid", person("", "", "u1", "")),
+        ("email", person("", "ann@x.edu", "", "")),
+        ("name", person("Ann", "", "", "")),
+    ] {
+        let class = class(&[("x", person)]);
+        let filled = fill_moodle(list(moodles).path(), &class).unwrap();
+        assert_eq!(cells(&filled), ["80", ""], "{key}");
+        let filled = fill_gradescope(list(gradescopes).path(), &class).unwrap();
+        let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of \
+                       in the policy";
+        if ["sid", "email"].contains(&key) {
+            assert_eq!(filled.changes[0].who, "Ann Lee", "{key}");
+            assert_eq!(filled.table.rows[0][4], "80", "{key}");
+            assert_eq!(filled.warnings, [warning], "{key}");
+        } else {
+            assert_eq!(filled.changes, [], "{key}");
+        }
+    }
+}
+
+#[test]
+fn rows_that_are_not_of_people_match_nobody() {
+    // Canvas's row with the maximum has no number, and neither has the one of its test student.
+    let canvas = "Student,ID,SIS User ID,Section,Path (7)\n\
+                  Points Possible,7001,u1,,100\nJane,,u1,A,\nJane,7002,u1,A,\n";
+    let by_sid = class(&[("x", person("", "", "u1", ""))]);
+    let filled = fill_canvas(list(canvas).path(), None, &by_sid).unwrap();
+    assert_eq!(cells(&filled), ["100", "", "80"]);
+    let moodles = "Identifier,ID number,Grade\n,u1,\nParticipant 5,u1,\n";
+    let filled = fill_moodle(list(moodles).path(), &by_sid).unwrap();
+    assert_eq!(cells(&filled), ["", "80"]);
+    let gradescopes = "Email,SID,Total Score\n,u1,\nann@x.edu,u1,\n";
+    let filled = fill_gradescope(list(gradescopes).path(), &by_sid).unwrap();
+    assert_eq!(cells(&filled), ["", "80"]);
+    assert_eq!(filled.changes[0].who, "ann@x.edu", "there is no name");
+    // An empty cell is not the key of people of whom nothing is known.
+    let unknown = class(&[("x", person("", "", "", ""))]);
+    let filled = fill_canvas(list(canvas).path(), None, &unknown).unwrap();
+    assert_eq!(filled.changes, []);
+}
+
+#[test]
+fn a_canvas_column_is_named_by_its_title_or_its_number() {
+    let nobody = class(&[]);
+    let find = |header: &str, column: Option<&str>| {
+        let text = format!("Student,ID,Section,{header}\n");
+        let filled = fill_canvas(list(&text).path(), column, &nobody);
+        filled
+            .map(|filled| filled.title)
+            .map_err(|error| error.to_string())
+    };
+    let two = "Path (7),Quiz (8),Notes";
+    for name in ["Path", "7", "Path (7)"] {
+        assert_eq!(
+            find(two, Some(name)),
+            Ok("Canvas, Path (7)".to_owned()),
+            "{name}"
+        );
+    }
+    assert_eq!(find(two, Some("Notes")), Ok("Canvas, Notes".to_owned()));
+    for name in ["P", "(7)", "Section", ""] {
+        assert!(find(two, Some(name)).is_err(), "{name}");
+    }
+    // Without a name, there must be one column of an assignment.
+    assert_eq!(
+        find("Notes,Path (7)", None),
+        Ok("Canvas, Path (7)".to_owned())
+    );
+    assert!(
+        find("Notes,Path (a7)", None)
+            .unwrap_err()
+            .contains("--column")
+    );
+    assert!(find(two, None).unwrap_err().contains("Path (7); Quiz (8)"));
+    assert_eq!(
+        find("Lab (a) (7)", Some("Lab (a)")),
+        Ok("Canvas, Lab (a) (7)".to_owned())
+    );
+}
+
+#[test]
+fn an_unknown_or_equal_maximum_needs_no_warning() {
+    let one = class(&[("x", person("", "", "", "5"))]);
+    let warnings = |maximum: &str, class: &GradedClass| {
+        let text = format!("Identifier;Grade;Maximum Grade\nP 5;;{maximum}\n");
+        fill_moodle(list(&text).path(), class).unwrap().warnings
+    };
+    assert_eq!(warnings("100,00", &one), Vec::<String>::new());
+    assert_eq!(warnings(" ", &one), Vec::<String>::new());
+    assert_eq!(warnings("99", &one).len(), 1);
+    assert_eq!(warnings("99", &class(&[])), Vec::<String>::new());
+}
+
+#[test]
+fn canvass_maximum_is_in_the_row_of_possible_points() {
+    let jane = class(&[("x", person("", "", "", "7001"))]);
+    let warnings = |canvas: &str| {
+        let filled = fill_canvas(list(canvas).path(), Some("7"), &jane).unwrap();
+        filled.warnings
+    };
+    assert_eq!(warnings(CANVAS), Vec::<String>::new());
+    assert_eq!(
+        warnings(&CANVAS.replace(",100,", ",50,")),
+        [
+            "the gradebook's maximum is 50, but these points are out of 100: set out_of in the policy"
+        ]
+    );
+}

@@ -223,3 +223,6 @@ pub fn count_points(
     apply_rule(policy, &mut rows);
     Ok(rows)
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

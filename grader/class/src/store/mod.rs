@@ -319,3 +319,6 @@ fn read_json<T: DeserializeOwned>(path: PathBuf) -> Result<Option<T>, StoreError
     let value = text.map(|text| serde_json::from_str(&text)).transpose();
     value.map_err(|error| StoreError::damaged(path, &error))
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -189,3 +189,6 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

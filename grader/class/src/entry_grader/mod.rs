@@ -169,3 +169,6 @@ fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     }
     hash.hex()
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

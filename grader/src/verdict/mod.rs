@@ -371,3 +371,6 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
         ..substituted
     }
 }
+
+#[cfg(test)]
+mod tests;

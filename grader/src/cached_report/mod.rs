@@ -175,3 +175,6 @@ fn is_reproducible(verdict: &Verdict) -> bool {
         VerdictKind::NoAnswer | VerdictKind::Pending => false,
     }
 }
+
+#[cfg(test)]
+mod tests;

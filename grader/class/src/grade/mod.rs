@@ -343,3 +343,6 @@ fn find_regrade_changes(
         causes: before.differences(&run.settings),
     }))
 }
+
+#[cfg(test)]
+mod tests;

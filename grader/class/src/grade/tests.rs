@@ -1,0 +1,223 @@
+//! Tests of rounds and of the folders, lists and numbers that a class is graded with. Whole runs are
+//! in `tests/histories`.
+
+use std::fs;
+use std::sync::atomic::Ordering;
+
+use grader::handed_out::RAYS;
+
+use super::*;
+use crate::entry_grader::tests::{FailingGrader, missing, written};
+use crate::model::tests::{graded, result};
+use crate::store::tests::run;
+
+/// Returns an empty store in a temporary folder.
+fn store() -> (tempfile::TempDir, Store) {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::new(&folder.path().join("out"));
+    fs::create_dir(store.folder()).unwrap();
+    (folder, store)
+}
+
+fn other_settings() -> Settings {
+    Settings {
+        exam_hash: "other".to_owned(),
+        ..run().settings
+    }
+}
+
+#[test]
+fn a_folder_without_scores_starts_the_first_round_and_cannot_be_regraded() {
+    let (_folder, store) = store();
+    let first = start_or_resume(&store, run().settings, false).unwrap();
+    assert_eq!(first, run());
+    let error = start_or_resume(&store, run().settings, true).unwrap_err();
+    assert!(matches!(error, Error::NothingToRegrade(_)), "{error}");
+}
+
+#[test]
+fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
+    let (_folder, store) = store();
+    let round = |finished: bool, regrade: bool| {
+        let written = Run {
+            finished,
+            was_finished: finished,
+            ..run()
+        };
+        store.write_run(&written).unwrap();
+        let next = start_or_resume(&store, run().settings, regrade).unwrap();
+        assert!(!next.finished);
+        next.round
+    };
+    assert_eq!(round(false, false), 1);
+    assert_eq!(round(true, false), 1);
+    assert_eq!(round(false, true), 1, "a stopped regrade is resumed");
+    assert_eq!(round(true, true), 2);
+}
+
+#[test]
+fn other_settings_need_a_regrade() {
+    let (_folder, store) = store();
+    store.write_run(&run()).unwrap();
+    let error = start_or_resume(&store, other_settings(), false).unwrap_err();
+    assert!(
+        matches!(&error, Error::SettingsChanged { differences, .. } if differences == &["the exam"]),
+        "{error}"
+    );
+    let next = start_or_resume(&store, other_settings(), true).unwrap();
+    assert_eq!((next.round, next.settings), (2, other_settings()));
+}
+
+#[test]
+fn the_scores_before_a_regrade_are_saved_once() {
+    let (_folder, store) = store();
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    let unchanged = save_previous_scores(&store, run()).unwrap();
+    assert_eq!(unchanged, run());
+    assert_eq!(store.previous_score("a").unwrap(), None);
+    let regrade = Run {
+        must_save_previous: true,
+        ..run()
+    };
+    let saved = save_previous_scores(&store, regrade).unwrap();
+    assert_eq!(saved, run());
+    assert_eq!(store.read_run().unwrap(), Some(run()));
+    assert_eq!(store.previous_score("a").unwrap().unwrap().points, 80);
+}
+
+#[test]
+fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
+    let (folder, store) = store();
+    let input = folder.path().join("class");
+    fs::create_dir(&input).unwrap();
+    let archive = folder.path().join("class.zip");
+    fs::write(&archive, "").unwrap();
+    let part: Shard = "1/2".parse().unwrap();
+    for input in [&input, &archive] {
+        check_out(&store, input, None).unwrap();
+        check_out(&store, input, Some(part)).unwrap();
+    }
+    let error = check_out(&store, folder.path(), None).unwrap_err();
+    assert!(matches!(error, Error::OutInInput { .. }), "{error}");
+
+    let of_part = Run {
+        shard: Some(part),
+        ..run()
+    };
+    store.write_run(&of_part).unwrap();
+    check_out(&store, &input, Some(part)).unwrap();
+    let error = check_out(&store, &input, None).unwrap_err();
+    assert!(
+        matches!(&error, Error::OtherShard { was, now, .. }
+            if was == "part 1/2" && now == "the whole class"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_estimate_grades_two_open_submissions_per_slot() {
+    let (folder, store) = store();
+    let mut entries = vec![missing("empty")];
+    entries.extend((0..8).map(|number| written(&number.to_string(), folder.path())));
+    let grader = FailingGrader::default();
+    let estimate = estimate(&grader, &store, &run(), entries, 3).unwrap();
+    assert_eq!(
+        (estimate.times.len(), estimate.remaining, estimate.slots),
+        (6, 2, 3)
+    );
+    assert_eq!(store.ids().unwrap(), ["0", "1", "2", "3", "4", "5"]);
+    assert_eq!(
+        grader.asked.load(Ordering::Relaxed),
+        6 * 3,
+        "each is retried"
+    );
+}
+
+#[test]
+fn entries_are_graded_in_their_order() {
+    let (_folder, store) = store();
+    let entries = ["b", "a"].map(missing);
+    let results = grade_entries(&FailingGrader::default(), &store, &run(), &entries, 2).unwrap();
+    let ids: Vec<&str> = results.iter().map(|result| result.id.as_str()).collect();
+    assert_eq!(ids, ["b", "a"]);
+}
+
+#[test]
+fn only_a_regrade_has_changes_and_causes() {
+    let (_folder, store) = store();
+    let first = find_regrade_changes(&store, &run(), &[]).unwrap();
+    assert!(first.is_none());
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    store.save_previous_scores().unwrap();
+    let second = run().next_round(other_settings());
+    let results = [
+        result("a", &["Ann"], graded(70)),
+        result("b", &["Bob"], graded(70)),
+    ];
+    let changes = find_regrade_changes(&store, &second, &results).unwrap();
+    let changes = changes.unwrap();
+    let drifts: Vec<_> = changes
+        .drifts
+        .iter()
+        .map(|drift| (drift.id.as_str(), drift.was, drift.now))
+        .collect();
+    assert_eq!(drifts, [("a", 80, Some(70))]);
+    assert_eq!(changes.causes, ["the exam"]);
+}
+
+#[test]
+fn a_given_number_of_slots_counts_and_otherwise_there_is_at_least_one() {
+    assert_eq!(slot_count(Some(3)), 3);
+    assert!(slot_count(None) >= 1);
+}
+
+#[test]
+fn files_that_are_not_given_are_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(policy_text(None).unwrap(), None);
+    let policy = folder.path().join("policy.toml");
+    assert!(policy_text(Some(&policy)).is_err());
+    fs::write(&policy, "[points]\nout_of = 50\n").unwrap();
+    let text = policy_text(Some(&policy)).unwrap();
+    assert_eq!(text.as_deref(), Some("[points]\nout_of = 50\n"));
+
+    let options = GradeOptions::default();
+    let none = read_manual_points(&Lists::default(), &options).unwrap();
+    assert_eq!(none, ManualPointsList::default());
+    let path = folder.path().join("manual.csv");
+    fs::write(
+        &path,
+        "student,task,delta,comment,author\nAnn,bbox,1,,Kim\n",
+    )
+    .unwrap();
+    let lists = Lists {
+        manual_points: Some(path),
+        ..Lists::default()
+    };
+    let list = read_manual_points(&lists, &options).unwrap();
+    assert_eq!(list.of(&Person::named("Ann"))[0].delta, 1);
+}
+
+#[test]
+fn the_roster_beside_clones_is_used_unless_another_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["task-ann", "task-bob"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        fs::write(folder.path().join(name).join("sphere.rs"), "new").unwrap();
+    }
+    let scores = folder.path().join(CLASSROOM50_SCORES);
+    fs::write(&scores, "username\nann\n").unwrap();
+    let parent = tempfile::tempdir().unwrap();
+    let input = Input::open(folder.path(), parent.path(), &RAYS).unwrap();
+    let given = |roster: Option<&str>| Lists {
+        roster: roster.map(Into::into),
+        hand_back: true,
+        ..Lists::default()
+    };
+    let found = resolve_lists(&input, &given(None));
+    let found_path = found.roster.unwrap().canonicalize().unwrap();
+    assert_eq!(found_path, scores.canonicalize().unwrap());
+    assert!(found.hand_back, "the other lists are kept");
+    let found = resolve_lists(&input, &given(Some("other.csv")));
+    assert_eq!(found.roster, Some("other.csv".into()));
+}

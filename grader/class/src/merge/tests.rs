@@ -1,0 +1,196 @@
+//! Tests of which shards belong together, and of what is merged.
+
+use std::fs;
+
+use super::*;
+use crate::cli::Lists;
+use crate::model::tests::{graded, result};
+use crate::outcome::EntryOutcome;
+use crate::store::tests::run;
+
+/// A class in two shards, in a temporary folder.
+struct Shards {
+    folder: tempfile::TempDir,
+}
+
+impl Shards {
+    /// Ann is in the first shard, and Bob in the second.
+    fn new() -> Self {
+        let shards = Shards {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        for (part, id) in [(1, "ann"), (2, "bob")] {
+            shards.write(part, |_| {});
+            let shard = shards.store(part);
+            shard.save_graded(&result(id, &[id], graded(80)), "key", 1);
+        }
+        shards
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn store(&self, part: usize) -> Store {
+        Store::new(&self.path(&part.to_string()))
+    }
+
+    /// Writes the finished run of a shard, with a change.
+    fn write(&self, part: usize, change: impl FnOnce(&mut Run)) {
+        let mut run = Run {
+            finished: true,
+            shard: Some(format!("{part}/2").parse().unwrap()),
+            entries: vec![["ann", "bob"][part - 1].to_owned()],
+            class: "class".to_owned(),
+            ..run()
+        };
+        change(&mut run);
+        let store = self.store(part);
+        fs::create_dir_all(store.folder()).unwrap();
+        store.write_run(&run).unwrap();
+    }
+
+    fn arguments(&self) -> MergeArguments {
+        MergeArguments {
+            shards: vec![self.path("1"), self.path("2")],
+            out: self.path("out"),
+            policy: None,
+            lists: Lists::default(),
+        }
+    }
+
+    fn merge(&self) -> Result<Completion, Error> {
+        merge_shards(&self.arguments())
+    }
+}
+
+#[test]
+fn a_merged_class_has_the_entries_of_all_shards() {
+    let shards = Shards::new();
+    assert_eq!(shards.merge().unwrap(), Completion::Complete);
+    let out = Store::new(&shards.path("out"));
+    assert_eq!(out.ids().unwrap(), ["ann", "bob"]);
+    let run = out.read_run().unwrap().unwrap();
+    assert_eq!(
+        (run.shard, run.entries.as_slice()),
+        (None, ["ann", "bob"].map(str::to_owned).as_slice())
+    );
+    assert!(
+        fs::read_to_string(out.folder().join("grades.csv"))
+            .unwrap()
+            .contains("bob")
+    );
+}
+
+#[test]
+fn a_shard_with_a_fault_makes_the_class_incomplete() {
+    let shards = Shards::new();
+    let fault = EntryOutcome::Fault("disk".to_owned());
+    shards
+        .store(2)
+        .save_graded(&result("bob", &["bob"], fault), "", 1);
+    assert_eq!(shards.merge().unwrap(), Completion::Incomplete);
+}
+
+#[test]
+fn those_who_left_are_not_merged_but_named_once() {
+    let shards = Shards::new();
+    for part in [1, 2] {
+        let left = result("eve", &["Eve"], graded(50));
+        shards.store(part).save_graded(&left, "key", 1);
+    }
+    shards.merge().unwrap();
+    let out = Store::new(&shards.path("out"));
+    assert_eq!(out.ids().unwrap(), ["ann", "bob"]);
+    let page = fs::read_to_string(out.folder().join("class.html")).unwrap();
+    assert_eq!(page.matches("eve (Eve): 50 points").count(), 1, "{page}");
+}
+
+#[test]
+fn runs_that_did_not_list_their_entries_have_all_of_their_folder() {
+    let shards = Shards::new();
+    for part in [1, 2] {
+        shards.write(part, |run| {
+            run.class.clear();
+            run.entries.clear();
+        });
+    }
+    shards.merge().unwrap();
+    let out = Store::new(&shards.path("out"));
+    assert_eq!(out.ids().unwrap(), ["ann", "bob"]);
+}
+
+#[test]
+fn shards_that_do_not_belong_together_are_refused() {
+    let refused = |change: &dyn Fn(&Shards)| {
+        let shards = Shards::new();
+        change(&shards);
+        let error = shards.merge().unwrap_err();
+        assert!(!shards.path("out/run.json").exists());
+        let folder = shards.folder.path().display().to_string();
+        error.to_string().replace(&folder, "")
+    };
+    let errors = [
+        refused(&|shards| fs::remove_file(shards.path("2/run.json")).unwrap()),
+        refused(&|shards| shards.write(2, |run| run.finished = false)),
+        refused(&|shards| shards.write(2, |run| run.class.push('x'))),
+        refused(&|shards| shards.write(2, |run| run.settings.exam_hash.push('x'))),
+        refused(&|shards| shards.write(2, |run| run.policy = Some(String::new()))),
+        refused(&|shards| shards.write(2, |run| run.shard = "1/2".parse().ok())),
+        refused(&|shards| {
+            shards.write(2, |run| run.entries.push("ann".to_owned()));
+            let twice = result("ann", &["ann"], graded(80));
+            shards.store(2).save_graded(&twice, "key", 1);
+        }),
+    ];
+    insta::assert_snapshot!(errors.join("\n"));
+}
+
+#[test]
+fn machines_may_differ_in_their_grader_and_compiler() {
+    let shards = Shards::new();
+    shards.write(2, |run| {
+        run.settings.grader.push('x');
+        run.settings.built_with.push('x');
+    });
+    shards.merge().unwrap();
+}
+
+#[test]
+fn a_given_policy_counts_instead_of_those_of_the_shards() {
+    let shards = Shards::new();
+    let halved = "[points]\nout_of = 50\n".to_owned();
+    for part in [1, 2] {
+        shards.write(part, |run| run.policy = Some(halved.clone()));
+    }
+    let out_of = |arguments: &MergeArguments| {
+        let runs = arguments.shards.iter();
+        let runs: Vec<(&PathBuf, Run)> = runs
+            .map(|path| (path, read_finished_run(path).unwrap()))
+            .collect();
+        choose_policy(arguments, &runs).unwrap().points.out_of
+    };
+    let mut arguments = shards.arguments();
+    assert_eq!(out_of(&arguments), Some(50));
+    let path = shards.path("policy.toml");
+    fs::write(&path, "[points]\nout_of = 10\n").unwrap();
+    arguments.policy = Some(path);
+    assert_eq!(out_of(&arguments), Some(10));
+}
+
+#[test]
+fn the_merged_class_may_not_be_in_a_shard() {
+    let shards = Shards::new();
+    let check = |out: &str| {
+        let arguments = MergeArguments {
+            out: shards.path(out),
+            ..shards.arguments()
+        };
+        check_out(&arguments)
+    };
+    assert!(check("out").is_ok() && check("new/out").is_ok());
+    for out in ["1", "2/new"] {
+        let error = check(out).unwrap_err();
+        assert!(matches!(error, Error::MergeIntoShard { .. }), "{error}");
+    }
+}

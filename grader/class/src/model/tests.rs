@@ -1,0 +1,285 @@
+//! Tests of what counts for each person, and of the words for it.
+
+use super::*;
+use crate::entry::EntryInfo;
+use crate::outcome::TaskScore;
+
+/// Returns the result of a submission by these people, with this outcome.
+pub(crate) fn result(id: &str, people: &[&str], outcome: EntryOutcome) -> EntryResult {
+    EntryResult {
+        id: id.to_owned(),
+        info: EntryInfo {
+            people: people.iter().map(|name| Person::named(*name)).collect(),
+            ..EntryInfo::default()
+        },
+        outcome,
+    }
+}
+
+/// Returns an outcome with this many of 100 points, all of them for spheres.
+pub(crate) fn graded(points: u32) -> EntryOutcome {
+    EntryOutcome::Graded(Box::new(ScoreSummary {
+        points,
+        max_points: 100,
+        tasks: vec![TaskScore {
+            id: "sphere".to_owned(),
+            title: "Spheres".to_owned(),
+            points,
+            max_points: 100,
+            items: Vec::new(),
+        }],
+    }))
+}
+
+fn nothing() -> EntryOutcome {
+    EntryOutcome::NothingToGrade("the folder is empty".to_owned())
+}
+
+fn fault() -> EntryOutcome {
+    EntryOutcome::Fault("the disk is full".to_owned())
+}
+
+pub(crate) fn policy(text: &str) -> Policy {
+    Policy::from_text("policy.toml".as_ref(), text).unwrap()
+}
+
+fn points_by_hand(delta: i32) -> ManualPoints {
+    ManualPoints {
+        row: 2,
+        student: "Ann".to_owned(),
+        task: "sphere".to_owned(),
+        delta,
+        comment: "nice".to_owned(),
+        author: "Lee".to_owned(),
+    }
+}
+
+/// Returns the row of a submission by these people, who have these manual points.
+fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> ClassRow {
+    let names: Vec<&str> = people.iter().map(|(name, _)| *name).collect();
+    let by_hand = |deltas: &&[i32]| deltas.iter().copied().map(points_by_hand).collect();
+    let manual = people.iter().map(|(_, deltas)| by_hand(deltas)).collect();
+    ClassRow::new(result("a", &names, outcome), &policy(policy_text), manual)
+}
+
+fn problems() -> [GradeProblem; 3] {
+    [
+        GradeProblem::UnclearTime(UnclearTime::OnlyAFlag),
+        GradeProblem::OtherAttempt("b".to_owned()),
+        GradeProblem::SeveralAttempts(vec!["b".to_owned(), "c".to_owned()]),
+    ]
+}
+
+/// Returns a grade that does not count because of this problem.
+fn with_problem(problem: GradeProblem) -> PersonGrade {
+    PersonGrade {
+        problem: Some(problem),
+        ..PersonGrade::default()
+    }
+}
+
+#[test]
+fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
+    let mut lines = Vec::new();
+    for outcome in [graded(80), nothing(), fault()] {
+        let row = row(outcome, "", &[("Ann", &[])]);
+        for problem in [None].into_iter().chain(problems().map(Some)) {
+            let grade = PersonGrade {
+                problem,
+                ..PersonGrade::default()
+            };
+            let why: String = row.why(&grade).chars().take(40).collect();
+            lines.push(format!("{} ({why})", row.status(&grade)));
+        }
+    }
+    insta::assert_snapshot!(lines.join("\n"), @r"
+    graded ()
+    time unclear (the platform says that it is late, but a)
+    another attempt counts (the submission b of the same person coun)
+    several attempts (b and c of the same person could count a)
+    nothing to grade (the folder is empty)
+    nothing to grade (the folder is empty)
+    another attempt counts (the folder is empty)
+    several attempts (the folder is empty)
+    not graded (the disk is full)
+    not graded (the disk is full)
+    another attempt counts (the disk is full)
+    several attempts (the disk is full)
+    ");
+}
+
+#[test]
+fn a_score_that_counts_as_it_is_needs_no_words() {
+    let row = row(graded(80), "", &[("Ann", &[])]);
+    assert_eq!(row.grades[0].counted.unwrap().points, 80);
+    assert_eq!(row.counted_texts(), Vec::<String>::new());
+    assert_eq!(row.notes(), Vec::<String>::new());
+    let people: Vec<_> = row.people().collect();
+    assert_eq!(people, [(&Person::named("Ann"), &row.grades[0])]);
+}
+
+#[test]
+fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff() {
+    let halved = row(graded(80), "[points]\nout_of = 50", &[("Ann", &[])]);
+    assert_eq!(
+        halved.counted_texts(),
+        ["40 of 50 points count towards the grade: 80 of 100 points earned."]
+    );
+    assert_eq!(halved.notes(), Vec::<String>::new());
+
+    let changed = row(graded(80), "", &[("Ann", &[2])]);
+    let texts = [
+        "82 of 100 points count towards the grade: 80 of 100 points earned, 2 points added by hand.",
+        "sphere: +2 points by Lee: nice",
+    ];
+    assert_eq!(changed.counted_texts(), texts);
+    assert_eq!(changed.notes(), texts);
+
+    let mut late = result("a", &["Ann"], graded(80));
+    late.info.late = true;
+    let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()]);
+    let texts = [
+        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in 1 day late, \
+         which costs nothing.",
+    ];
+    assert_eq!(late.counted_texts(), texts);
+    assert_eq!(late.notes(), texts);
+}
+
+#[test]
+fn texts_name_people_only_if_they_differ() {
+    let same = row(graded(80), "", &[("Ann", &[2]), ("Bob", &[2])]);
+    assert_eq!(same.counted_texts().len(), 2);
+    let different = row(graded(80), "", &[("Ann", &[2]), ("Bob", &[])]);
+    let texts = [
+        "Ann: 82 of 100 points count towards the grade: 80 of 100 points earned, 2 points added by \
+         hand.",
+        "Ann: sphere: +2 points by Lee: nice",
+    ];
+    assert_eq!(different.counted_texts(), texts);
+    assert_eq!(different.notes(), texts);
+    let nobody = row(graded(80), "", &[]);
+    assert_eq!(nobody.counted_texts(), Vec::<String>::new());
+}
+
+#[test]
+fn notes_give_the_reason_why_there_are_no_points() {
+    let notes = |outcome| row(outcome, "", &[("Ann", &[1])]).notes();
+    let by_hand = "sphere: +1 point by Lee: nice";
+    assert_eq!(
+        notes(nothing()),
+        ["nothing to grade: the folder is empty", by_hand]
+    );
+    assert_eq!(notes(fault()), ["not graded: the disk is full", by_hand]);
+    let mut row = row(graded(80), "", &[("Ann", &[1])]);
+    row.grades[0].problem = Some(GradeProblem::OtherAttempt("b".to_owned()));
+    assert_eq!(
+        row.notes(),
+        [
+            "another attempt counts: the submission b of the same person counts",
+            by_hand
+        ]
+    );
+}
+
+#[test]
+fn a_problem_is_explained_instead_of_points() {
+    let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
+    insta::assert_snapshot!(texts.join("\n"), @"
+    No points count: the platform says that it is late, but an extension can be applied only if the submission time and the due time are known: add a column `datetime` to the roster, and `due` to the policy.
+    No points count: the submission b of the same person counts.
+    No points count: b and c of the same person could count as well: remove one, or set `counts` under [attempts] in the policy.
+    ");
+    assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());
+}
+
+#[test]
+fn a_submission_is_superseded_if_others_count_for_all_of_its_people() {
+    let mut row = row(graded(80), "", &[("Ann", &[]), ("Bob", &[])]);
+    assert!(!row.is_superseded());
+    assert_eq!(row.problem(), None);
+    let [unclear, other, several] = problems();
+    row.grades[1] = with_problem(other.clone());
+    assert!(!row.is_superseded());
+    assert_eq!(row.problem(), Some(&other));
+    row.grades[0] = with_problem(unclear.clone());
+    assert!(!row.is_superseded());
+    assert_eq!(row.problem(), Some(&unclear));
+    row.grades[0] = with_problem(several);
+    assert!(!row.is_superseded());
+    row.grades[0] = with_problem(other);
+    assert!(row.is_superseded());
+    row.grades.clear();
+    assert!(!row.is_superseded(), "nobody has another one");
+}
+
+#[test]
+fn superseded_submissions_and_faults_are_not_among_the_scores() {
+    let mut superseded = row(graded(10), "", &[("Ann", &[])]);
+    superseded.grades[0] = with_problem(GradeProblem::OtherAttempt("b".to_owned()));
+    let outcomes = [graded(80), nothing(), fault(), graded(70), fault()];
+    let rows = outcomes.map(|outcome| row(outcome, "", &[("Ann", &[])]));
+    let class = GradedClass {
+        rows: [superseded].into_iter().chain(rows).collect(),
+        ..GradedClass::default()
+    };
+    let points: Vec<u32> = class.scores().map(|(_, score)| score.points).collect();
+    assert_eq!(points, [80, 70]);
+    assert_eq!(class.fault_count(), 2);
+    assert_eq!(GradedClass::default().fault_count(), 0);
+}
+
+#[test]
+fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
+    let due = "[late]\ndue = 2026-11-20T23:59:59Z\npercent_per_day = 10";
+    let grade = |info: EntryInfo, outcome| {
+        let mut result = result("a", &["Ann"], outcome);
+        result.info = EntryInfo {
+            people: result.info.people,
+            ..info
+        };
+        ClassRow::new(result, &policy(due), vec![Vec::new()])
+            .grades
+            .remove(0)
+    };
+    let undated = grade(EntryInfo::default(), graded(80));
+    assert_eq!(
+        (undated.counted.unwrap().points, undated.is_undated),
+        (80, true)
+    );
+    assert!(!grade(EntryInfo::default(), nothing()).is_undated);
+    let at = |time: &str| EntryInfo {
+        submitted: Some(time.to_owned()),
+        ..EntryInfo::default()
+    };
+    let late = grade(at("2026-11-21T10:00:00Z"), graded(80));
+    assert_eq!((late.counted.unwrap().points, late.is_undated), (72, false));
+    let unclear = grade(at("yesterday"), graded(80));
+    assert_eq!((unclear.counted, unclear.is_undated), (None, false));
+    assert!(matches!(
+        unclear.problem,
+        Some(GradeProblem::UnclearTime(UnclearTime::Submitted { .. }))
+    ));
+}
+
+#[test]
+fn points_by_hand_are_added_for_their_person_and_checked() {
+    let count = |delta: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("manual.csv");
+        let text = format!("student,task,delta,comment,author\nBob,sphere,{delta},,Lee\n");
+        std::fs::write(&path, text).unwrap();
+        let manual = ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap();
+        let results = vec![
+            result("a", &["Ann", "Bob"], graded(80)),
+            result("b", &["Bob B."], nothing()),
+        ];
+        let rows = count_points(results, &Policy::default(), &manual)?;
+        let points = rows.iter().flat_map(|row| &row.grades);
+        let points = points.map(|grade| grade.counted.map(|counted| counted.points));
+        Ok::<_, ManualPointsError>(points.collect::<Vec<_>>())
+    };
+    assert_eq!(count("5").unwrap(), [Some(80), Some(85), None]);
+    let error = count("21").unwrap_err().to_string();
+    assert!(error.contains("+21 points are out of range"), "{error}");
+}

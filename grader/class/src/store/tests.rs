@@ -1,0 +1,299 @@
+//! Tests of the output folder: what is stored, replaced and kept.
+
+use std::fs;
+
+use super::*;
+use crate::entry::{EntryInfo, Person, Source};
+use crate::model::tests::{graded, result};
+use crate::run::Settings;
+
+impl Store {
+    /// Stores a result as grading does, with the files of a graded entry. If it has a score, its
+    /// `score.json` has only the numbers.
+    pub(crate) fn save_graded(&self, result: &EntryResult, key: &str, round: u32) {
+        let folder = self.entry_folder(&result.id);
+        fs::create_dir_all(&folder).unwrap();
+        if let Some(score) = result.score() {
+            let tasks = score.tasks.iter().map(|task| {
+                serde_json::json!({
+                    "id": task.id, "title": task.title, "points": task.points,
+                    "max_points": task.max_points, "items": [],
+                })
+            });
+            let score = serde_json::json!({
+                "points": score.points, "max_points": score.max_points,
+                "tasks": tasks.collect::<Vec<_>>(),
+            });
+            fs::write(folder.join(SCORE), json(&score)).unwrap();
+        }
+        self.save_result(result, key, round).unwrap();
+    }
+}
+
+/// Returns the names of the files in a folder, sorted.
+fn names(folder: &Path) -> Vec<String> {
+    let files = files::read_dir(folder).unwrap();
+    let names = files.iter().filter_map(|path| path.file_name()?.to_str());
+    names.map(str::to_owned).collect()
+}
+
+fn nothing() -> EntryOutcome {
+    EntryOutcome::NothingToGrade("empty".to_owned())
+}
+
+fn fault() -> EntryOutcome {
+    EntryOutcome::Fault("disk".to_owned())
+}
+
+/// Returns an empty store in a temporary folder.
+fn store() -> (tempfile::TempDir, Store) {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::new(folder.path());
+    (folder, store)
+}
+
+fn entry(id: &str) -> Entry {
+    Entry {
+        id: id.to_owned(),
+        info: EntryInfo {
+            people: vec![Person::named("Ann")],
+            ..EntryInfo::default()
+        },
+        source: Source::Missing(String::new()),
+    }
+}
+
+fn points(score: Result<Option<ScoreSummary>, StoreError>) -> Option<u32> {
+    score.unwrap().map(|score| score.points)
+}
+
+pub(crate) fn run() -> Run {
+    Run::first_round(Settings {
+        exam: "practice".to_owned(),
+        exam_hash: "1".to_owned(),
+        grader: "2".to_owned(),
+        built_with: "3".to_owned(),
+        isolation: "full".to_owned(),
+        options: "4".to_owned(),
+    })
+}
+
+#[test]
+fn a_new_folder_has_no_run_and_no_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::new(&folder.path().join("new"));
+    assert_eq!(store.folder(), folder.path().join("new"));
+    assert_eq!(store.read_run().unwrap(), None);
+    assert_eq!(store.results().unwrap(), []);
+    assert_eq!(store.result("a").unwrap(), None);
+    assert_eq!(store.ids().unwrap(), Vec::<String>::new());
+    store.remove_temporary_files().unwrap();
+}
+
+#[test]
+fn a_run_is_read_as_it_was_written() {
+    let (_folder, store) = store();
+    store.write_run(&run()).unwrap();
+    assert_eq!(store.read_run().unwrap(), Some(run()));
+    let text = fs::read_to_string(store.folder().join(RUN)).unwrap();
+    assert!(text.starts_with("{\n  \"schema\": 1,") && text.ends_with("}\n"));
+}
+
+#[test]
+fn a_damaged_file_is_an_error_that_names_it() {
+    let (_folder, store) = store();
+    store.write(RUN, "{").unwrap();
+    let error = store.read_run().unwrap_err().to_string();
+    assert!(error.contains("run.json is damaged (EOF"), "{error}");
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    for name in [SCORE, PREVIOUS, REPLACED] {
+        fs::write(store.entry_folder("a").join(name), "{").unwrap();
+    }
+    let errors = [
+        store.result("a").map(drop),
+        store.previous_score("a").map(drop),
+        store.replaced_score("a").map(drop),
+    ];
+    for (error, name) in errors.into_iter().zip([SCORE, PREVIOUS, REPLACED]) {
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains(&format!("{name} is damaged")), "{error}");
+    }
+    assert_eq!(store.cached_result(&entry("a"), "key"), None);
+}
+
+#[test]
+fn a_folder_that_cannot_be_listed_is_not_an_empty_one() {
+    let (_folder, store) = store();
+    fs::write(store.folder().join("students"), "a file").unwrap();
+    assert!(store.ids().is_err());
+}
+
+#[test]
+fn results_are_read_in_the_order_of_their_ids() {
+    let (_folder, store) = store();
+    let results = [
+        result("a", &["Ann"], nothing()),
+        result("b", &["Bob", "Eve"], graded(70)),
+        result("c", &["Carl"], fault()),
+    ];
+    for result in results.iter().rev() {
+        store.save_graded(result, "key", 1);
+    }
+    // A killed run leaves a folder without a stamp.
+    fs::create_dir(store.entry_folder("aa")).unwrap();
+    assert_eq!(store.ids().unwrap(), ["a", "aa", "b", "c"]);
+    assert_eq!(store.results().unwrap(), results);
+    assert_eq!(store.result("b").unwrap().as_ref(), Some(&results[1]));
+    assert_eq!(store.result("aa").unwrap(), None);
+}
+
+#[test]
+fn a_result_is_valid_for_its_key_only_and_takes_the_entrys_new_people() {
+    let (_folder, store) = store();
+    store.save_graded(&result("a", &["A. L."], graded(80)), "key", 1);
+    let cached = store.cached_result(&entry("a"), "key");
+    assert_eq!(cached, Some(result("a", &["Ann"], graded(80))));
+    assert_eq!(store.cached_result(&entry("a"), "other"), None);
+    assert_eq!(store.cached_result(&entry("b"), "key"), None);
+    store.save_graded(&result("a", &["Ann"], nothing()), "key", 1);
+    fs::write(
+        store.entry_folder("a").join(SCORE),
+        r#"{"points": 80, "max_points": 100, "tasks": []}"#,
+    )
+    .unwrap();
+    assert_eq!(
+        store.cached_result(&entry("a"), "key"),
+        None,
+        "there was nothing to grade"
+    );
+}
+
+#[test]
+fn a_state_is_compared_with_its_reason() {
+    let (_folder, store) = store();
+    let empty = EntryState::NothingToGrade("empty".to_owned());
+    assert!(!store.has_state("a", &empty));
+    store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
+    assert!(store.has_state("a", &empty));
+    assert!(!store.has_state("a", &EntryState::NothingToGrade("other".to_owned())));
+    assert!(!store.has_state("a", &EntryState::Graded));
+}
+
+#[test]
+fn an_entry_without_a_score_keeps_no_files_of_one() {
+    let (_folder, store) = store();
+    let folder = store.entry_folder("a");
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    fs::write(folder.join(REPORT), "page").unwrap();
+    store.save_feedback("a", "page").unwrap();
+    fs::write(folder.join(PREVIOUS), "kept").unwrap();
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    assert_eq!(names(&folder), [STAMP, FEEDBACK, PREVIOUS, REPORT, SCORE]);
+    store.save_graded(&result("a", &["Ann"], fault()), "", 1);
+    assert_eq!(names(&folder), [STAMP, PREVIOUS]);
+}
+
+#[test]
+fn the_students_page_is_read_as_it_was_written() {
+    let (_folder, store) = store();
+    fs::create_dir_all(store.entry_folder("a")).unwrap();
+    store.save_feedback("a", "the page").unwrap();
+    assert_eq!(store.read_feedback("a").unwrap(), "the page");
+    assert!(store.read_feedback("b").is_err());
+}
+
+#[test]
+fn both_pages_say_what_counts() {
+    let (_folder, store) = store();
+    let folder = store.entry_folder("a");
+    fs::create_dir_all(&folder).unwrap();
+    let page = "<h1>a</h1><!--counted--><!--/counted-->";
+    fs::write(folder.join(REPORT), page).unwrap();
+    let texts = ["45 of 50".to_owned()];
+    store.write_counted("a", &texts).unwrap();
+    assert_eq!(
+        names(&folder),
+        [REPORT],
+        "a page that is missing is not made"
+    );
+    store.save_feedback("a", page).unwrap();
+    store.write_counted("a", &texts).unwrap();
+    for name in [REPORT, FEEDBACK] {
+        let page = fs::read_to_string(folder.join(name)).unwrap();
+        assert!(page.contains("45 of 50"), "{name}: {page}");
+    }
+}
+
+#[test]
+fn only_a_score_of_this_round_is_set_aside() {
+    let (_folder, store) = store();
+    store.set_score_aside("a", 1).unwrap();
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    store.set_score_aside("a", 2).unwrap();
+    assert_eq!(points(store.replaced_score("a")), None);
+    store.set_score_aside("a", 1).unwrap();
+    assert_eq!(points(store.replaced_score("a")), Some(80));
+    // Without a score, there is none to set aside, and the one before stays.
+    store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
+    store.set_score_aside("a", 1).unwrap();
+    assert_eq!(points(store.replaced_score("a")), Some(80));
+}
+
+#[test]
+fn the_scores_from_before_a_regrade_are_kept() {
+    let (_folder, store) = store();
+    let save = |id: &str, outcome| store.save_graded(&result(id, &["Ann"], outcome), "", 1);
+    for id in ["graded", "nothing", "fault"] {
+        save(id, graded(80));
+        store.set_score_aside(id, 1).unwrap();
+    }
+    save("graded", graded(70));
+    save("nothing", nothing());
+    fs::write(store.entry_folder("nothing").join(PREVIOUS), "{}").unwrap();
+    save("fault", fault());
+    // Doing it again, after an interruption, changes nothing.
+    for _ in 0..2 {
+        store.save_previous_scores().unwrap();
+        assert_eq!(points(store.previous_score("graded")), Some(70));
+        assert_eq!(points(store.previous_score("nothing")), None);
+        assert_eq!(points(store.previous_score("fault")), Some(80));
+        assert_eq!(points(store.previous_score("new")), None);
+        for id in ["graded", "nothing", "fault"] {
+            assert_eq!(points(store.replaced_score(id)), None, "{id}");
+        }
+    }
+}
+
+#[test]
+fn temporary_files_are_removed_and_no_others() {
+    let (_folder, store) = store();
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    let entry = store.entry_folder("a");
+    for folder in [store.folder(), &entry] {
+        fs::write(folder.join(".tmp123"), "").unwrap();
+        fs::write(folder.join("a.tmp"), "").unwrap();
+    }
+    store.remove_temporary_files().unwrap();
+    assert_eq!(names(store.folder()), ["a.tmp", "students"]);
+    assert_eq!(names(&entry), ["a.tmp", STAMP, SCORE]);
+}
+
+#[test]
+fn a_copied_entry_has_the_files_of_the_other_store_and_no_others() {
+    let ((_one, from), (_two, to)) = (store(), store());
+    from.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    fs::write(from.entry_folder("a").join(".tmp123"), "").unwrap();
+    to.save_graded(&result("a", &["Ann"], graded(10)), "old", 1);
+    fs::write(to.entry_folder("a").join(PREVIOUS), "old").unwrap();
+    to.copy_entry("a", &from).unwrap();
+    assert_eq!(names(&to.entry_folder("a")), [STAMP, SCORE]);
+    assert_eq!(to.result("a").unwrap(), from.result("a").unwrap());
+    assert_eq!(
+        points(Ok(to.result("a").unwrap().unwrap().score().cloned())),
+        Some(80)
+    );
+
+    from.remove_stamp("a").unwrap();
+    to.copy_entry("a", &from).unwrap();
+    assert_eq!(names(&to.entry_folder("a")), [SCORE]);
+}

@@ -1,0 +1,250 @@
+//! Tests of what makes a cached report stale, with reports in temporary folders.
+
+use tempfile::TempDir;
+
+use super::*;
+use crate::format::{FORMATS, OutputSpec};
+use crate::handed_out::RAYS;
+use crate::options::Dependents;
+use crate::probe::Budget;
+use crate::report::text::HintDetail;
+use crate::small_exam::{exam, pending};
+use crate::submission::TaskFileError;
+use crate::task_selection::TaskSelection;
+
+fn submission() -> Submission {
+    let files = RAYS.files.iter();
+    Submission {
+        handed_out: &RAYS,
+        name: "alice".to_owned(),
+        files: files
+            .map(|file| (*file, Ok(file.starter.to_owned())))
+            .collect(),
+        ignored_copies: Vec::new(),
+        notes: Vec::new(),
+    }
+}
+
+fn key(options: &GradeOptions, submission: &Submission) -> CacheKey {
+    CacheKey::new(options, submission, "exam", "compiler").unwrap()
+}
+
+fn own_key() -> CacheKey {
+    key(&GradeOptions::default(), &submission())
+}
+
+/// Returns a complete score of two items, the second of which has this verdict.
+fn score_with(verdict: Verdict) -> Score {
+    let mut score = pending(&exam(&["sphere.uv", "bbox.flat"]));
+    score.complete = true;
+    score.points = 7;
+    score.tasks[0].items[0].verdict = Verdict::Pass;
+    score.tasks[1].items[0].verdict = verdict;
+    score
+}
+
+/// Returns a folder with the files of a report.
+fn report() -> (TempDir, ReportFiles) {
+    let folder = tempfile::tempdir().unwrap();
+    let files = ReportFiles::without_reload(folder.path());
+    for path in files.paths() {
+        fs::write(path, "text").unwrap();
+    }
+    (folder, files)
+}
+
+/// Returns the cached report after one with this score was stored.
+fn stored(score: &Score) -> Option<CachedReport> {
+    let (_folder, files) = report();
+    store(&own_key(), score, "the report", &files);
+    CachedReport::read(&files)
+}
+
+#[test]
+fn a_stored_report_is_read_again_with_its_points() {
+    let (_folder, files) = report();
+    assert!(CachedReport::read(&files).is_none());
+    store(
+        &own_key(),
+        &score_with(Verdict::Wrong),
+        "the report",
+        &files,
+    );
+    let cached = CachedReport::read(&files).unwrap();
+    assert_eq!((cached.points, cached.report.as_str()), (7, "the report"));
+    assert!(cached.is_for(&submission()));
+    assert!(cached.is_current(&own_key(), &files));
+
+    fs::write(files.folder.join(RECORD), "{\"key\": ").unwrap();
+    assert!(CachedReport::read(&files).is_none(), "half a record");
+}
+
+#[test]
+fn only_verdicts_that_are_the_same_the_next_time_are_stored() {
+    let by = "sphere.uv".to_owned();
+    for verdict in [
+        Verdict::Pass,
+        Verdict::Partial,
+        Verdict::Wrong,
+        Verdict::Panicked,
+        Verdict::Unimplemented,
+        Verdict::NotCompiled,
+        Verdict::Blocked { by },
+    ] {
+        assert!(
+            stored(&score_with(verdict.clone())).is_some(),
+            "{verdict:?}"
+        );
+    }
+    for verdict in [
+        Verdict::TimedOut,
+        Verdict::OutOfMemory,
+        Verdict::Crashed,
+        Verdict::Protocol,
+        Verdict::Pending,
+    ] {
+        assert!(
+            stored(&score_with(verdict.clone())).is_none(),
+            "{verdict:?}"
+        );
+    }
+}
+
+#[test]
+fn the_report_of_a_stopped_grader_is_not_stored() {
+    let mut score = score_with(Verdict::Pass);
+    score.complete = false;
+    assert!(stored(&score).is_none());
+}
+
+#[test]
+fn a_report_is_stale_after_one_of_its_files_has_changed() {
+    let (_folder, files) = report();
+    store(&own_key(), &score_with(Verdict::Pass), "", &files);
+    let cached = CachedReport::read(&files).unwrap();
+    for path in files.paths() {
+        fs::write(path, "other").unwrap();
+        assert!(!cached.is_current(&own_key(), &files), "{path:?}");
+        fs::remove_file(path).unwrap();
+        assert!(!cached.is_current(&own_key(), &files), "{path:?}");
+        fs::write(path, "text").unwrap();
+        assert!(cached.is_current(&own_key(), &files), "{path:?}");
+    }
+}
+
+#[test]
+fn every_part_of_a_submission_changes_the_key() {
+    let (_folder, files) = report();
+    store(&own_key(), &score_with(Verdict::Pass), "", &files);
+    let cached = CachedReport::read(&files).unwrap();
+    let is_stale_after = |change: fn(&mut Submission)| {
+        let mut changed = submission();
+        change(&mut changed);
+        let key = key(&GradeOptions::default(), &changed);
+        let is_for_it = cached.is_for(&changed);
+        assert_eq!(is_for_it, cached.is_current(&key, &files));
+        !is_for_it
+    };
+    assert!(!is_stale_after(|_| {}));
+    assert!(is_stale_after(|changed| changed.name.push('x')));
+    assert!(is_stale_after(|changed| {
+        changed.files[2].1.as_mut().unwrap().push('\n');
+    }));
+    assert!(is_stale_after(|changed| {
+        let (file, text) = &mut changed.files[2];
+        *text = Err(TaskFileError::Missing(file.name));
+    }));
+    assert!(is_stale_after(|changed| changed.notes.push("x".to_owned())));
+    assert!(is_stale_after(|changed| {
+        changed.ignored_copies.push("x".to_owned());
+    }));
+}
+
+#[test]
+fn the_options_the_exam_and_the_compiler_change_the_key() {
+    let own = own_key();
+    let options = GradeOptions::default;
+    for changed in [
+        GradeOptions {
+            submission: Some("alice.zip".into()),
+            ..options()
+        },
+        GradeOptions {
+            exam: ExamSource::File("final.json".into()),
+            ..options()
+        },
+        GradeOptions {
+            dependents: Dependents::Block,
+            ..options()
+        },
+        GradeOptions {
+            budget: Budget::from_seconds(7),
+            ..options()
+        },
+        GradeOptions {
+            hints: HintDetail::Full,
+            ..options()
+        },
+    ] {
+        assert!(CacheKey::is_cacheable(&changed));
+        assert_ne!(key(&changed, &submission()), own, "{changed:?}");
+    }
+    let with = |exam, compiler| CacheKey::new(&options(), &submission(), exam, compiler);
+    assert_eq!(with("exam", "compiler").as_ref(), Some(&own));
+    assert_ne!(with("other", "compiler").as_ref(), Some(&own));
+    assert_ne!(with("exam", "other").as_ref(), Some(&own));
+}
+
+#[test]
+fn a_key_changes_with_the_environment_even_if_the_submission_is_the_same() {
+    let (_folder, files) = report();
+    store(&own_key(), &score_with(Verdict::Pass), "", &files);
+    let cached = CachedReport::read(&files).unwrap();
+    let other = CacheKey::new(&GradeOptions::default(), &submission(), "other", "compiler");
+    assert!(cached.is_for(&submission()));
+    assert!(!cached.is_current(&other.unwrap(), &files));
+}
+
+#[test]
+fn only_all_of_a_students_own_work_in_the_default_folder_is_cached() {
+    let options = GradeOptions::default;
+    assert!(CacheKey::is_cacheable(&options()));
+    let sphere = RAYS.assignment.task_of("sphere.uv").unwrap();
+    for not_cached in [
+        GradeOptions {
+            exam: ExamSource::StandardInput,
+            ..options()
+        },
+        GradeOptions {
+            tasks: TaskSelection::Only(vec![sphere]),
+            ..options()
+        },
+        GradeOptions {
+            policy: Some("policy.toml".into()),
+            ..options()
+        },
+        GradeOptions {
+            gradescope_metadata: Some("submission_metadata.json".into()),
+            ..options()
+        },
+        GradeOptions {
+            isolation: IsolationRequest::Untrusted,
+            ..options()
+        },
+        GradeOptions {
+            out: Some("folder".into()),
+            ..options()
+        },
+        GradeOptions {
+            formats: vec![OutputSpec {
+                format: FORMATS[0],
+                path: None,
+            }],
+            ..options()
+        },
+    ] {
+        assert!(!CacheKey::is_cacheable(&not_cached), "{not_cached:?}");
+        let key = CacheKey::new(&not_cached, &submission(), "exam", "compiler");
+        assert_eq!(key, None, "{not_cached:?}");
+    }
+}

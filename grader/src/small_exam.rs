@@ -1,0 +1,67 @@
+//! A small exam for tests: items of a question or two, made by hand.
+
+use glam::Vec3;
+use judging::assignment::Task;
+use judging::exam::{Exam, ExamQuestion, Item, Key};
+use judging::exam_file::ExamName;
+use judging::section::Section;
+use judging::signatures::MistakeSignatures;
+use protocol::{Interval, Question, Ray};
+
+use crate::handed_out::RAYS;
+use crate::score::Score;
+use crate::verdict::pending_score;
+
+/// Returns a question about a box with this many rays.
+pub fn boxes(rays: u8) -> ExamQuestion {
+    let query = |x| {
+        let ray = Ray::new(Vec3::new(f32::from(x), 0.0, 0.0), Vec3::X);
+        (ray, Interval::AHEAD)
+    };
+    ExamQuestion::new(
+        Question::BBox {
+            min: Vec3::ZERO,
+            max: Vec3::ONE,
+            queries: (0..rays).map(query).collect(),
+        },
+        Key::Spans {
+            spans: (0..rays).map(|_| None).collect(),
+        },
+    )
+}
+
+/// Returns an item of 4 points with these questions.
+pub fn item(id: &str, questions: Vec<ExamQuestion>) -> Item {
+    Item {
+        id: id.to_owned(),
+        title: format!("title of {id}"),
+        task: Task::in_id(id).unwrap(),
+        points: 4,
+        look: "look here".to_owned(),
+        section: Some(Section::new("boxes.md#a-heading")),
+        needs: Vec::new(),
+        questions,
+        signatures: MistakeSignatures::default(),
+    }
+}
+
+/// Returns an exam with items of 4 points, with these ids.
+pub fn exam(ids: &[&str]) -> Exam {
+    let items = ids.iter().map(|id| item(id, vec![boxes(1)]));
+    Exam {
+        schema: 1,
+        assignment: RAYS.assignment.id.to_owned(),
+        id: "small".to_owned(),
+        mistakes: Vec::new(),
+        items: items.collect(),
+    }
+}
+
+/// Returns the score of a submission of this exam before any item is graded.
+pub fn pending(exam: &Exam) -> Score {
+    let name = ExamName {
+        id: exam.id.clone(),
+        hash: "0123".to_owned(),
+    };
+    pending_score(exam, name, "alice", &RAYS)
+}

@@ -77,6 +77,23 @@ mod tests {
     use super::{affects_surroundings, safe_folder_name, sanitize, sanitize_line};
 
     #[test]
+    fn characters_of_each_kind_affect_their_surroundings() {
+        for c in [
+            '\u{1b}',
+            '\n',
+            '\u{202e}',
+            '\u{2028}',
+            '\u{feff}',
+            '\u{e0041}',
+        ] {
+            assert!(affects_surroundings(c), "{c:?}");
+        }
+        for c in ['a', ' ', 'é', '漢', '🎈'] {
+            assert!(!affects_surroundings(c), "{c:?}");
+        }
+    }
+
+    #[test]
     fn escapes_control_and_direction_characters() {
         assert_eq!(
             sanitize("\x1b[2Jscore\u{202e}", 99),

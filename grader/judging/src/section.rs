@@ -75,6 +75,7 @@ mod tests {
             section.location(),
             "handout/src/boxes.md, \"Zero and minus zero\""
         );
+        assert_eq!(section.to_string(), "boxes.md#zero-and-minus-zero");
     }
 
     #[test]

@@ -270,5 +270,63 @@ mod tests {
         assert!(costs(1.5).matches(&costs(1.55)));
         assert!(!costs(1.5).matches(&costs(2.5)));
         assert!(!costs(1.5).matches(&ObservedAnswer::Tree(None)));
+        assert_eq!(costs(1.5).tree_defect(), Some("SAH cost"));
+        assert_eq!(ObservedAnswer::Tree(None).tree_defect(), None);
+    }
+
+    #[test]
+    fn missing_answers_match_if_they_are_missing_for_the_same_reason() {
+        let panic = |message| ObservedAnswer::of_panic(message);
+        let index = panic("index out of bounds: the len is 3 but the index is 7");
+        assert_eq!(index, ObservedAnswer::PanickedBy(PanicKind::Index));
+        let overflow = panic("attempt to subtract with overflow");
+        assert_eq!(overflow, ObservedAnswer::PanickedBy(PanicKind::Arithmetic));
+        assert_eq!(panic("not my day"), ObservedAnswer::Panicked);
+        let stack = ObservedAnswer::NoAnswer(NoAnswerReason::Stack);
+        let time = ObservedAnswer::NoAnswer(NoAnswerReason::Time);
+        let reasons = [&index, &overflow, &stack, &time, &ObservedAnswer::Panicked];
+        for (number, one) in reasons.iter().enumerate() {
+            assert!(one.is_uninformative());
+            for (other_number, other) in reasons.iter().enumerate() {
+                assert_eq!(one.matches(other), number == other_number);
+            }
+        }
+        assert!(index.is_telling_panic());
+        assert!(!ObservedAnswer::Panicked.is_telling_panic());
+        assert!(!ObservedAnswer::NoHit.is_uninformative());
+        assert!(ObservedAnswer::NoHit.is_miss());
+        assert!(!index.is_miss());
+    }
+
+    #[test]
+    fn numbers_that_one_of_two_mistakes_changes_are_its_own() {
+        let numbers =
+            |numbers: [f32; 2]| ObservedAnswer::Numbers(numbers.map(|n| n * 100.0).into());
+        let correct = numbers([1.0, 2.0]);
+        let (one, other) = (numbers([7.0, 2.0]), numbers([1.0, 8.0]));
+        let is_made = |own: [f32; 2]| numbers(own).is_made_of(&correct, &[&one, &other]);
+        assert!(is_made([7.0, 8.0]));
+        assert!(!is_made([7.0, 9.0]));
+        assert!(!is_made([1.0, 8.0]));
+        // Both change the first number, so it can be any other; neither changes the second.
+        let also = numbers([8.0, 2.0]);
+        let of_both = |own: [f32; 2]| numbers(own).is_made_of(&correct, &[&one, &also]);
+        assert!(of_both([9.0, 2.0]));
+        assert!(!of_both([9.0, 3.0]));
+        // A miss has no numbers to compare.
+        assert!(numbers([5.0, 5.0]).is_made_of(&correct, &[&one, &ObservedAnswer::NoHit]));
+        assert!(one.is_made_of(&correct, &[&one]));
+        assert!(!other.is_made_of(&correct, &[&one]));
+        assert!(correct.is_made_of(&correct, &[]));
+    }
+
+    #[test]
+    fn an_item_without_elements_has_no_signatures() {
+        assert!(MistakeSignatures::default().is_empty());
+        let one = MistakeSignatures {
+            elements: vec![0],
+            ..MistakeSignatures::default()
+        };
+        assert!(!one.is_empty());
     }
 }

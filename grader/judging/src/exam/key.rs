@@ -160,3 +160,24 @@ pub struct Surface {
     /// Texture coordinates at the hit.
     pub uv: glam::Vec2,
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::TreeCheck;
+
+    #[test]
+    fn each_check_of_a_tree_has_a_requirement_of_its_own() {
+        let checks = [
+            TreeCheck::Partition,
+            TreeCheck::Contains,
+            TreeCheck::Tight,
+            TreeCheck::Split,
+            TreeCheck::LeafSize,
+            TreeCheck::Stops,
+        ];
+        let requirements: BTreeSet<&str> = checks.map(TreeCheck::requirement).into();
+        assert_eq!(requirements.len(), checks.len());
+    }
+}

@@ -74,3 +74,6 @@ impl Observations {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

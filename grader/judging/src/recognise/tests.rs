@@ -1,0 +1,271 @@
+//! Tests of recognition with small exams, in which each element of an item has one number.
+
+use super::*;
+use crate::assignment::RAYS;
+use crate::exam::Exam;
+use crate::signatures::{MistakeAnswers, MistakeSignatures, PanicKind};
+
+/// A number that is far from others.
+fn number(number: i32) -> ObservedAnswer {
+    ObservedAnswer::Numbers(vec![number as f32 * 100.0])
+}
+
+/// The answers of a mistake to the items of an exam, which it leaves correct where there is `None`.
+type Mistake<'a> = (&'a str, &'a [Option<Vec<ObservedAnswer>>]);
+
+/// Creates an exam of one task, given the correct answers to each item, and known mistakes, each with
+/// its hint. Mistakes with the same hint have the same name here.
+fn exam(correct: &[Vec<ObservedAnswer>], mistakes: &[Mistake]) -> Exam {
+    let task = RAYS.tasks[0].task();
+    let item = |(index, correct): (usize, &Vec<ObservedAnswer>)| {
+        let changed = mistakes.iter().enumerate();
+        let changed = changed.filter_map(|(mistake, (_, answers))| {
+            let answers = answers[index].as_ref()?;
+            let elements = (0..).zip(answers).zip(correct);
+            let wrong = elements.filter(|((_, answer), correct)| answer != correct);
+            Some(MistakeAnswers {
+                mistakes: vec![mistake as u32],
+                answers: wrong
+                    .map(|((element, answer), _)| (element, answer.clone()))
+                    .collect(),
+            })
+        });
+        Item {
+            id: format!("{task}.{index}"),
+            title: String::new(),
+            task,
+            points: 1,
+            look: String::new(),
+            section: None,
+            needs: Vec::new(),
+            questions: Vec::new(),
+            signatures: MistakeSignatures {
+                elements: (0..correct.len() as u32).collect(),
+                correct_answers: correct.clone(),
+                mistake_answers: changed.collect(),
+            },
+        }
+    };
+    let known = mistakes.iter().map(|(hint, _)| KnownMistake {
+        id: (*hint).to_owned(),
+        nudge: String::new(),
+        hint: (*hint).to_owned(),
+        section: None,
+    });
+    Exam {
+        schema: 1,
+        assignment: RAYS.id.to_owned(),
+        id: "small".to_owned(),
+        mistakes: known.collect(),
+        items: correct.iter().enumerate().map(item).collect(),
+    }
+}
+
+/// Returns the ids of the mistakes that explain each item, given a submission's answers.
+fn explained(exam: &Exam, answers: &[Vec<ObservedAnswer>]) -> Vec<Vec<String>> {
+    let ids = exam.items.iter().map(|item| item.id.clone());
+    let observations = Observations(ids.zip(answers.iter().cloned()).collect());
+    let of_item = |item| {
+        let mistakes = observations.explain(exam, item).into_iter();
+        mistakes.map(|mistake| mistake.id.clone()).collect()
+    };
+    exam.items.iter().map(of_item).collect()
+}
+
+/// Returns an item's answers with these numbers.
+fn numbers(all: &[i32]) -> Vec<ObservedAnswer> {
+    all.iter().copied().map(number).collect()
+}
+
+/// Returns an item's answers that are all this one.
+fn all(answer: ObservedAnswer, count: usize) -> Vec<ObservedAnswer> {
+    vec![answer; count]
+}
+
+const NOTHING: [&str; 0] = [];
+
+#[test]
+fn a_mistake_that_explains_all_answers_is_named_at_the_items_that_it_affects() {
+    let correct = [numbers(&[1, 2]), numbers(&[3, 4]), numbers(&[5])];
+    let far_root = [Some(numbers(&[7, 2])), Some(numbers(&[3, 8])), None];
+    let other = [Some(numbers(&[9, 2])), None, None];
+    let exam = exam(&correct, &[("far root", &far_root), ("other", &other)]);
+
+    let answers = [numbers(&[7, 2]), numbers(&[3, 8]), numbers(&[5])];
+    assert_eq!(
+        explained(&exam, &answers),
+        [vec!["far root"], vec!["far root"], vec![]]
+    );
+    // One answer differs from it, in an item that it alone explains half of.
+    let answers = [numbers(&[7, 2]), numbers(&[3, 6]), numbers(&[5])];
+    assert_eq!(explained(&exam, &answers), [NOTHING, NOTHING, NOTHING]);
+    assert_eq!(explained(&exam, &correct), [NOTHING, NOTHING, NOTHING]);
+}
+
+#[test]
+fn mistakes_that_answer_alike_are_named_together_but_not_a_long_list() {
+    let correct = [numbers(&[1, 2])];
+    let wrong = [Some(numbers(&[7, 2]))];
+    let known: Vec<Mistake> = ["a", "b", "c", "d"].map(|hint| (hint, &wrong[..])).to_vec();
+    let answers = [numbers(&[7, 2])];
+    let named = |count: usize| explained(&exam(&correct, &known[..count]), &answers);
+    assert_eq!(named(1), [["a"]]);
+    assert_eq!(named(MAX_MISTAKES), [["a", "b", "c"]]);
+    assert_eq!(named(MAX_MISTAKES + 1), [NOTHING]);
+    let sharing = [("a", &wrong[..]), ("a", &wrong[..])];
+    assert_eq!(explained(&exam(&correct, &sharing), &answers), [["a"]]);
+}
+
+#[test]
+fn code_that_hits_nothing_is_not_taken_for_a_known_mistake() {
+    let miss = || ObservedAnswer::NoHit;
+    let correct = [vec![number(1), miss()], numbers(&[3])];
+    let nothing = [Some(all(miss(), 2)), Some(all(miss(), 1))];
+    let one_item = [Some(all(miss(), 2)), None];
+    let answers = [all(miss(), 2), all(miss(), 1)];
+    let exam_of = |mistake: Mistake| exam(&correct, &[mistake]);
+    assert_eq!(
+        explained(&exam_of(("all", &nothing)), &answers),
+        [NOTHING, NOTHING]
+    );
+    // If something is hit, it tells more.
+    let answers = [all(miss(), 2), numbers(&[3])];
+    assert_eq!(
+        explained(&exam_of(("one", &one_item)), &answers),
+        [vec!["one"], vec![]]
+    );
+}
+
+#[test]
+fn a_mistake_that_gives_no_answers_needs_several_items() {
+    let panic = |kind| Some(vec![ObservedAnswer::PanickedBy(kind)]);
+    let stack = || Some(vec![ObservedAnswer::NoAnswer(NoAnswerReason::Stack)]);
+    let named = |wrong: [Option<Vec<ObservedAnswer>>; 4]| {
+        let correct = [1, 2, 3, 4].map(|index| numbers(&[index]));
+        let answers = wrong.iter().zip(&correct);
+        let answers = answers.map(|(wrong, correct)| wrong.as_ref().unwrap_or(correct).clone());
+        let exam = exam(&correct, &[("crash", &wrong)]);
+        explained(&exam, &answers.collect::<Vec<_>>())
+            .iter()
+            .any(|named| !named.is_empty())
+    };
+    assert!(named([stack(), stack(), stack(), None]));
+    assert!(!named([stack(), stack(), None, None]));
+    // Few mistakes panic with an index, so one item less suffices.
+    let index = || panic(PanicKind::Index);
+    assert!(named([index(), index(), None, None]));
+    assert!(!named([index(), None, None, None]));
+    assert!(named([Some(numbers(&[9])), None, None, None]));
+}
+
+#[test]
+fn two_mistakes_are_named_where_each_explains_an_item_alone() {
+    let correct = [numbers(&[1, 2]), numbers(&[3, 4]), numbers(&[5, 6])];
+    let one = [Some(numbers(&[7, 2])), None, Some(numbers(&[7, 6]))];
+    let other = [None, Some(numbers(&[3, 8])), Some(numbers(&[5, 8]))];
+    let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+    let answers = [numbers(&[7, 2]), numbers(&[3, 8]), numbers(&[7, 8])];
+    assert_eq!(
+        explained(&exam, &answers),
+        [vec!["one"], vec!["other"], vec!["one", "other"]]
+    );
+    // What neither changes is correct.
+    let answers = [numbers(&[7, 9]), numbers(&[3, 8]), numbers(&[7, 8])];
+    assert_eq!(explained(&exam, &answers), [NOTHING, NOTHING, NOTHING]);
+}
+
+#[test]
+fn a_second_mistake_that_only_makes_up_for_the_first_is_not_named() {
+    let correct = [numbers(&[1, 2]), numbers(&[3, 4])];
+    let one = [Some(numbers(&[7, 2])), Some(numbers(&[7, 4]))];
+    let other = [Some(numbers(&[8, 2])), None];
+    let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+    // With both, anything can come out in the first item, but `other` explains no item alone.
+    let answers = [numbers(&[9, 2]), numbers(&[7, 4])];
+    assert_eq!(explained(&exam, &answers), [NOTHING, NOTHING]);
+}
+
+#[test]
+fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
+    let correct = [numbers(&[1, 2]), numbers(&[3]), numbers(&[5])];
+    let one = [Some(numbers(&[7, 2])), Some(numbers(&[7])), None];
+    let other = [Some(numbers(&[8, 2])), None, Some(numbers(&[8]))];
+    let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+    let answers = |first: i32| [numbers(&[first, 2]), numbers(&[7]), numbers(&[8])];
+    let both = [vec!["one", "other"], vec!["one"], vec!["other"]];
+    assert_eq!(explained(&exam, &answers(9)), both);
+    // Both change the first number, and yet it is that of `one`: so `other` is not there.
+    let of_one = explained(&exam, &answers(7));
+    assert!(!of_one.concat().contains(&"other".to_owned()), "{of_one:?}");
+}
+
+#[test]
+fn a_mistake_is_named_beside_an_unknown_one_if_it_explains_most_wrong_items() {
+    let correct = [1, 2, 3, 4].map(|index| numbers(&[index]));
+    let known = [Some(numbers(&[7])), Some(numbers(&[7])), None, None];
+    let exam_of = |others: &[Mistake]| {
+        let mistakes = [&[("known", &known[..])], others].concat();
+        exam(&correct, &mistakes)
+    };
+    let named = |exam: &Exam, answers: [i32; 4]| {
+        let answers = answers.map(|answer| numbers(&[answer]));
+        explained(exam, &answers)
+            .concat()
+            .contains(&"known".to_owned())
+    };
+    let alone = exam_of(&[]);
+    assert!(named(&alone, [7, 7, 9, 4]));
+    assert!(!named(&alone, [7, 7, 9, 9]), "half of the wrong items");
+    assert!(
+        !named(&alone, [7, 9, 3, 4]),
+        "one of two items that it affects"
+    );
+    // Another mistake that explains the same items, and all that it affects, may be the one.
+    let rival = [
+        Some(numbers(&[7])),
+        Some(numbers(&[7])),
+        Some(numbers(&[9])),
+        None,
+    ];
+    assert!(!named(&exam_of(&[("rival", &rival)]), [7, 7, 9, 5]));
+    let refuted = [
+        Some(numbers(&[7])),
+        Some(numbers(&[7])),
+        None,
+        Some(numbers(&[8])),
+    ];
+    assert!(named(&exam_of(&[("refuted", &refuted)]), [7, 7, 9, 4]));
+}
+
+#[test]
+fn the_same_defect_in_items_that_a_mistake_leaves_correct_has_another_cause() {
+    let tree = |defect: &str| vec![ObservedAnswer::Tree(Some((defect.to_owned(), 0.0)))];
+    let correct = [(); 4].map(|()| vec![ObservedAnswer::Tree(None)]);
+    let known = [Some(tree("boxes")), Some(tree("boxes")), None, None];
+    let exam = exam(&correct, &[("known", &known)]);
+    let named = |third: &str| {
+        let answers = [
+            tree("boxes"),
+            tree("boxes"),
+            tree(third),
+            correct[3].clone(),
+        ];
+        !explained(&exam, &answers).concat().is_empty()
+    };
+    assert!(named("leaves"));
+    assert!(!named("boxes"));
+}
+
+#[test]
+fn a_mistake_that_explains_nearly_all_answers_is_named() {
+    let correct = [1, 2, 3, 4].map(|index| numbers(&[index, index, index]));
+    let known = [7; 4].map(|wrong| Some(numbers(&[wrong, wrong, wrong])));
+    let exam = exam(&correct, &[("known", &known)]);
+    let named = |last: [i32; 3]| {
+        let answers = [[7; 3], [7; 3], [7; 3], last].map(|answers| numbers(&answers));
+        !explained(&exam, &answers).concat().is_empty()
+    };
+    assert!(named([7, 7, 9]), "one answer of another mistake");
+    assert!(named([7, 9, 9]), "ten answers agree, two differ");
+    assert!(!named([9, 9, 9]), "nine answers agree, three differ");
+}

@@ -92,7 +92,8 @@ impl<'a> Evidence<'a> {
 
     /// Returns the mistakes whose hint is in every pair that explains all answers, if in one of these
     /// pairs each mistake explains an item alone. Otherwise the second mistake may only make up for
-    /// what the first does not explain, as it would with the answers of an unknown mistake.
+    /// what the first does not explain, as it would with the answers of an unknown mistake. For the same
+    /// reason, three of five answers to the items that a mistake affects must be its own.
     fn causes_in_pairs(&self) -> Vec<usize> {
         let mut hints: Option<BTreeSet<&str>> = None;
         let mut members = BTreeSet::new();
@@ -113,55 +114,31 @@ impl<'a> Evidence<'a> {
             }
         }
         let hints = hints.unwrap_or_default();
-        members.retain(|&mistake| hints.contains(self.hint(mistake)));
-        let named = members.iter().copied();
-        named
-            .filter(|&mistake| !self.has_rival_beside(&members, mistake))
-            .collect()
+        members.retain(|&mistake| {
+            let (agreeing, differing) = self.agreement(mistake);
+            hints.contains(self.hint(mistake)) && 2 * agreeing >= 3 * differing
+        });
+        members.into_iter().collect()
     }
 
     /// Returns whether two mistakes explain all answers, and not by leaving most of them open: where
-    /// both change the same numbers, anything can come out.
+    /// both change an answer, anything can come out.
     fn is_explained_by_pair(&self, one: usize, other: usize) -> bool {
-        let (mut wrong_items, mut items_of_one) = (0, 0);
         let (mut certain, mut open) = (0, 0);
         for item in &self.items {
             if !item.is_explained_by(&[one, other]) {
                 return false;
             }
-            let alone = [one, other].map(|mistake| item.is_explained_by(&[mistake]));
             // With both mistakes, a number that both change is not what it is with one of them.
+            let alone = [one, other].map(|mistake| item.is_explained_by(&[mistake]));
             if alone[0] != alone[1] && item.is_changed_differently_by(one, other) {
                 return false;
-            }
-            if item.is_wrong() {
-                wrong_items += 1;
-                items_of_one += usize::from(alone.contains(&true));
             }
             let counts = item.certain_and_open(one, other);
             certain += counts.0;
             open += counts.1;
         }
-        3 * items_of_one >= 2 * wrong_items && certain >= open
-    }
-
-    /// Returns whether a mistake with another hint, which is not one of `members`, explains the items
-    /// that this mistake explains alone, and half of all items that it affects itself.
-    fn has_rival_beside(&self, members: &BTreeSet<usize>, mistake: usize) -> bool {
-        let affected = self.affected(mistake);
-        let explained: Vec<_> = affected
-            .filter(|item| item.is_explained_by(&[mistake]))
-            .collect();
-        let is_rival = |other: usize| {
-            let mut explained_alike = explained.iter();
-            self.hint(other) != self.hint(mistake)
-                && !members.contains(&other)
-                && explained_alike.all(|item| item.is_explained_by(&[other]))
-                && self.explained(other) >= explained.len()
-                && 2 * self.explained(other) >= self.affected(other).count()
-        };
-        let mut others = self.mistakes.iter().copied();
-        others.any(is_rival)
+        certain >= open
     }
 
     /// Returns whether a mistake affects an item that another one leaves correct.
@@ -205,7 +182,11 @@ impl<'a> Evidence<'a> {
             let (items, affected) = (self.explained(mistake), self.affected(mistake).count());
             let (agreeing, differing) = self.agreement(mistake);
             // Where a single item differs, more of its answers may.
-            let per_difference = if 10 * items >= 9 * affected { 2 } else { 4 };
+            let is_clear = if 10 * items >= 9 * affected {
+                agreeing >= 2 * differing
+            } else {
+                agreeing > 4 * differing
+            };
             let is_rival = |other| {
                 self.hint(other) != self.hint(mistake)
                     && 2 * self.explained(other) > items
@@ -216,7 +197,7 @@ impl<'a> Evidence<'a> {
                 && 2 * items > wrong
                 && 4 * items >= 3 * affected
                 && agreeing >= 3
-                && agreeing > per_difference * differing
+                && is_clear
                 && !others.any(is_rival)
         };
         let mistakes = self.mistakes.iter().copied();

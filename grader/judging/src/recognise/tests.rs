@@ -187,16 +187,26 @@ fn a_second_mistake_that_only_makes_up_for_the_first_is_not_named() {
 
 #[test]
 fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
-    let correct = [numbers(&[1, 2]), numbers(&[3]), numbers(&[5])];
-    let one = [Some(numbers(&[7, 2])), Some(numbers(&[7])), None];
-    let other = [Some(numbers(&[8, 2])), None, Some(numbers(&[8]))];
+    let correct = [numbers(&[1, 2]), numbers(&[3, 4]), numbers(&[5, 6])];
+    let one = [Some(numbers(&[7, 2])), Some(numbers(&[7, 7])), None];
+    let other = [Some(numbers(&[8, 2])), None, Some(numbers(&[8, 8]))];
     let exam = exam(&correct, &[("one", &one), ("other", &other)]);
-    let answers = |first: i32| [numbers(&[first, 2]), numbers(&[7]), numbers(&[8])];
+    let answers = |first: i32| [numbers(&[first, 2]), numbers(&[7, 7]), numbers(&[8, 8])];
     let both = [vec!["one", "other"], vec!["one"], vec!["other"]];
     assert_eq!(explained(&exam, &answers(9)), both);
     // Both change the first number, and yet it is that of `one`: so `other` is not there.
     let of_one = explained(&exam, &answers(7));
     assert!(!of_one.concat().contains(&"other".to_owned()), "{of_one:?}");
+}
+
+#[test]
+fn a_pair_that_leaves_most_answers_open_explains_nothing() {
+    let correct = [numbers(&[1, 1, 1]), numbers(&[3]), numbers(&[5])];
+    let one = [Some(numbers(&[7, 7, 7])), Some(numbers(&[7])), None];
+    let other = [Some(numbers(&[8, 8, 8])), None, Some(numbers(&[8]))];
+    let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+    let answers = [numbers(&[9, 9, 9]), numbers(&[7]), numbers(&[8])];
+    assert_eq!(explained(&exam, &answers), [NOTHING, NOTHING, NOTHING]);
 }
 
 #[test]

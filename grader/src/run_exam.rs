@@ -190,15 +190,15 @@ mod tests {
         let build = Build::without_programs(folder.path(), files.collect());
         let exam = exam(&["sphere.uv", "bbox.flat", "sphere.normal"]);
         let mut score = pending(&exam);
-        let mut open = Vec::new();
+        let mut progress = Vec::new();
         run_exam(&exam, &build, Budget::default(), &mut score, |score, _| {
             let items = score.items();
             let items = items.filter(|item| item.verdict == Verdict::Pending);
-            open.push((items.count(), score.complete));
+            progress.push((items.count(), score.complete));
             io::Result::Ok(())
         })
         .unwrap();
-        assert_eq!(open, [(2, false), (1, false), (0, false), (0, true)]);
+        assert_eq!(progress, [(2, false), (1, false), (0, false), (0, true)]);
         assert!(
             score
                 .items()

@@ -20,7 +20,7 @@ const COPIED: [&str; 7] = [
 ];
 /// Names of folders that only staff need. Folders with these names are never copied, wherever they
 /// are.
-const EXCLUDED_NAMES: [&str; 4] = ["tests", "benches", "fuzz", "target"];
+const EXCLUDED_NAMES: [&str; 5] = ["tests", "snapshots", "benches", "fuzz", "target"];
 /// Files and folders for staff, about grading a class or running untrusted code.
 const STAFF_PATHS: [&str; 6] = [
     "grader/class",

@@ -41,7 +41,8 @@ fn module_folder(path: &str) -> String {
 fn without_test_modules(text: &str) -> (String, Vec<String>) {
     let lines: Vec<&str> = text.lines().collect();
     let named = |line: &&str| {
-        let name = line.strip_prefix("mod ")?.strip_suffix(';')?;
+        let module = line.strip_prefix("pub(crate) ").unwrap_or(line);
+        let name = module.strip_prefix("mod ")?.strip_suffix(';')?;
         Some(name.to_owned())
     };
     let mut kept = String::with_capacity(text.len());
@@ -69,7 +70,7 @@ mod tests {
         let mut bundle = Bundle::default();
         bundle.insert(
             "f/src/lib.rs",
-            "mod a;\n#[cfg(test)]\nmod helpers;\nmod b;\n",
+            "mod a;\n#[cfg(test)]\npub(crate) mod helpers;\nmod b;\n",
         );
         bundle.insert("f/src/helpers.rs", "");
         bundle.insert("f/src/a.rs", "fn f() {}\n\n#[cfg(test)]\nmod tests;\n");

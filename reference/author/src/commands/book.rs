@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::{CommandResult, generate, report};
 use crate::cli::book_folder;
+use crate::exams;
 use crate::generated_file::Mode;
-use crate::{exams, handout};
+use crate::handout;
 
 /// Writes or checks the handout's figures, checks its pages, and builds the book if a folder is given.
 #[allow(

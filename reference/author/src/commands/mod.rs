@@ -16,10 +16,13 @@ use grader::handed_out::{HandedOut, RAYS};
 
 use crate::cli::{Command, RecordArgs};
 use crate::coverage::coverage;
+use crate::exams;
 use crate::generated_file::{GeneratedFile, Mode, write_or_check};
+use crate::long_runs;
+use crate::scenes;
 use crate::solutions::workbench::Workbench;
 use crate::solutions::{Solutions, SolutionsError};
-use crate::{exams, long_runs, scenes, starter};
+use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");

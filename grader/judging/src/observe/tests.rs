@@ -8,9 +8,11 @@ use super::*;
 /// Returns the observed numbers of each element of one question.
 fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
     let observed = observe_question(question, answer).into_iter();
-    let numbers = observed.map(|answer| match answer {
-        ObservedAnswer::Numbers(numbers) => numbers,
-        other => panic!("there are no numbers in {other:?}"),
+    let numbers = observed.map(|answer| {
+        let ObservedAnswer::Numbers(numbers) = answer else {
+            panic!("there are no numbers in {answer:?}");
+        };
+        numbers
     });
     numbers.collect()
 }

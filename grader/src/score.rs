@@ -301,6 +301,27 @@ pub struct Timings {
 }
 
 impl ItemScore {
+    /// Creates the score of an item that is not graded yet.
+    pub fn pending(id: &str, title: &str, max_points: u32) -> Self {
+        ItemScore {
+            id: id.to_owned(),
+            title: title.to_owned(),
+            points: 0,
+            max_points,
+            verdict: Verdict::Pending,
+            message: String::new(),
+            at: None,
+            look: None,
+            clue: None,
+            section: None,
+            hints: Vec::new(),
+            evidence: None,
+            carried_forward: false,
+            pictures: Vec::new(),
+            staff: None,
+        }
+    }
+
     /// Returns where to look: what this failure tells, or else what the item tells.
     pub fn where_to_look(&self) -> Option<&String> {
         self.clue.as_ref().or(self.look.as_ref())

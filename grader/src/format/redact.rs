@@ -146,25 +146,13 @@ fn without_hidden_id(verdict: &Verdict, hidden: &[String]) -> Verdict {
 /// points.
 fn redact_to_points(item: &ItemScore) -> ItemScore {
     ItemScore {
-        id: item.id.clone(),
-        title: item.title.clone(),
         points: item.points,
-        max_points: item.max_points,
         verdict: if item.verdict == Verdict::Pending {
             Verdict::Pending
         } else {
             verdict_from_points(item.points, item.max_points)
         },
-        message: String::new(),
-        at: None,
-        look: None,
-        clue: None,
-        section: None,
-        hints: Vec::new(),
-        evidence: None,
-        carried_forward: false,
-        pictures: Vec::new(),
-        staff: None,
+        ..ItemScore::pending(&item.id, &item.title, item.max_points)
     }
 }
 

@@ -159,21 +159,10 @@ pub fn context() -> FormatContext {
 pub fn item(id: &str, points: u32, max_points: u32, verdict: Verdict, message: &str) -> ItemScore {
     let (_, title) = id.split_once('.').unwrap();
     ItemScore {
-        id: id.to_owned(),
-        title: title.replace('_', " "),
         points,
-        max_points,
         verdict,
         message: message.to_owned(),
-        at: None,
-        look: None,
-        clue: None,
-        section: None,
-        hints: Vec::new(),
-        evidence: None,
-        carried_forward: false,
-        pictures: Vec::new(),
-        staff: None,
+        ..ItemScore::pending(id, &title.replace('_', " "), max_points)
     }
 }
 

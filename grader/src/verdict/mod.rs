@@ -76,23 +76,7 @@ pub fn pending_score(
 
 /// Returns the score of an item with this outcome.
 pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) -> ItemScore {
-    let mut score = ItemScore {
-        id: item.id.clone(),
-        title: item.title.clone(),
-        points: 0,
-        max_points: item.points,
-        verdict: Verdict::Pending,
-        message: String::new(),
-        at: None,
-        look: None,
-        clue: None,
-        section: None,
-        hints: Vec::new(),
-        evidence: None,
-        carried_forward: false,
-        pictures: Vec::new(),
-        staff: None,
-    };
+    let mut score = ItemScore::pending(&item.id, &item.title, item.points);
     match outcome {
         ItemOutcome::Pending => {}
         ItemOutcome::NotCompiled(why) => {

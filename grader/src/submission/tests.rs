@@ -1,0 +1,215 @@
+//! Tests of collecting a submission.
+
+use std::fs;
+
+use super::*;
+use crate::handed_out::RAYS;
+
+fn write_files(folder: &Path, text: &str) {
+    fs::create_dir_all(folder).unwrap();
+    for file in RAYS.file_names() {
+        fs::write(folder.join(file), text).unwrap();
+    }
+}
+
+#[test]
+fn copies_in_other_folders_do_not_stop_students_at_their_own_work() {
+    let package = tempfile::tempdir().unwrap();
+    write_files(&package.path().join("src"), "new");
+    write_files(&package.path().join("src/yesterday"), "old");
+    let own = Submission::collect_package(package.path(), &RAYS).unwrap();
+    assert!(
+        own.files
+            .iter()
+            .all(|(_, text)| text.as_deref() == Ok("new"))
+    );
+    // Of what is handed in, nobody knows which copy is meant.
+    let handed_in = Submission::collect(package.path(), &RAYS);
+    assert!(matches!(
+        handed_in,
+        Err(SubmissionError::Ambiguous { copies, .. }) if copies == ["src", "src/yesterday"]
+    ));
+}
+
+#[test]
+fn the_files_of_a_workspace_without_a_package_are_found_as_well() {
+    let folder = tempfile::tempdir().unwrap();
+    write_files(&folder.path().join("my/work"), "new");
+    let found = Submission::collect_package(folder.path(), &RAYS).unwrap();
+    assert!(found.files.iter().all(|(_, text)| text.is_ok()));
+}
+
+#[test]
+fn folders_without_end_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("a/".repeat(40))).unwrap();
+    let refused = Submission::collect(folder.path(), &RAYS);
+    assert!(matches!(refused, Err(SubmissionError::TooManyFiles(_))));
+}
+
+/// Returns the files of a submission that have a text.
+fn texts(submission: &Submission) -> Vec<(&str, &str)> {
+    let files = submission.files.iter();
+    let texts = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
+    texts.collect()
+}
+
+#[test]
+fn only_the_starters_files_are_as_handed_out() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in RAYS.files {
+        fs::write(folder.path().join(file.name), file.starter).unwrap();
+    }
+    let is_as_handed_out = || {
+        let submission = Submission::collect(folder.path(), &RAYS).unwrap();
+        submission.is_as_handed_out()
+    };
+    assert!(is_as_handed_out());
+    fs::write(folder.path().join("bvh.rs"), "new").unwrap();
+    assert!(!is_as_handed_out());
+    fs::remove_file(folder.path().join("bvh.rs")).unwrap();
+    assert!(!is_as_handed_out(), "a file is missing");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_matters_only_if_files_are_missing_that_it_may_lead_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = folder.path().join("work");
+    fs::create_dir(&source).unwrap();
+    fs::write(source.join("bvh.rs"), "new").unwrap();
+    let link = |name: &str| {
+        crate::system::symlink("elsewhere".as_ref(), &folder.path().join(name)).unwrap();
+    };
+    link("notes");
+    let found = Submission::collect(folder.path(), &RAYS).unwrap();
+    assert_eq!(texts(&found), [("bvh.rs", "new")]);
+    link("src");
+    let refused = Submission::collect(folder.path(), &RAYS);
+    assert!(matches!(refused, Err(SubmissionError::Link { link, .. }) if link == "src"));
+    write_files(&source, "new");
+    assert!(Submission::collect(folder.path(), &RAYS).is_ok());
+    // But not one in the place of a file that is graded.
+    fs::remove_file(source.join("bvh.rs")).unwrap();
+    link("work/bvh.rs");
+    let refused = Submission::collect(folder.path(), &RAYS);
+    assert!(matches!(refused, Err(SubmissionError::Link { link, .. }) if link == "work/bvh.rs"));
+}
+
+#[test]
+fn names_of_task_files_and_of_their_folders_may_lead_to_files() {
+    for link in ["bvh.rs", "a/bvh.rs", "src", "a/student"] {
+        assert!(may_lead_to_files(link, &RAYS), "{link}");
+    }
+    for link in ["notes", "src/notes", "bvh", "lib.rs"] {
+        assert!(!may_lead_to_files(link, &RAYS), "{link}");
+    }
+}
+
+#[test]
+fn a_file_may_be_as_long_as_the_limit() {
+    let longest = vec![b' '; 1 << 20];
+    assert!(decode("bvh.rs", longest.clone()).is_ok());
+    let longer = [longest, vec![b' ']].concat();
+    assert_eq!(
+        decode("bvh.rs", longer),
+        Err(TaskFileError::TooLong("bvh.rs"))
+    );
+}
+
+#[test]
+fn bytes_that_are_not_text_are_counted_from_one() {
+    let error = decode("bvh.rs", b"ab\xffc".to_vec()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "bvh.rs is not UTF-8 text: byte 3 is invalid"
+    );
+}
+
+#[test]
+fn only_given_files_that_were_changed_are_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("bvh (1).rs", "new");
+    write("README.md", "read me");
+    write("helper.rs", "");
+    write("main.rs", "fn main() {}");
+    write("world.rs", "mine");
+    // Git may have changed the line endings.
+    let library = RAYS.given_file("lib.rs").unwrap();
+    write("lib.rs", &library.text.replace('\n', "\r\n"));
+    let submission = Submission::collect(folder.path(), &RAYS).unwrap();
+    assert_eq!(texts(&submission), [("bvh.rs", "new")]);
+    let notes = [
+        "helper.rs is not one of the task files: ignored",
+        "world.rs differs from the given one, which is used",
+    ];
+    assert_eq!(submission.notes, notes);
+}
+
+#[test]
+fn the_number_of_notes_is_limited() {
+    let other = |n: u32| (format!("{n}.rs"), Vec::new());
+    assert_eq!(notes(&(0..30).map(other).collect(), &RAYS).len(), MAX_NOTES);
+}
+
+#[test]
+fn names_are_printed_shortened_and_without_control_characters() {
+    assert_eq!(display_name("a\u{7}\n.rs"), "a\\u{7}\\n.rs");
+    let long = "é".repeat(MAX_NAME_CHARS);
+    assert_eq!(display_name(&long), long);
+    assert_eq!(
+        display_name(&"é".repeat(MAX_NAME_CHARS + 1)),
+        format!("{long}…")
+    );
+}
+
+#[test]
+fn a_submission_is_named_after_the_folder_that_the_path_leads_to() {
+    let folder = tempfile::tempdir().unwrap();
+    write_files(&folder.path().join("ann"), "new");
+    let name = |path: &str| {
+        let found = Submission::collect(&folder.path().join(path), &RAYS);
+        found.unwrap().name
+    };
+    assert_eq!([name("ann"), name("ann/.")], ["ann", "ann"]);
+}
+
+#[test]
+fn of_uploads_with_the_same_name_the_last_one_counts() {
+    let folder = tempfile::tempdir().unwrap();
+    let upload = |name: &str, file: &str, text: &str| {
+        let path = folder.path().join(file);
+        fs::write(&path, text).unwrap();
+        (name.to_owned(), path)
+    };
+    let files = [
+        upload("bvh.rs", "1", "old"),
+        upload("bvh.rs", "2", "new"),
+        upload("notes.txt", "3", "not code"),
+    ];
+    let found = Submission::from_files("ann", &files, &RAYS).unwrap();
+    assert_eq!(
+        (found.name.as_str(), texts(&found)),
+        ("ann", vec![("bvh.rs", "new")])
+    );
+    let error = Submission::from_files("ann", &files[2..], &RAYS).unwrap_err();
+    assert!(error.to_string().ends_with("it has notes.txt"), "{error}");
+}
+
+#[test]
+fn a_path_without_a_submission_is_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("b.txt"), "").unwrap();
+    fs::create_dir(folder.path().join("a")).unwrap();
+    let error = |path: &Path| Submission::collect(path, &RAYS).unwrap_err().to_string();
+    let none = error(folder.path());
+    assert!(
+        none.ends_with("in any of its folders; it has a, b.txt"),
+        "{none}"
+    );
+    let absent = error(&folder.path().join("absent"));
+    assert!(absent.starts_with("there is no "), "{absent}");
+    let text = error(&folder.path().join("b.txt"));
+    assert!(text.contains("it is empty"), "{text}");
+}

@@ -1,6 +1,6 @@
 //! The model: facts about a folder with results, and the results that the next run may have.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::observed::{Files, Keys, Observed, ScoreId};
 
@@ -14,6 +14,9 @@ pub struct Model {
     /// The last score that each entry was stamped with, and its round. It must not get lost before
     /// there is another one.
     kept: BTreeMap<String, (u64, ScoreId)>,
+    /// The regrades that were never finished before the next one began. Their scores are given up, but
+    /// their stamps stay until the entry is graded again.
+    abandoned: BTreeSet<u64>,
     /// The scores that the current round is compared with.
     before: BTreeMap<String, ScoreId>,
     /// The last scores of entries in which there was nothing to grade later on. If reading such an entry
@@ -38,7 +41,7 @@ impl Model {
             }
         }
         if now.round() > was.round() && was.is_unfinished_regrade() {
-            // The scores of an abandoned regrade are given up.
+            self.abandoned.insert(was.round());
             let before = self.before.iter();
             self.kept = before
                 .map(|(id, score)| (id.clone(), (0, *score)))
@@ -75,7 +78,9 @@ impl Model {
         match (files.graded(), files.state()) {
             (Some(score), _) => {
                 let stamped_in = files.round().unwrap_or_default();
-                self.kept.insert(id.to_owned(), (stamped_in, score));
+                if !self.abandoned.contains(&stamped_in) {
+                    self.kept.insert(id.to_owned(), (stamped_in, score));
+                }
             }
             // Staff have been told that there is nothing to grade.
             (None, Some("no_submission")) => {

@@ -152,8 +152,8 @@ pub(super) fn film(seed: Seed) -> DeclaredItem {
             points: 1,
             title: "x is divided by the film's width, and y by its height",
             look: "Neither the film nor the sensor need be square. (pixel.x + offset.x) / film.x is a \
-                   fraction of the sensor's width, and (pixel.y + offset.y) / film.y is one of its \
-                   height.",
+                   fraction of the sensor's width, and (pixel.y + offset.y) / film.y is a fraction \
+                   of its height.",
             section: "camera.md#each-axis-has-its-own-size",
             group: Some(Group::CameraRays),
             needs: &[],

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use judging::assignment::Task;
 use judging::exam::{Exam, Item};
+use judging::recognise::Observations;
 use protocol::Answer;
 
 use crate::build::{Build, SubstitutedProgram};
@@ -129,32 +130,35 @@ impl<'a> TaskSessions<'a> {
 
     /// Returns the time spent by both processes.
     fn spent(&self) -> TimeSpent {
-        let substituted = self.substituted.as_ref().map(|session| session.spent());
-        let (own, substituted) = (self.own.spent(), substituted.unwrap_or_default());
-        TimeSpent {
-            start: own.start + substituted.start,
-            asking: own.asking + substituted.asking,
-            judging: own.judging + substituted.judging,
-        }
+        let substituted = self.substituted.as_ref().map(TaskSession::spent);
+        self.own.spent() + substituted.unwrap_or_default()
     }
 
     /// Adds hints, which need the answers to the whole task, and returns what the submission
     /// printed.
     fn finish(mut self, exam: &Exam, lines: &mut [ItemScore]) -> Option<String> {
-        for line in lines
-            .iter_mut()
-            .filter(|line| line.points < line.max_points)
-        {
-            let session = match (&self.substituted, line.carried_forward) {
-                (Some(substituted), true) => substituted,
-                (Some(_) | None, _) => &self.own,
-            };
-            let item = exam.items.iter().find(|item| item.id == line.id);
-            let known = item.filter(|_| can_have_hint(&line.verdict));
-            let known = known.map(|item| session.observations().explain(exam, item));
-            add_hints(line, &known.unwrap_or_default());
-        }
+        let substituted = self.substituted.as_ref().map(TaskSession::observations);
+        explain_items(exam, lines, self.own.observations(), substituted);
         self.own.printed()
+    }
+}
+
+/// Adds the hints for the mistakes that explain a task's answers: those of the submission's own
+/// program, and those of the program with substituted parts.
+fn explain_items(
+    exam: &Exam,
+    lines: &mut [ItemScore],
+    own: &Observations,
+    substituted: Option<&Observations>,
+) {
+    for line in lines.iter_mut().filter(|line| can_have_hint(&line.verdict)) {
+        let observations = match substituted {
+            Some(substituted) if line.carried_forward => substituted,
+            Some(_) | None => own,
+        };
+        if let Some(item) = exam.items.iter().find(|item| item.id == line.id) {
+            add_hints(line, &observations.explain(exam, item));
+        }
     }
 }
 
@@ -176,6 +180,10 @@ fn can_have_hint(verdict: &Verdict) -> bool {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
+
+    use judging::observe::observe;
+    use judging::signatures::{KnownMistake, MistakeAnswers};
+    use protocol::{ElementOutcome, Interval};
 
     use super::*;
     use crate::build::NotCompiled;
@@ -204,6 +212,7 @@ mod tests {
                 .items()
                 .all(|item| item.verdict == Verdict::NotCompiled)
         );
+        assert!(score.tasks.iter().all(|task| task.printed.is_none()));
         let asked: Vec<Task> = score
             .timings
             .stages
@@ -254,6 +263,50 @@ mod tests {
         assert_eq!(verdict(&dependent, &[], false), Verdict::Pending);
         let independent = item("traverse.flat", vec![boxes(1)]);
         assert_eq!(verdict(&independent, &[bbox], true), Verdict::Pending);
+    }
+
+    #[test]
+    fn hints_come_from_the_answers_that_count() {
+        let mut exam = exam(&["bbox.flat", "bbox.behind"]);
+        exam.mistakes.push(KnownMistake {
+            id: "bbox.swap".to_owned(),
+            nudge: String::new(),
+            hint: "swapped".to_owned(),
+            section: None,
+        });
+        let spans = |span| [Answer::Spans(vec![ElementOutcome::Value(span); 3])];
+        let (right, wrong) = (spans(None), spans(Some(Interval { min: 1.0, max: 2.0 })));
+        for item in &mut exam.items {
+            item.questions = vec![boxes(3)];
+            item.signatures.elements = (0..3).collect();
+            item.signatures.correct_answers = observe(item, &right);
+            item.signatures.mistake_answers.push(MistakeAnswers {
+                mistakes: vec![0],
+                answers: (0..).zip(observe(item, &wrong)).collect(),
+            });
+        }
+        let observations = |answers: &[Answer]| {
+            let mut observations = Observations::default();
+            for item in &exam.items {
+                observations.record(item, Ok(answers));
+            }
+            observations
+        };
+        let (right, wrong) = (observations(&right), observations(&wrong));
+        // The first item is graded with substituted parts, and the second is not.
+        let hinted = |verdict: Verdict, own: &Observations, substituted: Option<&Observations>| {
+            let mut lines: Vec<ItemScore> = pending(&exam).items().cloned().collect();
+            lines[0].carried_forward = true;
+            for line in &mut lines {
+                line.verdict = verdict.clone();
+            }
+            explain_items(&exam, &mut lines, own, substituted);
+            [0, 1].map(|line| lines[line].hints.len())
+        };
+        assert_eq!(hinted(Verdict::Wrong, &wrong, None), [1, 1]);
+        assert_eq!(hinted(Verdict::Wrong, &right, Some(&wrong)), [1, 0]);
+        assert_eq!(hinted(Verdict::Wrong, &wrong, Some(&right)), [0, 1]);
+        assert_eq!(hinted(Verdict::Pass, &wrong, Some(&wrong)), [0, 0]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! often.
 
 use std::io;
+use std::ops::Add;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -48,6 +49,18 @@ pub struct TimeSpent {
     pub asking: Duration,
     /// Judging the answers.
     pub judging: Duration,
+}
+
+impl Add for TimeSpent {
+    type Output = TimeSpent;
+
+    fn add(self, other: TimeSpent) -> TimeSpent {
+        TimeSpent {
+            start: self.start + other.start,
+            asking: self.asking + other.asking,
+            judging: self.judging + other.judging,
+        }
+    }
 }
 
 impl<'a> TaskSession<'a> {

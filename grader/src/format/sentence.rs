@@ -123,31 +123,15 @@ impl fmt::Display for Sentence<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::score::tests::verdicts;
 
     #[test]
     fn each_verdict_has_its_sentence() {
-        let blocked = Verdict::Blocked {
-            by: "bbox.flat".to_owned(),
-        };
-        let verdicts = [
-            Verdict::Pass,
-            Verdict::Partial,
-            Verdict::Wrong,
-            Verdict::Panicked,
-            Verdict::Unimplemented,
-            Verdict::TimedOut,
-            Verdict::OutOfMemory,
-            Verdict::Crashed,
-            Verdict::Protocol,
-            Verdict::NotCompiled,
-            blocked,
-            Verdict::Pending,
-        ];
         let line = |verdict: &Verdict| {
             let sentence = Sentence::new(verdict, false);
             format!("{}: {sentence}", verdict.label())
         };
-        insta::assert_snapshot!(verdicts.each_ref().map(line).join("\n"));
+        insta::assert_snapshot!(verdicts().each_ref().map(line).join("\n"));
     }
 
     #[test]

@@ -1,0 +1,185 @@
+use std::fs;
+use std::io::ErrorKind;
+
+use tempfile::TempDir;
+
+use super::*;
+use crate::handed_out::RAYS;
+use crate::submission::Submission;
+
+/// Returns a folder with these files, each given by its path and its text.
+fn folder(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, bytes) in files {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+    folder
+}
+
+/// Returns the folders in which a search has found task files.
+fn found(files: &[(&str, &[u8])]) -> Vec<String> {
+    let folder = folder(files);
+    let search = search(folder.path(), &RAYS).unwrap();
+    let candidates = search.candidates.into_iter();
+    candidates.map(|candidate| candidate.folder).collect()
+}
+
+fn tar(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut builder = tar::Builder::new(Vec::new());
+    for (path, bytes) in files {
+        let mut header = tar::Header::new_gnu();
+        header.set_size(bytes.len() as u64);
+        header.set_mode(0o644);
+        builder.append_data(&mut header, path, *bytes).unwrap();
+    }
+    builder.into_inner().unwrap()
+}
+
+#[test]
+fn folders_of_tools_and_of_the_project_are_not_searched() {
+    let files: [(&str, &[u8]); 4] = [
+        ("src/bvh.rs", b"new"),
+        ("target/bvh.rs", b""),
+        ("grader/starter/bvh.rs", b""),
+        (".git/bvh.rs", b""),
+    ];
+    assert_eq!(found(&files), ["src"]);
+}
+
+#[test]
+fn folders_are_searched_down_to_a_limit() {
+    let path = |levels: usize| format!("{}bvh.rs", "a/".repeat(levels));
+    assert_eq!(found(&[(&path(MAX_DEPTH), b"new")]).len(), 1);
+    let deeper = folder(&[(&path(MAX_DEPTH + 1), b"new")]);
+    let search = search(deeper.path(), &RAYS).unwrap();
+    assert!(search.candidates.is_empty());
+    assert!(matches!(
+        search.errors[..],
+        [SubmissionError::TooManyFiles(_)]
+    ));
+}
+
+#[test]
+fn files_are_counted_up_to_a_limit() {
+    let three = folder(&[("a", b""), ("b", b""), ("c", b"")]);
+    let visit = |entries: usize| {
+        let mut search = Search {
+            entries,
+            ..Search::default()
+        };
+        let folder = Folder::open(three.path()).unwrap();
+        search.visit(&folder, three.path(), "", &RAYS)
+    };
+    assert!(visit(MAX_ENTRIES - 3).is_ok());
+    assert!(matches!(
+        visit(MAX_ENTRIES - 2),
+        Err(SubmissionError::TooManyFiles(_))
+    ));
+}
+
+#[test]
+fn folders_with_task_files_are_counted_up_to_a_limit() {
+    let copies = |count: usize| {
+        let paths: Vec<String> = (0..count).map(|n| format!("{n}/bvh.rs")).collect();
+        let files: Vec<(&str, &[u8])> = paths
+            .iter()
+            .map(|path| (path.as_str(), &b"new"[..]))
+            .collect();
+        search(folder(&files).path(), &RAYS).map(|search| search.candidates.len())
+    };
+    assert_eq!(copies(MAX_CANDIDATES).unwrap(), MAX_CANDIDATES);
+    let refused = copies(MAX_CANDIDATES + 1);
+    assert!(matches!(refused, Err(SubmissionError::TooManyFiles(_))));
+}
+
+#[test]
+fn a_file_that_is_too_long_costs_only_its_own_points() {
+    let long = vec![b' '; 1 + (1 << 20)];
+    let folder = folder(&[("bvh.rs", &long), ("sphere.rs", b"new")]);
+    let submission = Submission::collect(folder.path(), &RAYS).unwrap();
+    let text = |name: &str| {
+        let mut files = submission.files.iter();
+        files.find(|(file, _)| file.name == name).unwrap().1.clone()
+    };
+    assert_eq!(text("bvh.rs"), Err(TaskFileError::TooLong("bvh.rs")));
+    assert_eq!(text("sphere.rs"), Ok("new".to_owned()));
+}
+
+#[test]
+fn only_faults_of_the_machine_stop_the_search() {
+    let read = |kind: ErrorKind| read_file(Err(kind.into()), "bvh.rs");
+    let name = "bvh.rs";
+    let why = "permission denied".to_owned();
+    let denied = Err(TaskFileError::Unreadable { name, why });
+    assert_eq!(read(ErrorKind::PermissionDenied).unwrap(), denied);
+    assert_eq!(
+        read(ErrorKind::TimedOut).unwrap_err().kind(),
+        ErrorKind::TimedOut
+    );
+    let not_regular = read_file(Ok(None), name).unwrap();
+    assert_eq!(not_regular, Err(TaskFileError::NotRegular(name)));
+    let unreadable = |kind: ErrorKind| unreadable("a".as_ref(), kind.into());
+    assert!(!unreadable(ErrorKind::NotFound).is_machine_fault());
+    assert!(unreadable(ErrorKind::TimedOut).is_machine_fault());
+}
+
+#[test]
+fn archives_in_a_platforms_folder_are_read_like_folders() {
+    let archive = tar(&[("src/bvh.rs", b"new")]);
+    let folder = folder(&[
+        ("work.tar", &archive),
+        ("notes.txt", b"neither code nor an archive"),
+        ("old.zip/readme", b"a folder"),
+    ]);
+    let submission = Submission::collect_with_archives(folder.path(), &RAYS).unwrap();
+    let texts = submission
+        .files
+        .iter()
+        .filter_map(|(_, text)| text.as_deref().ok());
+    assert_eq!(texts.collect::<Vec<_>>(), ["new"]);
+    // Without them, there is nothing to grade.
+    let none = Submission::collect(folder.path(), &RAYS);
+    assert!(matches!(none, Err(SubmissionError::NoTaskFiles { .. })));
+}
+
+#[test]
+fn an_archive_that_cannot_be_read_could_have_what_is_missing() {
+    let folder = folder(&[("bvh.rs", b"new"), ("rest.zip", b"PK\x03\x04")]);
+    let refused = Submission::collect_with_archives(folder.path(), &RAYS);
+    assert!(matches!(refused, Err(SubmissionError::Archive { .. })));
+}
+
+#[cfg(unix)]
+#[test]
+fn archives_behind_links_are_not_read() {
+    let elsewhere = folder(&[("work.tar", &tar(&[("bvh.rs", b"another's")]))]);
+    let folder = folder(&[("sphere.rs", b"new")]);
+    let link = folder.path().join("work.tar");
+    system::symlink(&elsewhere.path().join("work.tar"), &link).unwrap();
+    let submission = Submission::collect_with_archives(folder.path(), &RAYS).unwrap();
+    let texts = submission
+        .files
+        .iter()
+        .filter_map(|(_, text)| text.as_deref().ok());
+    assert_eq!(texts.collect::<Vec<_>>(), ["new"]);
+}
+
+#[test]
+fn the_names_in_an_archive_without_task_files_are_listed() {
+    let folder = folder(&[(
+        "a.tar",
+        &tar(&[("b/c.rs", b""), ("b/d", b""), ("a.txt", b"")]),
+    )]);
+    let error = Submission::collect(&folder.path().join("a.tar"), &RAYS).unwrap_err();
+    assert!(error.to_string().ends_with("it has a.txt, b"), "{error}");
+}
+
+#[test]
+fn a_single_folder_is_searched_without_those_below() {
+    let folder = folder(&[("bvh.rs", b"new"), ("old/bvh.rs", b"old")]);
+    let search = search_one(folder.path(), &RAYS).unwrap();
+    assert_eq!(search.candidates.len(), 1);
+    assert!(search.names.contains(&"bvh.rs".to_owned()));
+}

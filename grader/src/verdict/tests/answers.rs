@@ -1,0 +1,226 @@
+//! Items with answers, right and wrong.
+
+use super::*;
+
+#[test]
+fn a_score_begins_with_the_items_of_each_task_in_lecture_order() {
+    // Without any item of the first task.
+    let exam = exam(&["sphere.normal", "triangle.uv", "sphere.uv"]);
+    let score = pending(&exam);
+    let tasks = score.tasks.iter().map(|task| {
+        let ids: Vec<&str> = task.items.iter().map(|item| item.id.as_str()).collect();
+        (task.title.as_str(), task.points, task.max_points, ids)
+    });
+    assert_eq!(
+        tasks.collect::<Vec<_>>(),
+        [
+            ("Task 2: triangles", 0, 4, vec!["triangle.uv"]),
+            ("Task 2: spheres", 0, 8, vec!["sphere.normal", "sphere.uv"]),
+        ]
+    );
+    assert_eq!(score.tasks[0].chapter, Some(Section::new("boxes.md")));
+    assert_eq!((score.points, score.max_points), (0, 12));
+    assert_eq!(
+        (score.submission.as_str(), score.complete),
+        ("alice", false)
+    );
+    assert_eq!(score.exam.id, "small");
+    assert!(score.items().all(|item| item.verdict == Verdict::Pending));
+}
+
+#[test]
+fn an_item_with_right_answers_has_all_points_and_nothing_to_say() {
+    let line = answered(vec![boxes(2), boxes(1)], vec![right(), right()]);
+    assert_eq!(
+        line,
+        ItemScore {
+            id: "bbox.through".to_owned(),
+            title: "title of bbox.through".to_owned(),
+            points: 4,
+            max_points: 4,
+            verdict: Verdict::Pass,
+            message: String::new(),
+            at: None,
+            look: None,
+            clue: None,
+            section: None,
+            hints: Vec::new(),
+            evidence: None,
+            carried_forward: false,
+            pictures: Vec::new(),
+            staff: None,
+        }
+    );
+}
+
+#[test]
+fn a_wrong_answer_is_shown_with_its_question_and_its_number_in_the_item() {
+    let judgements = vec![right(), wrong(Credit::NONE, 1, None)];
+    let line = answered(vec![boxes(3), boxes(2)], judgements);
+    assert_eq!((line.points, line.verdict), (0, Verdict::Wrong));
+    assert_eq!(line.message, "wrong: interval");
+    assert_eq!(line.look.as_deref(), Some("look here"));
+    assert_eq!(line.section, Some(Section::new("boxes.md#a-heading")));
+    assert_eq!((line.at, line.clue), (None, None));
+    let evidence = line.evidence.unwrap();
+    assert_eq!(evidence.number, 5);
+    assert!(evidence.asked.contains("from (1, 0, 0)"), "{evidence:?}");
+    assert_eq!(
+        (evidence.got.as_str(), evidence.wanted.as_str()),
+        ("None", "[0, 1]")
+    );
+}
+
+#[test]
+fn an_item_has_the_credit_of_its_worst_question() {
+    let judgements = vec![
+        wrong(Credit::HALF, 0, None),
+        right(),
+        wrong(Credit::by_count(8, 40), 1, None),
+    ];
+    let line = answered(vec![boxes(1), boxes(2), boxes(2)], judgements);
+    assert_eq!((line.points, line.verdict), (1, Verdict::Partial));
+    assert_eq!(line.evidence.unwrap().number, 5);
+}
+
+#[test]
+fn the_number_of_wrong_answers_covers_all_questions_of_the_item() {
+    let message = |questions, judgements| answered(questions, judgements).message;
+    assert_eq!(
+        message(vec![boxes(1)], vec![wrong(Credit::NONE, 0, Some((1, 1)))]),
+        "wrong: interval",
+        "there is only one"
+    );
+    assert_eq!(
+        message(
+            vec![boxes(2), boxes(3)],
+            vec![right(), wrong(Credit::NONE, 1, Some((1, 3)))]
+        ),
+        "1 of 5 answers is wrong: interval"
+    );
+    assert_eq!(
+        message(
+            vec![boxes(2), boxes(3)],
+            vec![
+                wrong(Credit::NONE, 0, Some((2, 2))),
+                wrong(Credit::NONE, 1, Some((1, 3)))
+            ]
+        ),
+        "3 of 5 answers are wrong; in #1: interval"
+    );
+    assert_eq!(
+        message(
+            vec![boxes(2), boxes(3)],
+            vec![
+                wrong(Credit::NONE, 1, Some((1, 2))),
+                wrong(Credit::NONE, 1, None)
+            ]
+        ),
+        "2 of 5 answers are wrong; in #2: interval",
+        "a question without a count has one wrong answer"
+    );
+}
+
+#[test]
+fn the_pixels_of_a_path_traced_picture_are_counted_by_themselves() {
+    let picture = ExamQuestion::new(
+        Question::Radiance {
+            scene: String::new(),
+            film: glam::UVec2::new(4, 2),
+            samples: 1,
+            bounces: 1,
+            seed: 0,
+        },
+        Key::Radiance {
+            pixels: Vec::new(),
+            max_wrong_pixels: 0,
+        },
+    );
+    let judgements = vec![
+        wrong(Credit::NONE, 6, Some((3, 8))),
+        wrong(Credit::HALF, 0, Some((2, 2))),
+    ];
+    let line = answered(vec![picture, boxes(2)], judgements);
+    assert_eq!(line.message, "3 of 8 answers are wrong; in #1: interval");
+    assert_eq!(line.evidence.unwrap().number, 1);
+}
+
+#[test]
+fn a_panic_is_shown_with_its_line_and_a_clue() {
+    let message = "index out of bounds: the len is 2\u{1b} but the index is 2";
+    let line = answered(
+        vec![boxes(1)],
+        vec![panicked(Credit::NONE, message, "bbox.rs:34:9")],
+    );
+    assert_eq!((line.points, line.verdict), (0, Verdict::Panicked));
+    assert_eq!(
+        line.message,
+        "panicked at bbox.rs:34:9: index out of bounds: the len is 2\\u{1b} but the index is 2"
+    );
+    let at = line.at.unwrap();
+    assert_eq!((at.file.as_str(), at.line), ("bbox.rs", 34));
+    assert!(line.clue.unwrap().starts_with("Read the index"));
+    assert_eq!(line.look.as_deref(), Some("look here"));
+    let evidence = line.evidence.unwrap();
+    assert_eq!(
+        (
+            evidence.number,
+            evidence.got.as_str(),
+            evidence.wanted.as_str()
+        ),
+        (1, "a panic", "an answer")
+    );
+}
+
+#[test]
+fn a_panic_in_a_picture_that_is_partly_right_is_partial() {
+    let judgement = panicked(Credit::HALF, "oh", "world.rs:3:1");
+    let line = answered(vec![boxes(1)], vec![judgement]);
+    assert_eq!((line.points, line.verdict), (2, Verdict::Partial));
+    assert_eq!((line.at, line.clue), (None, None), "in a given file");
+}
+
+#[test]
+fn code_that_is_not_written_yet_needs_its_chapter_and_no_evidence() {
+    let line = answered(
+        vec![boxes(1)],
+        vec![panicked(
+            Credit::NONE,
+            "not yet implemented: task 3",
+            "bbox.rs:12:9",
+        )],
+    );
+    assert_eq!((line.points, line.verdict), (0, Verdict::Unimplemented));
+    assert_eq!(line.message, "bbox.rs:12:9 still contains `todo!`");
+    assert_eq!(line.at.unwrap().line, 12);
+    assert_eq!((line.look, line.clue, line.evidence), (None, None, None));
+    assert_eq!(line.section, Some(Section::new("boxes.md")));
+}
+
+#[test]
+fn an_answer_of_the_wrong_kind_is_no_evidence() {
+    let kind = FailureKind::Protocol("too short".to_owned());
+    let line = answered(vec![boxes(1)], vec![failed(Credit::NONE, 0, kind)]);
+    assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
+    assert_eq!(
+        line.message,
+        "the program sent an invalid answer: too short"
+    );
+    assert_eq!(line.evidence, None);
+}
+
+#[test]
+fn an_item_without_judgements_earns_nothing() {
+    let line = answered(Vec::new(), Vec::new());
+    assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
+}
+
+#[test]
+fn an_answer_that_is_right_alone_points_to_kept_state() {
+    let outcome = ItemOutcome::Answered {
+        judgements: vec![wrong(Credit::NONE, 0, None)],
+        right_alone: true,
+    };
+    let line = item_score(&item("bbox.through", vec![boxes(1)]), &outcome, &RAYS);
+    assert_eq!(line.clue.as_deref(), Some(clue::KEPT_STATE));
+}

@@ -1,0 +1,69 @@
+//! Tests of the scores of items, with small items and outcomes made by hand.
+
+use judging::exam::{ExamQuestion, Key};
+use protocol::{Panic, Question};
+
+use super::*;
+use crate::handed_out::RAYS;
+use crate::probe::{Crash, TimeLimit};
+use crate::small_exam::{boxes, exam, item, pending};
+use crate::submission::TaskFileError;
+
+fn right() -> Judgement {
+    Judgement {
+        credit: Credit::FULL,
+        failure: None,
+    }
+}
+
+fn failed(credit: Credit, element: usize, kind: FailureKind) -> Judgement {
+    Judgement {
+        credit,
+        failure: Some(Failure {
+            element,
+            kind,
+            count: None,
+        }),
+    }
+}
+
+/// Returns a judgement by which the interval is wrong at this element, and `count` says how many
+/// elements are wrong.
+fn wrong(credit: Credit, element: usize, count: Option<(usize, usize)>) -> Judgement {
+    Judgement {
+        credit,
+        failure: Some(Failure {
+            element,
+            kind: FailureKind::Wrong {
+                what: "interval".to_owned(),
+                got: "None".to_owned(),
+                wanted: "[0, 1]".to_owned(),
+            },
+            count,
+        }),
+    }
+}
+
+fn panicked(credit: Credit, message: &str, location: &str) -> Judgement {
+    let panic = Panic {
+        message: message.to_owned(),
+        location: location.to_owned(),
+    };
+    failed(credit, 0, FailureKind::Panicked(panic))
+}
+
+/// Returns the score of an item that has one of these questions for each judgement.
+fn answered(questions: Vec<ExamQuestion>, judgements: Vec<Judgement>) -> ItemScore {
+    assert_eq!(questions.len(), judgements.len());
+    let outcome = ItemOutcome::answered(judgements);
+    item_score(&item("bbox.through", questions), &outcome, &RAYS)
+}
+
+/// Returns the score of an item that asks two questions and has this outcome.
+fn without_answer(outcome: &ItemOutcome) -> ItemScore {
+    item_score(&item("bbox.through", vec![boxes(2)]), outcome, &RAYS)
+}
+
+mod answers;
+mod no_answer;
+mod other_items;

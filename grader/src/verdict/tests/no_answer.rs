@@ -1,0 +1,106 @@
+//! Items without answers: faults, items that were not run, and files that are not compiled.
+
+use crate::probe::{Crash, TimeLimit};
+use crate::submission::TaskFileError;
+
+use super::*;
+
+fn fault(fault: Fault) -> ItemOutcome<'static> {
+    let culprit = None;
+    ItemOutcome::Fault { fault, culprit }
+}
+
+/// Every kind of fault, with its verdict.
+fn faults() -> [(Fault, Verdict); 4] {
+    [
+        (Fault::TimedOut(TimeLimit::Cpu), Verdict::TimedOut),
+        (Fault::OutOfMemory, Verdict::OutOfMemory),
+        (Fault::Crashed(Crash::StackOverflow), Verdict::Crashed),
+        (Fault::Protocol("no".to_owned()), Verdict::Protocol),
+    ]
+}
+
+/// Every reason why a file is not compiled.
+fn reasons() -> [NotCompiled; 4] {
+    [
+        NotCompiled::Unreadable(TaskFileError::Missing("bbox.rs")),
+        NotCompiled::MissingDeclaration("struct BBox"),
+        NotCompiled::Error {
+            text: "error: a\tmistake\u{1b}".to_owned(),
+            line: Some(7),
+        },
+        NotCompiled::Compiler("error: no linker".to_owned()),
+    ]
+}
+
+#[test]
+fn a_fault_says_what_happened_and_asks_the_question_that_caused_it() {
+    for (fault, verdict) in faults() {
+        let outcome = ItemOutcome::Fault {
+            fault: fault.clone(),
+            culprit: Some((0, 1)),
+        };
+        let line = without_answer(&outcome);
+        assert_eq!((line.points, line.verdict), (0, verdict));
+        assert_eq!(line.message, fault.to_string());
+        let task = RAYS.assignment.find("bbox").unwrap();
+        assert_eq!(line.clue, Some(clue::of_fault(&fault, task)));
+        assert_eq!(line.section, Some(Section::new("boxes.md#a-heading")));
+        let evidence = line.evidence.unwrap();
+        assert_eq!(evidence.number, 2);
+        assert!(evidence.asked.contains("from (1, 0, 0)"), "{evidence:?}");
+        assert_eq!(
+            (evidence.got.as_str(), evidence.wanted.as_str()),
+            ("no answer", "an answer")
+        );
+    }
+    let line = without_answer(&fault(Fault::OutOfMemory));
+    assert_eq!(line.evidence, None, "the question is not known");
+}
+
+#[test]
+fn an_item_that_was_not_run_says_why() {
+    let stopped = faults().map(|(fault, verdict)| (NotRun::TaskStopped(fault), verdict));
+    let others = [
+        (NotRun::NeedsStoppedTask, Verdict::TimedOut),
+        (NotRun::BudgetUsedUp, Verdict::TimedOut),
+    ];
+    let messages = stopped.into_iter().chain(others).map(|(why, verdict)| {
+        let line = without_answer(&ItemOutcome::NotRun(why));
+        assert_eq!((line.points, line.verdict), (0, verdict));
+        assert_eq!(line.section, Some(Section::new("boxes.md#a-heading")));
+        line.message
+    });
+    insta::assert_snapshot!(messages.collect::<Vec<_>>().join("\n"), @r"
+    not run, because another item of this task took too long
+    not run, because two other items of this task crashed
+    not run, because two other items of this task crashed
+    not run, because two other items of this task crashed
+    not run, because a task that it depends on was stopped
+    not run, because the items before it have used up the time of the whole submission
+    ");
+}
+
+#[test]
+fn a_file_that_is_not_compiled_says_why_in_its_items_and_in_full() {
+    let items = reasons().map(|why| {
+        let line = without_answer(&ItemOutcome::NotCompiled(&why));
+        assert_eq!((line.points, line.verdict), (0, Verdict::NotCompiled));
+        line.message
+    });
+    insta::assert_snapshot!(items.join("\n"), @r"
+    bbox.rs is missing
+    bbox.rs has no `struct BBox`, which other files use
+    bbox.rs does not compile
+    the submission does not compile
+    ");
+    let files = reasons().map(|why| file_message("bbox.rs", &why));
+    insta::assert_snapshot!(files.join("\n"), @r"
+    bbox.rs is missing
+    bbox.rs has no `struct BBox`, which other files use
+    error: a    mistake\u{1b}
+    error: no linker
+    ");
+    let lines = reasons().map(|why| file_line(&why));
+    assert_eq!(lines, [None, None, Some(7), None]);
+}

@@ -1,0 +1,158 @@
+//! Scores that depend on other items, and hints, which depend on the answers to a whole task.
+
+use super::*;
+
+#[test]
+fn the_first_item_that_earned_nothing_blocks_those_that_depend_on_it() {
+    let ids = [
+        "triangle.inside",
+        "bbox.through",
+        "bbox.flat",
+        "traverse.root",
+    ];
+    let mut score = pending(&exam(&ids));
+    let mut dependent = item("traverse.root", vec![boxes(1)]);
+    dependent.needs = ["triangle.inside", "bbox.through", "bbox.flat"]
+        .map(str::to_owned)
+        .to_vec();
+    let mut earn = |id: &str, points| {
+        let mut items = score.tasks.iter_mut().flat_map(|task| &mut task.items);
+        items.find(|item| item.id == id).unwrap().points = points;
+        blocking_item(&dependent, &score).map(|blocking| (blocking.id, blocking.task.to_string()))
+    };
+    // Its own item has no points, either, and does not block itself.
+    assert_eq!(
+        earn("triangle.inside", 1),
+        Some(("bbox.through", "bbox".to_owned()))
+    );
+    assert_eq!(
+        earn("bbox.through", 4),
+        Some(("bbox.flat", "bbox".to_owned()))
+    );
+    assert_eq!(earn("bbox.flat", 1), None);
+    assert_eq!(
+        earn("triangle.inside", 0),
+        Some(("triangle.inside", "triangle".to_owned()))
+    );
+}
+
+/// Returns an item's score that has a value in every field.
+fn full_score() -> ItemScore {
+    let judgement = panicked(Credit::NONE, "attempt to add with overflow", "bbox.rs:34:9");
+    let line = answered(vec![boxes(1)], vec![judgement]);
+    assert!(line.at.is_some() && line.look.is_some() && line.clue.is_some());
+    assert!(line.section.is_some() && line.evidence.is_some());
+    line
+}
+
+#[test]
+fn a_blocked_item_says_only_what_to_fix_first() {
+    let line = full_score();
+    let (id, title) = (line.id.clone(), line.title.clone());
+    let blocked = blocked_score("triangle.inside", line);
+    assert_eq!(
+        blocked,
+        ItemScore {
+            id,
+            title,
+            points: 0,
+            max_points: 4,
+            verdict: Verdict::Blocked {
+                by: "triangle.inside".to_owned()
+            },
+            message: "depends on triangle.inside: fix that first".to_owned(),
+            at: None,
+            look: None,
+            clue: None,
+            section: None,
+            hints: Vec::new(),
+            evidence: None,
+            carried_forward: false,
+            pictures: Vec::new(),
+            staff: None,
+        }
+    );
+}
+
+#[test]
+fn an_item_that_earned_points_in_spite_of_a_failed_one_is_not_blocked() {
+    for points in [1, 4] {
+        let line = ItemScore {
+            points,
+            ..full_score()
+        };
+        assert_eq!(blocked_score("triangle.inside", line.clone()), line);
+    }
+    let line = without_answer(&ItemOutcome::Pending);
+    assert_eq!(blocked_score("triangle.inside", line.clone()), line);
+}
+
+fn mistake(id: &str, section: Option<&str>) -> KnownMistake {
+    KnownMistake {
+        id: id.to_owned(),
+        nudge: format!("Is it {id}?"),
+        hint: format!("It is {id}."),
+        section: section.map(Section::new),
+    }
+}
+
+#[test]
+fn every_mistake_that_explains_the_answers_gives_a_hint_and_the_first_its_section() {
+    let hinted = |mistakes: &[KnownMistake]| {
+        let mut line = full_score();
+        add_hints(&mut line, &mistakes.iter().collect::<Vec<_>>());
+        line
+    };
+    let known = [
+        mistake("bbox.swap", Some("boxes.md#swap")),
+        mistake("bbox.flat", Some("boxes.md#flat")),
+    ];
+    let line = hinted(&known);
+    let hint = |nudge: &str, hint: &str| Hint {
+        nudge: nudge.to_owned(),
+        hint: hint.to_owned(),
+    };
+    assert_eq!(
+        line.hints,
+        [
+            hint("Is it bbox.swap?", "It is bbox.swap."),
+            hint("Is it bbox.flat?", "It is bbox.flat.")
+        ]
+    );
+    assert_eq!(line.section, Some(Section::new("boxes.md#swap")));
+    assert_eq!(
+        line.staff.as_deref(),
+        Some("answers like bbox.swap or bbox.flat")
+    );
+
+    let line = hinted(&[mistake("bbox.swap", None)]);
+    assert_eq!(line.section, full_score().section);
+    assert_eq!(line.staff.as_deref(), Some("answers like bbox.swap"));
+
+    assert_eq!(hinted(&[]), full_score());
+}
+
+#[test]
+fn a_substituted_score_counts_and_compares_itself_with_the_items_own() {
+    let passed = answered(vec![boxes(1)], vec![right()]);
+    let failed = answered(vec![boxes(1)], vec![wrong(Credit::NONE, 0, None)]);
+    let message = |own: &ItemScore, substituted: &ItemScore| {
+        let score = substituted_score("triangle.inside", own, substituted.clone());
+        let message = score.message.clone();
+        let expected = ItemScore {
+            message: message.clone(),
+            carried_forward: true,
+            ..substituted.clone()
+        };
+        assert_eq!(score, expected);
+        message
+    };
+    assert_eq!(message(&passed, &passed), "");
+    let others = [(&failed, &passed), (&passed, &failed), (&failed, &failed)];
+    let messages = others.map(|(own, substituted)| message(own, substituted));
+    insta::assert_snapshot!(messages.join("\n"), @r"
+    wrong only because triangle.inside failed: correct with the reference's other files
+    wrong: interval; passes only because the mistake in triangle.inside cancels this one, so it is graded with the reference's other files
+    wrong: interval; graded with the reference's other files, because triangle.inside failed
+    ");
+}

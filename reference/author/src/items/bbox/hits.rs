@@ -69,8 +69,8 @@ pub(super) fn slab_after_slab(seed: Seed) -> DeclaredItem {
             id: "bbox.slab_after_slab",
             points: 1,
             title: "a ray that is never in all three slabs at the same time misses",
-            look: "Compare the axes with each other: the latest entry must come before the \
-                   earliest exit.",
+            look: "Compare the axes with each other, and with times: it is a miss if and only if the \
+                   latest entry comes after the earliest exit, however small both are.",
             section: "boxes.md#the-slab-intervals-must-overlap",
             group: Some(Group::Boxes),
             needs: &[],

@@ -79,7 +79,8 @@ pub(super) fn radius(seed: Seed) -> DeclaredItem {
             id: "sphere.radius",
             points: 1,
             title: "spheres of any radius are hit at the right distance",
-            look: "The square of the radius is part of the quadratic's c.",
+            look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so \
+                   can distances: compare each root with ray.range, not with a small constant.",
             section: "sphere.md#the-radius-is-not-always-one",
             group: Some(Group::SphereHits),
             needs: &[],
@@ -274,7 +275,8 @@ pub(super) fn range_within(seed: Seed) -> DeclaredItem {
             points: 1,
             title: "a ray whose range contains neither root misses",
             look: "Between the roots the ray is inside the sphere and hits nothing; beyond both it \
-                   has left the sphere.",
+                   has left the sphere. A root is a hit if and only if it is in ray.range, however \
+                   small it is.",
             section: "sphere.md#check-each-root-by-itself",
             group: Some(Group::SphereHits),
             needs: &[],

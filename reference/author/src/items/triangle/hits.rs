@@ -154,7 +154,8 @@ pub(super) fn range_min(seed: Seed) -> DeclaredItem {
             id: "triangle.range_min",
             points: 1,
             title: "there is no hit before the start of the ray's range",
-            look: "The range has two ends, and its start need not be 0.",
+            look: "The range has two ends, and its start need not be 0. Compare t with these two, and \
+                   with no constant, however small.",
             section: "triangle.md#check-both-ends-of-the-range",
             group: Some(Group::TriangleHits),
             needs: &[],

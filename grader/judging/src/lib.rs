@@ -27,3 +27,6 @@ pub mod recognise;
 pub mod sanitize;
 pub mod section;
 pub mod signatures;
+
+#[cfg(test)]
+mod tests;

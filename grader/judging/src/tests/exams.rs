@@ -1,22 +1,18 @@
-//! Tests of exams as data, with the practice exam: numbers of elements, what is refused, and the
-//! mistake behind an answer.
+//! Exams as data: numbers of elements, what is refused, and the mistake behind an answer.
 
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::sync::LazyLock;
 
+use crate::assignment::{RAYS, Task};
+use crate::exam::{Exam, ExamQuestion, Key};
+use crate::exam_file;
+use crate::judge::{Failure, judge};
+use crate::recognise::Observations;
 use glam::Vec3;
-use judging::assignment::{RAYS, Task};
-use judging::exam::{Exam, ExamQuestion, Key};
-use judging::exam_file;
-use judging::judge::{Failure, judge};
-use judging::recognise::Observations;
 use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays};
 use serde_json::{Value, json};
 
-const PRACTICE: &str = include_str!("../../exams/practice.json");
-
-static EXAM: LazyLock<Exam> = LazyLock::new(|| parse(PRACTICE).unwrap());
+use super::{EXAM, PART};
 
 fn parse(text: &str) -> Result<Exam, String> {
     let file = exam_file::parse(Path::new("exam.json"), text.as_bytes(), &RAYS);
@@ -85,12 +81,12 @@ fn a_part_of_the_exam_has_the_items_that_it_needs() {
 
 #[test]
 fn an_exam_is_read_as_it_was_written() {
-    let text = serde_json::to_string(&*EXAM).unwrap();
+    let text = serde_json::to_string(&*PART).unwrap();
     assert!(!text.contains("\"assignment\""), "`rays` is the default");
     assert_eq!(serde_json::to_string(&parse(&text).unwrap()).unwrap(), text);
     let other = Exam {
         assignment: "light".to_owned(),
-        ..EXAM.clone()
+        ..PART.clone()
     };
     let text = serde_json::to_string(&other).unwrap();
     assert!(
@@ -103,7 +99,7 @@ fn an_exam_is_read_as_it_was_written() {
 
 #[test]
 fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
-    let exam: Value = serde_json::from_str(PRACTICE).unwrap();
+    let exam = serde_json::to_value(&*PART).unwrap();
     let first = |id: &str| {
         let items = exam["items"].as_array().unwrap();
         items.iter().position(|item| item["id"] == id).unwrap()
@@ -111,7 +107,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
     let camera = first("camera.corners");
     let picture = first("camera.picture");
     let sphere = first("sphere.near_side");
-    let count = EXAM.items[camera].count();
+    let count = PART.items[camera].count();
     let item = |path: &str| format!("/items/{camera}/{path}");
     for (path, value, problem) in [
         ("/schema".to_owned(), json!(99), "its format is version 99"),
@@ -195,7 +191,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
 #[test]
 fn a_key_of_first_hits_fits_only_the_rays_of_a_view() {
     let problem_after = |change: fn(&mut ExamQuestion)| {
-        let mut exam = EXAM.clone();
+        let mut exam = PART.clone();
         let questions = exam.items.iter_mut().flat_map(|item| &mut item.questions);
         let mut with_first_hits =
             questions.filter(|question| matches!(question.key, Key::FirstHits { .. }));

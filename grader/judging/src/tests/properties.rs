@@ -1,28 +1,21 @@
 //! Properties of judging, for all questions of the practice exam: the key's own answer passes, and a
 //! worse answer never earns more.
 
-use std::path::Path;
 use std::sync::LazyLock;
 
+use crate::exam::{ExamQuestion, ExpectedHit, Key, RayCheck, Surface};
+use crate::judge::{Credit, judge, measure, mismatches};
+use crate::observe::{expected, observe};
 use glam::{Vec2, Vec3};
-use judging::assignment::RAYS;
-use judging::exam::{Exam, ExamQuestion, ExpectedHit, Key, RayCheck, Surface};
-use judging::exam_file;
-use judging::judge::{Credit, judge, measure, mismatches};
-use judging::observe::{expected, observe};
 use proptest::prelude::*;
 use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
 
-static PRACTICE: LazyLock<Exam> = LazyLock::new(|| {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../exams/practice.json");
-    let bytes = std::fs::read(&path).unwrap();
-    exam_file::parse(&path, &bytes, &RAYS).unwrap().exam
-});
+use super::EXAM;
 
 /// The questions, each with the answer that follows from its key. Trees are left out: many different
 /// ones are right.
 static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| {
-    let questions = PRACTICE.items.iter().flat_map(|item| &item.questions);
+    let questions = EXAM.items.iter().flat_map(|item| &item.questions);
     questions
         .filter_map(|question| Some((question, keys_answer(question)?)))
         .collect()
@@ -199,7 +192,7 @@ fn the_keys_own_answer_passes() {
 
 #[test]
 fn the_keys_own_answer_is_observed_as_expected() {
-    for item in &PRACTICE.items {
+    for item in &EXAM.items {
         let answers: Option<Vec<Answer>> = item.questions.iter().map(keys_answer).collect();
         let Some(answers) = answers else { continue };
         let (observed, expected) = (observe(item, &answers), expected(item));
@@ -237,7 +230,7 @@ fn without_a_right_element_an_answer_earns_nothing() {
 #[test]
 fn answers_to_questions_of_other_items_do_not_pass() {
     let item = |question: &ExamQuestion| {
-        let mut items = PRACTICE.items.iter();
+        let mut items = EXAM.items.iter();
         let is_own = |own: &ExamQuestion| std::ptr::eq(own, question);
         items.position(|item| item.questions.iter().any(is_own))
     };

@@ -267,7 +267,7 @@ mod tests {
 
     #[test]
     fn hints_come_from_the_answers_that_count() {
-        let mut exam = exam(&["bbox.flat", "bbox.behind"]);
+        let mut exam = exam(&["bbox.flat", "bbox.behind", "bbox.clipped"]);
         exam.mistakes.push(KnownMistake {
             id: "bbox.swap".to_owned(),
             nudge: String::new(),
@@ -276,7 +276,8 @@ mod tests {
         });
         let spans = |span| [Answer::Spans(vec![ElementOutcome::Value(span); 3])];
         let (right, wrong) = (spans(None), spans(Some(Interval { min: 1.0, max: 2.0 })));
-        for item in &mut exam.items {
+        // The mistake does not affect the third item.
+        for item in &mut exam.items[..2] {
             item.questions = vec![boxes(3)];
             item.signatures.elements = (0..3).collect();
             item.signatures.correct_answers = observe(item, &right);
@@ -301,6 +302,7 @@ mod tests {
                 line.verdict = verdict.clone();
             }
             explain_items(&exam, &mut lines, own, substituted);
+            assert!(lines[2].hints.is_empty());
             [0, 1].map(|line| lines[line].hints.len())
         };
         assert_eq!(hinted(Verdict::Wrong, &wrong, None), [1, 1]);

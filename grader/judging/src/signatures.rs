@@ -260,6 +260,8 @@ mod tests {
         assert!(!numbers(&[2e4]).matches(&numbers(&[2.01e4])));
         assert!(!numbers(&[0.0]).matches(&numbers(&[2.1])));
         assert!(!numbers(&[f32::INFINITY]).matches(&numbers(&[f32::NEG_INFINITY])));
+        assert!(!numbers(&[f32::NAN]).matches(&numbers(&[1.0])));
+        assert!(!numbers(&[1.0]).matches(&numbers(&[f32::NAN])));
         assert!(!numbers(&[1.0]).matches(&numbers(&[1.0, 1.0])));
         assert!(!numbers(&[0.0]).matches(&ObservedAnswer::NoHit));
     }

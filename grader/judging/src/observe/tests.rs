@@ -20,6 +20,7 @@ fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
 /// Asserts that each number of the wrong answers differs from the correct one by this many tolerances.
 fn assert_tolerances_apart(wrong: &[Vec<f32>], correct: &[Vec<f32>], expected: f32) {
     assert_eq!(wrong.len(), 2, "one entry for each element");
+    assert!(wrong.iter().all(|numbers| !numbers.is_empty()));
     let pairs = wrong.iter().flatten().zip(correct.iter().flatten());
     for (wrong, correct) in pairs {
         let tolerances = wrong - correct;
@@ -100,19 +101,39 @@ fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
     assert_eq!(expected, observe_question(&question, &answer(0.0)));
 }
 
+/// Returns a hit at the origin with this uv and material.
+fn trace(uv: Vec2, material: u32) -> Trace {
+    Trace {
+        distance: 1.0,
+        position: Vec3::X,
+        normal: Vec3::X,
+        uv,
+        origin: Vec3::ZERO,
+        material,
+    }
+}
+
 #[test]
 fn each_material_is_far_from_the_others() {
-    let of = |material: u32| {
-        let trace = Trace {
-            distance: 1.0,
-            position: Vec3::X,
-            normal: Vec3::X,
-            uv: Vec2::ZERO,
-            origin: Vec3::ZERO,
-            material,
-        };
-        observe_hit(&[HitCheck::Material], Some(&trace), 1.0)
+    let of = |material| {
+        observe_hit(
+            &[HitCheck::Material],
+            Some(&trace(Vec2::ZERO, material)),
+            1.0,
+        )
     };
     assert!(of(1).matches(&of(1)));
     assert!(!of(1).matches(&of(2)));
+}
+
+#[test]
+fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
+    let uv = observe_hit(
+        &[HitCheck::Uv],
+        Some(&trace(Vec2::new(3.0 * UV, 0.5), 0)),
+        1.0,
+    );
+    assert_eq!(uv, ObservedAnswer::Numbers(vec![3.0, 0.5 / UV]));
+    assert_eq!(direction(Vec3::Z), [0.0, 0.0, 1.0 / DIRECTION]);
+    assert_eq!(direction(4.0 * Vec3::Z), direction(Vec3::Z));
 }

@@ -60,6 +60,7 @@ mod tests {
 
     use super::*;
     use crate::exam::{ExpectedHit, HitCheck, Key, Surface};
+    use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
 
     fn question(key: Key) -> ExamQuestion {
         let ray = |x| Ray::new(Vec3::new(x, 0.0, 0.0), Vec3::NEG_Z);
@@ -126,5 +127,40 @@ mod tests {
         assert_eq!(element_error(&question, &answer(2.0), 1), None);
         let error = element_error(&question, &answer(4.0), 1).expect("this is wrong");
         assert!(error.starts_with("depth; the error is "), "{error}");
+    }
+
+    #[test]
+    fn the_defect_of_a_tree_is_named_as_it_was_found() {
+        let question = ExamQuestion::new(
+            Question::Build {
+                shapes: row(4),
+                max_leaf_size: 2,
+            },
+            Key::Tree {
+                checks: ALL_CHECKS.to_vec(),
+                sweep_cost: None,
+            },
+        );
+        let mut tree = valid_tree();
+        tree.order.swap(0, 1);
+        tree.order[3] = 0;
+        let error = element_error(&question, &Answer::Tree(ElementOutcome::Value(tree)), 0);
+        let error = error.expect("a primitive is in two leaves");
+        assert!(error.contains("; wanted: "), "{error}");
+    }
+
+    #[test]
+    fn only_an_error_beyond_the_tolerance_has_a_size() {
+        for (deviation, expected) in [
+            (0.5, "uv"),
+            (1.0, "uv"),
+            (f64::INFINITY, "uv"),
+            (f64::NAN, "uv"),
+            (1.25, "uv; the error is 1.2 times the tolerance"),
+            (12.3, "uv; the error is 12 times the tolerance"),
+            (3e6, "uv; the error is 3e6 times the tolerance"),
+        ] {
+            assert_eq!(with_size("uv", deviation), expected);
+        }
     }
 }

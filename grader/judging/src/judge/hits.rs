@@ -144,3 +144,55 @@ fn failed_check(
         wanted,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec2, Vec3};
+    use protocol::{Answer, Question, Rays};
+
+    use super::*;
+    use crate::exam::{ExamQuestion, Key};
+    use crate::judge::judge;
+
+    #[test]
+    fn an_error_is_judged_by_the_scale_of_its_ray() {
+        for from in [8.0, 800.0] {
+            let hit = ExpectedHit {
+                distance: from - 1.0,
+                position: Vec3::X,
+                normal: Vec3::X,
+                uv: Vec2::ZERO,
+                material: 0,
+            };
+            let ray = Ray::new(Vec3::X * from, -Vec3::X);
+            let question = ExamQuestion::new(
+                Question::Shapes {
+                    shapes: vec![Shape::Sphere {
+                        center: Vec3::ZERO,
+                        radius: 1.0,
+                        material: 0,
+                    }],
+                    rays: Rays::List(vec![ray]),
+                },
+                Key::Hits {
+                    checks: vec![HitCheck::Distance],
+                    hits: vec![Some(hit)],
+                },
+            );
+            let is_right = |tolerances: f32| {
+                let trace = Trace {
+                    distance: hit.distance + tolerances * LENGTH * from,
+                    position: hit.position,
+                    normal: hit.normal,
+                    uv: hit.uv,
+                    origin: ray.origin,
+                    material: 0,
+                };
+                let answer = Answer::Hits(vec![ElementOutcome::Value(Some(trace))]);
+                judge(&question, &answer).failure.is_none()
+            };
+            assert!(is_right(0.5), "from {from}");
+            assert!(!is_right(1.5), "from {from}");
+        }
+    }
+}

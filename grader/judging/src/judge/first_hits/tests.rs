@@ -86,6 +86,41 @@ fn wrong_normals_cost_the_normal_and_uv_credit() {
 }
 
 #[test]
+fn a_wrong_quantity_is_shown_with_its_own_numbers() {
+    let shown = |surface: Surface| {
+        let failure = judge(&key(), &[], &answers(answer_of(surface))).failure;
+        match failure.expect("it is wrong").kind {
+            FailureKind::Wrong { what, got, wanted } => [what, got, wanted],
+            other => panic!("{other:?}"),
+        }
+    };
+    let (normal, uv) = (Vec3::X, Vec2::new(0.25, 0.75));
+    assert_eq!(
+        shown(Surface { normal, ..WALL }),
+        [
+            "normal".to_owned(),
+            describe::point(normal),
+            describe::point(WALL.normal)
+        ]
+    );
+    assert_eq!(
+        shown(Surface { uv, ..WALL }),
+        ["uv".to_owned(), describe::uv(uv), describe::uv(WALL.uv)]
+    );
+}
+
+#[test]
+fn a_quantity_judged_at_too_few_positions_earns_nothing() {
+    let mut got = vec![ElementOutcome::Value(None); 100];
+    got[..24].fill(answer_of(WALL));
+    let few = judge(&key(), &[], &got);
+    assert_eq!(few.credit.apply(100), 0);
+    // With half of the wall, depth, normal and uv are judged; hit or miss still earns nothing.
+    got[..25].fill(answer_of(WALL));
+    assert_eq!(judge(&key(), &[], &got).credit.apply(100), 60);
+}
+
+#[test]
 fn missing_everything_earns_nothing_and_hitting_everything_only_part() {
     let nothing = vec![ElementOutcome::Value(None); 100];
     assert_eq!(judge(&key(), &[], &nothing).credit, Credit::NONE);

@@ -63,6 +63,21 @@ fn the_scenes_are_in_sync() {
 }
 
 #[test]
+fn the_readme_has_the_numbers_of_the_exam() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let exam: serde_json::Value =
+        serde_json::from_str(&read("grader/exams/practice.json")).unwrap();
+    let count = |list: &str| exam[list].as_array().unwrap().len();
+    let readme = read("README.md").replace('\n', " ");
+    for sentence in [
+        format!("The exam has {} items.", count("items")),
+        format!("the answers that {} known mistakes give", count("mistakes")),
+    ] {
+        assert!(readme.contains(&sentence), "the README lacks: {sentence}");
+    }
+}
+
+#[test]
 fn the_starter_has_nine_files_per_folder_and_no_marks() {
     let files = starter_files();
     let with_main = RAYS.files.len() + RAYS.given.len() + 1;

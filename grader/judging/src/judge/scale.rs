@@ -84,5 +84,12 @@ mod tests {
             ..ray
         };
         assert_eq!(of_box(Vec3::ZERO, Vec3::ONE, &far), 20.0);
+        let spheres = vec![sphere.clone()];
+        for (eye, expected) in [(ray, 4.5), (far, 20.0)] {
+            let rays = Rays::List(vec![eye]);
+            assert_eq!(of_picture(&spheres, &rays), expected);
+            let shapes = spheres.clone();
+            assert_eq!(super::shapes(&Question::Shapes { shapes, rays }), spheres);
+        }
     }
 }

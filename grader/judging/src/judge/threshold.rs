@@ -134,3 +134,37 @@ impl Threshold {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn each_threshold_has_its_own_title_and_a_limit() {
+        let titles: BTreeSet<&str> = Threshold::ALL.iter().map(|one| one.title()).collect();
+        assert_eq!(titles.len(), Threshold::ALL.len());
+        assert_eq!(Threshold::Normal.title(), "normal of a hit");
+        for threshold in Threshold::ALL {
+            let limit = threshold.limit();
+            let is_number = limit.starts_with(|first: char| first.is_ascii_digit());
+            assert!(is_number || limit == "set by the key", "{limit}");
+        }
+    }
+
+    #[test]
+    fn each_threshold_is_where_it_says() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/judge");
+        for threshold in Threshold::ALL {
+            let (place, name) = threshold.location().split_once(": ").unwrap();
+            if place == "the exam's key" {
+                continue;
+            }
+            let text = fs::read_to_string(folder.join(place)).unwrap();
+            assert!(text.contains(&format!("const {name}: ")), "{place}: {name}");
+        }
+    }
+}

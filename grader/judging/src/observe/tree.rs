@@ -164,7 +164,7 @@ mod tests {
     use glam::Vec3;
     use protocol::{Answer, ElementOutcome, Question};
 
-    use crate::exam::{ExamQuestion, Key};
+    use crate::exam::{ExamQuestion, Key, TreeCheck};
     use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
     use crate::observe::observe_tree;
     use crate::signatures::ObservedAnswer;
@@ -174,12 +174,17 @@ mod tests {
     /// Returns what is observed of a tree over four spheres in a row, in an order of its own, after a
     /// change.
     fn defect_after(change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
+        defect_by(&ALL_CHECKS, change)
+    }
+
+    /// The same, if only these properties are checked.
+    fn defect_by(checks: &[TreeCheck], change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
         let question = Question::Build {
             shapes: row(4),
             max_leaf_size: 2,
         };
         let key = Key::Tree {
-            checks: ALL_CHECKS.to_vec(),
+            checks: checks.to_vec(),
             sweep_cost: None,
         };
         let mut tree = valid_tree();
@@ -220,6 +225,14 @@ mod tests {
             (tree.nodes[0].min, tree.nodes[0].max) = (r.min, r.max);
             (tree.nodes[2].min, tree.nodes[2].max) = (l.min, l.max);
         });
+        let off = Vec3::X * 1e-4;
+        assert_name("box too small: leaves, the sibling's", |tree| {
+            let r = tree.nodes[2];
+            (tree.nodes[0].min, tree.nodes[0].max) = (r.min + off, r.max + off);
+        });
+        assert_name("box too large: leaves", |tree| {
+            tree.nodes[2].min = tree.nodes[0].min;
+        });
         assert_name("box too small: leaves", |tree| tree.order.rotate_left(1));
         assert_name("box too large: leaves, in the original order", |tree| {
             tree.order = vec![0, 1, 2, 3];
@@ -234,6 +247,13 @@ mod tests {
         let diagonal = Vec3::new(7.0, 1.0, 1.0).length();
         let root = amount(|tree| tree.nodes[1].max.x += 1.0).unwrap();
         assert!((root * 1e-4 * diagonal - 1.0).abs() < 1e-3, "{root}");
+        // From this root, half of the primitives are reached; the amount is that of all.
+        let part = defect_by(&[TreeCheck::Contains], |tree| {
+            tree.root = 0;
+            tree.nodes[0].max.x = 2.0;
+        });
+        let amount = part.unwrap().1;
+        assert!((amount * 1e-5 * diagonal - 4.5).abs() < 1e-3, "{amount}");
     }
 
     #[test]
@@ -242,6 +262,7 @@ mod tests {
         assert_name("leaves: some in none some in several", |tree| {
             tree.nodes[2].start = 1
         });
+        assert_name("leaves: some in several", |tree| tree.nodes[0].size = 3);
         assert_name("leaves: some in none, one node is alone", |tree| {
             tree.root = 2
         });

@@ -298,6 +298,53 @@ fn with_ray(answer: &mut Answer, index: usize, change: impl Fn(&mut Ray)) {
     }
 }
 
+/// Pictures are few of the questions, so random ones would hardly meet them.
+#[test]
+fn pictures_are_measured_and_masked_as_they_are_judged() {
+    let mut pictures = 0;
+    for (question, own) in QUESTIONS.iter() {
+        if mismatches(question, own).is_none() {
+            continue;
+        }
+        pictures += 1;
+        let all = count(own);
+        for wrong in [0, 1, 3, all / 30, all] {
+            let mut answer = own.clone();
+            for element in 0..wrong {
+                Error::Relative(1.0).apply(&mut answer, element);
+            }
+            let judgement = judge(question, &answer);
+            let is_full = judgement.credit == Credit::FULL;
+            assert_eq!(judgement.failure.is_none(), is_full);
+            let measured = measure(question, &answer);
+            assert!(!measured.is_empty());
+            let is_right = measured
+                .iter()
+                .all(|one| one.deciding_deviation().is_right());
+            assert_eq!(is_right, is_full, "{wrong} of {all} are wrong");
+            let mask = mismatches(question, &answer).expect("there are as many answers");
+            assert_eq!(mask.len(), all);
+            assert_eq!(mask.iter().flatten().count(), wrong);
+        }
+        let mut short = own.clone();
+        match &mut short {
+            Answer::Rays(rays) => drop(rays.pop()),
+            Answer::Hits(hits) => drop(hits.pop()),
+            Answer::Picture(ElementOutcome::Value(pixels)) => drop(pixels.pop()),
+            other => panic!("this is no picture: {other:?}"),
+        }
+        assert_eq!(judge(question, &short).credit, Credit::NONE);
+        let measured = measure(question, &short);
+        assert!(
+            measured
+                .iter()
+                .any(|one| !one.deciding_deviation().is_right())
+        );
+        assert_eq!(mismatches(question, &short), None);
+    }
+    assert!(pictures >= 5, "{pictures}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig {
         failure_persistence: None,

@@ -166,6 +166,12 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
     let fork = node(0, 4, 0, 1, 2);
     let half = vec![fork, node(0, 1, 2, 0, 0), node(2, 3, 2, 0, 0)];
     assert_eq!(credit(4, half), Credit::NONE);
+    let half = vec![
+        node(0, 5, 0, 1, 2),
+        node(0, 2, 3, 0, 0),
+        node(3, 5, 3, 0, 0),
+    ];
+    assert_eq!(credit(6, half), Credit::NONE);
     // Some leaves hold more than one primitive, but each holds less than half of them.
     let thirds = vec![
         fork,
@@ -263,4 +269,17 @@ fn measures_box_excess_and_cost() {
         Threshold::SahCost,
     );
     assert!((found - 0.5).abs() < 1e-9, "{found}");
+}
+
+#[test]
+fn boxes_are_judged_relative_to_their_diagonals() {
+    let is_right = |excess: f64| {
+        let mut tree = valid_tree();
+        tree.nodes[1].max.x += excess as f32;
+        let answer = ElementOutcome::Value(tree);
+        judge(&ALL_CHECKS, None, &row(4), 2, &answer).credit == Credit::FULL
+    };
+    // The diagonal is 7.1.
+    assert!(is_right(5.0 * TIGHT_TOLERANCE) && !is_right(9.0 * TIGHT_TOLERANCE));
+    assert!(is_right(-5.0 * CONTAIN_TOLERANCE) && !is_right(-9.0 * CONTAIN_TOLERANCE));
 }

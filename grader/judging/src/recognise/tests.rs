@@ -186,6 +186,43 @@ fn a_second_mistake_that_only_makes_up_for_the_first_is_not_named() {
 }
 
 #[test]
+fn each_mistake_of_a_pair_must_affect_an_item_of_its_own() {
+    let correct = [1, 2, 3].map(|index| numbers(&[index]));
+    let one = [7; 3].map(|wrong| Some(numbers(&[wrong])));
+    let other = [Some(numbers(&[8])), None, None];
+    let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+    let answers = [9, 7, 7].map(|answer| numbers(&[answer]));
+    assert_eq!(explained(&exam, &answers), [NOTHING, NOTHING, NOTHING]);
+}
+
+#[test]
+fn three_of_five_answers_must_be_those_of_a_mistake_in_a_pair() {
+    // Both change some answers, which can be anything. Besides, `one` changes some, and `other` three.
+    let named = |open: usize, own: usize| {
+        let correct = [
+            all(number(1), open),
+            all(number(3), own),
+            numbers(&[4, 5, 6]),
+        ];
+        let one = [Some(all(number(7), open)), Some(all(number(7), own)), None];
+        let other = [Some(all(number(8), open)), None, Some(numbers(&[8, 8, 8]))];
+        let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+        let answers = [
+            all(number(9), open),
+            all(number(7), own),
+            numbers(&[8, 8, 8]),
+        ];
+        explained(&exam, &answers)
+    };
+    assert_eq!(
+        named(2, 3),
+        [vec!["one", "other"], vec!["one"], vec!["other"]]
+    );
+    assert_eq!(named(2, 2), [vec!["other"], vec![], vec!["other"]]);
+    assert_eq!(named(3, 4), [NOTHING, NOTHING, NOTHING]);
+}
+
+#[test]
 fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
     let correct = [numbers(&[1, 2]), numbers(&[3, 4]), numbers(&[5, 6])];
     let one = [Some(numbers(&[7, 2])), Some(numbers(&[7, 7])), None];

@@ -316,3 +316,106 @@ fn a_mistake_that_explains_nearly_all_answers_is_named() {
     assert!(named([7, 9, 9]), "ten answers agree, two differ");
     assert!(!named([9, 9, 9]), "nine answers agree, three differ");
 }
+
+/// Returns whether `known` is named if it changes every answer, items have these sizes, and the last
+/// answers to some of them are not its own. Rivals change all answers to the given number of items, as
+/// it does. Besides, this many other items are wrong.
+fn is_named(items: &[(usize, usize)], rivals: &[usize], others: usize) -> bool {
+    let sizes = || items.iter().map(|&(size, _)| size);
+    let right = sizes().map(|size| all(number(1), size));
+    let correct: Vec<_> = right.chain(vec![all(number(1), 1); others]).collect();
+    let changing = |count: usize| -> Vec<_> {
+        let changed = sizes().take(count).map(|size| Some(all(number(7), size)));
+        let unchanged = correct.len() - items.len().min(count);
+        changed.chain(vec![None; unchanged]).collect()
+    };
+    let known = changing(items.len());
+    let rivals: Vec<_> = rivals.iter().map(|&count| changing(count)).collect();
+    let rivals = rivals.iter().map(|rival| ("rival", rival.as_slice()));
+    let mistakes: Vec<Mistake> = [("known", known.as_slice())]
+        .into_iter()
+        .chain(rivals)
+        .collect();
+    let answers = items.iter().map(|&(size, differing)| {
+        [all(number(7), size - differing), all(number(9), differing)].concat()
+    });
+    let answers: Vec<_> = answers.chain(vec![all(number(9), 1); others]).collect();
+    let named = explained(&exam(&correct, &mistakes), &answers).concat();
+    named.contains(&"known".to_owned())
+}
+
+#[test]
+fn a_dominant_mistake_explains_three_quarters_of_its_items_and_most_wrong_ones() {
+    let items = [(3, 0), (3, 0), (3, 0), (3, 1)];
+    assert!(is_named(&items, &[], 1), "three of five wrong items");
+    assert!(!is_named(&items, &[], 2), "three of six");
+    let items = [(4, 0), (4, 0), (4, 0), (2, 1), (2, 1)];
+    assert!(!is_named(&items, &[], 0), "three of five that it affects");
+}
+
+#[test]
+fn a_dominant_mistake_explains_most_answers() {
+    // In nine items of ten, it must be two of three answers, and otherwise more than four of five.
+    let ten = |differing: usize| [[(1, 0); 9].as_slice(), &[(differing, differing)]].concat();
+    assert!(is_named(&ten(3), &[], 0), "nine agree, three differ");
+    assert!(!is_named(&ten(5), &[], 0), "nine agree, five differ");
+    let four = [(4, 0), (4, 0), (4, 0), (3, 3)];
+    assert!(!is_named(&four, &[], 0), "twelve agree, three differ");
+}
+
+#[test]
+fn correct_answers_are_no_evidence_for_a_dominant_mistake() {
+    let correct = [(); 4].map(|()| numbers(&[1, 2, 3, 4]));
+    let known = [(); 4].map(|()| Some(numbers(&[7, 2, 3, 4])));
+    let exam = exam(&correct, &[("known", &known)]);
+    let answers = [7, 7, 7, 9].map(|first| numbers(&[first, 2, 3, 4]));
+    assert_eq!(explained(&exam, &answers), [NOTHING; 4]);
+}
+
+#[test]
+fn a_rival_explains_more_than_half_of_the_items_and_of_the_answers() {
+    let items = [(3, 0), (3, 0), (3, 0), (3, 1)];
+    assert!(
+        !is_named(&items, &[2], 0),
+        "two of three items, and six of eleven answers"
+    );
+    let items = [(2, 0), (3, 0), (3, 0), (4, 2)];
+    assert!(is_named(&items, &[2], 0), "five of ten answers");
+    let items = [(6, 0), (6, 0), (1, 0), (1, 0), (2, 1)];
+    assert!(is_named(&items, &[2], 0), "two of four items");
+    let items = [(4, 0), (4, 0), (4, 0), (1, 0), (1, 0), (2, 1)];
+    assert!(!is_named(&items, &[3], 0), "three of five items");
+}
+
+/// Misses are no evidence, so these mistakes are named only if they explain all items that they affect.
+#[test]
+fn a_mistake_that_misses_is_named_if_most_wrong_items_are_its_own() {
+    let missed = || vec![number(1), ObservedAnswer::NoHit];
+    let correct = [(); 7].map(|()| numbers(&[1, 1]));
+    let known = [0, 1, 2, 3, 4, 5, 6].map(|item| (item < 4).then(missed));
+    let exam = exam(&correct, &[("known", &known)]);
+    let answers = |other: &ObservedAnswer| {
+        [0, 1, 2, 3, 4, 5, 6].map(|item| match item {
+            0..4 => missed(),
+            _ => all(other.clone(), 2),
+        })
+    };
+    let named = |other: ObservedAnswer| explained(&exam, &answers(&other))[0] == ["known"];
+    assert!(named(number(9)), "four of seven wrong items");
+    let stack = ObservedAnswer::NoAnswer(NoAnswerReason::Stack);
+    assert!(
+        named(stack),
+        "it has no such answers, so they are another mistake's"
+    );
+}
+
+#[test]
+fn a_single_item_without_an_answer_may_be_due_to_other_code() {
+    let panicked = || vec![number(7), ObservedAnswer::Panicked];
+    let correct = [(); 4].map(|()| numbers(&[1, 1]));
+    let known = [Some(panicked()), Some(panicked()), None, None];
+    let exam = exam(&correct, &[("known", &known)]);
+    let third = all(ObservedAnswer::Panicked, 2);
+    let answers = [panicked(), panicked(), third, correct[3].clone()];
+    assert_eq!(explained(&exam, &answers)[0], ["known"]);
+}

@@ -238,12 +238,50 @@ fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
 
 #[test]
 fn a_pair_that_leaves_most_answers_open_explains_nothing() {
-    let correct = [numbers(&[1, 1, 1]), numbers(&[3]), numbers(&[5])];
-    let one = [Some(numbers(&[7, 7, 7])), Some(numbers(&[7])), None];
-    let other = [Some(numbers(&[8, 8, 8])), None, Some(numbers(&[8]))];
+    let correct = [1, 2].map(|index| numbers(&[index, index, index]));
+    let one = [Some(numbers(&[7, 7, 7])), None];
+    let other = [None, Some(numbers(&[8, 8, 8]))];
+    let any = [11, 12].map(|wrong| [(); 2].map(|()| Some(all(number(wrong), 3))));
+    let exam = exam(
+        &correct,
+        &[
+            ("one", &one),
+            ("other", &other),
+            ("any", &any[0]),
+            ("thing", &any[1]),
+        ],
+    );
+    // The last two change everything, so with both, anything can come out.
+    let answers = [numbers(&[7, 7, 7]), numbers(&[8, 8, 8])];
+    assert_eq!(explained(&exam, &answers), [["one"], ["other"]]);
+}
+
+#[test]
+fn an_answer_that_both_change_is_not_open_if_it_is_that_of_one() {
+    let correct = [all(number(1), 8), numbers(&[2, 2]), numbers(&[3, 3])];
+    let one = [Some(all(number(7), 8)), Some(numbers(&[7, 7])), None];
+    let other = [Some(all(number(8), 8)), None, Some(numbers(&[8, 8]))];
     let exam = exam(&correct, &[("one", &one), ("other", &other)]);
-    let answers = [numbers(&[9, 9, 9]), numbers(&[7]), numbers(&[8])];
-    assert_eq!(explained(&exam, &answers), [NOTHING, NOTHING, NOTHING]);
+    let half = [all(number(7), 4), all(number(8), 4)].concat();
+    let answers = [half, numbers(&[7, 7]), numbers(&[8, 8])];
+    assert_eq!(
+        explained(&exam, &answers),
+        [vec!["one", "other"], vec!["one"], vec!["other"]]
+    );
+}
+
+#[test]
+fn a_hit_of_one_mistake_can_hide_the_miss_of_another() {
+    let correct = [numbers(&[1]), numbers(&[2]), numbers(&[3, 3, 3])];
+    let one = [Some(numbers(&[7])), Some(numbers(&[7])), None];
+    let missed = Some(vec![ObservedAnswer::NoHit]);
+    let other = [missed, None, Some(numbers(&[8, 8, 8]))];
+    let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+    let answers = [numbers(&[7]), numbers(&[7]), numbers(&[8, 8, 8])];
+    assert_eq!(
+        explained(&exam, &answers),
+        [vec!["one", "other"], vec!["one"], vec!["other"]]
+    );
 }
 
 #[test]

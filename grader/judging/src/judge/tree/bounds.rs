@@ -77,3 +77,18 @@ impl Bounds {
             .fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_of_a_box_come_from_its_three_sides() {
+        let bounds = Bounds {
+            min: DVec3::new(-1.0, 2.0, 5.0),
+            max: DVec3::new(1.0, 5.0, 11.0),
+        };
+        assert_eq!(bounds.area(), 2.0 * (2.0 * 3.0 + 3.0 * 6.0 + 6.0 * 2.0));
+        assert_eq!(bounds.diagonal(), 7.0);
+    }
+}

@@ -91,4 +91,23 @@ mod tests {
         assert_eq!(bounds.area(), 2.0 * (2.0 * 3.0 + 3.0 * 6.0 + 6.0 * 2.0));
         assert_eq!(bounds.diagonal(), 7.0);
     }
+
+    #[test]
+    fn an_excess_of_the_last_bits_is_rounding() {
+        let outer = Bounds {
+            min: DVec3::splat(-1000.0),
+            max: DVec3::splat(1000.0),
+        };
+        let bit = 1000.0 * f64::from(f32::EPSILON);
+        for side in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let excess = |by: f64| {
+                let (mut above, mut below) = (outer, outer);
+                above.max += by * side;
+                below.min -= by * side;
+                [above.excess_over(outer), below.excess_over(outer)]
+            };
+            assert_eq!(excess(bit), [0.0, 0.0]);
+            assert!(excess(1.0).iter().all(|excess| (excess - 1.0).abs() < 1e-3));
+        }
+    }
 }

@@ -84,7 +84,7 @@ mod tests {
             ..ray
         };
         assert_eq!(of_box(Vec3::ZERO, Vec3::ONE, &far), 20.0);
-        let spheres = vec![sphere.clone()];
+        let spheres = vec![sphere];
         for (eye, expected) in [(ray, 4.5), (far, 20.0)] {
             let rays = Rays::List(vec![eye]);
             assert_eq!(of_picture(&spheres, &rays), expected);

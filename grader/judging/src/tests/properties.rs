@@ -331,7 +331,9 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
             Answer::Rays(rays) => drop(rays.pop()),
             Answer::Hits(hits) => drop(hits.pop()),
             Answer::Picture(ElementOutcome::Value(pixels)) => drop(pixels.pop()),
-            other => panic!("this is no picture: {other:?}"),
+            Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {
+                panic!("this is no picture: {own:?}")
+            }
         }
         assert_eq!(judge(question, &short).credit, Credit::NONE);
         let measured = measure(question, &short);

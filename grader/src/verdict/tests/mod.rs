@@ -5,9 +5,7 @@ use protocol::{Panic, Question};
 
 use super::*;
 use crate::handed_out::RAYS;
-use crate::probe::{Crash, TimeLimit};
 use crate::small_exam::{boxes, exam, item, pending};
-use crate::submission::TaskFileError;
 
 fn right() -> Judgement {
     Judgement {

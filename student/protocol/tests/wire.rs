@@ -216,3 +216,18 @@ fn rejects_an_oversized_frame_before_reading_its_body() {
         matches!(result, Err(WireError::TooLong { length, limit: 1000 }) if length == u32::MAX as usize)
     );
 }
+
+#[test]
+fn questions_are_sent_one_after_the_other_in_frames_of_any_allowed_length() {
+    let mut sent = Vec::new();
+    wire::write(&mut sent, 1, &Question::Done).unwrap();
+    let sent = wire::append_question(sent, 2, &Question::Done).unwrap();
+    let length = sent.len() / 2 - 12;
+    let mut from = sent.as_slice();
+    for nonce in [1, 2] {
+        let frame = wire::read(&mut from, length).unwrap();
+        assert_eq!(frame.nonce, nonce);
+        assert_eq!(frame.decode::<Question>().unwrap(), Question::Done);
+    }
+    assert!(from.is_empty());
+}

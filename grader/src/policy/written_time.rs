@@ -195,7 +195,7 @@ mod tests {
             "25/11/26 10:00",
             "25/11/999 10:00",
             // The name of a time zone ends.
-            "2026-11-25 10:00 [Europe/Berlin",
+            "2026-11-25 10:00[Europe/Berlin",
         ] {
             assert_eq!(read(text), Err(TimeError::UnknownForm), "{text}");
         }

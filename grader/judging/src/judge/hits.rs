@@ -157,9 +157,10 @@ mod tests {
     #[test]
     fn an_error_is_judged_by_the_scale_of_its_ray() {
         for from in [8.0, 800.0] {
+            // The ray is as short in both, but the coordinates are not as large.
             let hit = ExpectedHit {
-                distance: from - 1.0,
-                position: Vec3::X,
+                distance: 1.0,
+                position: Vec3::X * (from - 1.0),
                 normal: Vec3::X,
                 uv: Vec2::ZERO,
                 material: 0,
@@ -168,7 +169,7 @@ mod tests {
             let question = ExamQuestion::new(
                 Question::Shapes {
                     shapes: vec![Shape::Sphere {
-                        center: Vec3::ZERO,
+                        center: Vec3::X * (from - 2.0),
                         radius: 1.0,
                         material: 0,
                     }],

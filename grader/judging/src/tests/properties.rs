@@ -1,6 +1,7 @@
 //! Properties of judging, for all questions of the practice exam: the key's own answer passes, and a
 //! worse answer never earns more.
 
+use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use crate::exam::{ExamQuestion, ExpectedHit, Key, RayCheck, Surface};
@@ -282,6 +283,25 @@ fn each_end_of_an_interval_and_each_component_of_a_direction_counts_alone() {
     assert!(spoiled.iter().all(|count| *count > 0), "{spoiled:?}");
 }
 
+#[test]
+fn a_range_counts_at_both_ends() {
+    let mut asked = 0;
+    for (question, own) in QUESTIONS.iter() {
+        let Key::Rays { checks, .. } = &question.key else {
+            continue;
+        };
+        if checks.contains(&RayCheck::Range) {
+            for range in [Interval::new(1.0, f32::INFINITY), Interval::new(0.0, 1e6)] {
+                let mut answer = own.clone();
+                with_ray(&mut answer, 0, |ray| ray.range = range);
+                assert_eq!(judge(question, &answer).credit, Credit::NONE);
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 0);
+}
+
 fn with_span(answer: &mut Answer, index: usize, change: impl Fn(&mut Interval)) {
     if let Answer::Spans(spans) = answer
         && let ElementOutcome::Value(Some(span)) = &mut spans[index]
@@ -301,12 +321,11 @@ fn with_ray(answer: &mut Answer, index: usize, change: impl Fn(&mut Ray)) {
 /// Pictures are few of the questions, so random ones would hardly meet them.
 #[test]
 fn pictures_are_measured_and_masked_as_they_are_judged() {
-    let mut pictures = 0;
+    let mut kinds = BTreeSet::new();
     for (question, own) in QUESTIONS.iter() {
         if mismatches(question, own).is_none() {
             continue;
         }
-        pictures += 1;
         let all = count(own);
         for wrong in [0, 1, 3, all / 30, all] {
             let mut answer = own.clone();
@@ -327,14 +346,14 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
             assert_eq!(mask.iter().flatten().count(), wrong);
         }
         let mut short = own.clone();
-        match &mut short {
-            Answer::Rays(rays) => drop(rays.pop()),
-            Answer::Hits(hits) => drop(hits.pop()),
-            Answer::Picture(ElementOutcome::Value(pixels)) => drop(pixels.pop()),
+        kinds.insert(match &mut short {
+            Answer::Rays(rays) => rays.pop().map(|_| "rays"),
+            Answer::Hits(hits) => hits.pop().map(|_| "first hits"),
+            Answer::Picture(ElementOutcome::Value(pixels)) => pixels.pop().map(|_| "radiance"),
             Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {
                 panic!("this is no picture: {own:?}")
             }
-        }
+        });
         assert_eq!(judge(question, &short).credit, Credit::NONE);
         let measured = measure(question, &short);
         assert!(
@@ -344,7 +363,8 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
         );
         assert_eq!(mismatches(question, &short), None);
     }
-    assert!(pictures >= 5, "{pictures}");
+    let all = ["first hits", "radiance", "rays"].map(Some);
+    assert_eq!(Vec::from_iter(kinds), all);
 }
 
 proptest! {

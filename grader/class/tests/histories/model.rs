@@ -98,7 +98,7 @@ impl Model {
     /// Compares a folder in which a command has ended well with the model. `class` has the scores
     /// that its entries must have; `None` if there is nothing to grade.
     pub fn check_success(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Result<(), String> {
-        if !self.observed.is_finished() {
+        if !self.observed.is_finished() || self.observed.is_unfinished_regrade() {
             return Err("the run ended well, and is not marked as finished".to_owned());
         }
         for (id, expected) in class {

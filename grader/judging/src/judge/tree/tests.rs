@@ -142,6 +142,13 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
         panic!("the answer is a tree");
     };
     assert_eq!(got, "leaves that hold more than 4096 primitives in all");
+    // A single leaf that lists exactly as many is counted to its end.
+    let full = Tree {
+        nodes: vec![node(0, 3, 4096, 0, 0)],
+        root: 0,
+        order: vec![0; 4096],
+    };
+    assert!(reached_nodes(&row(4), &full).is_ok());
 }
 
 #[test]

@@ -26,6 +26,12 @@ fn found(files: &[(&str, &[u8])]) -> Vec<String> {
     candidates.map(|candidate| candidate.folder).collect()
 }
 
+/// Returns the texts of the task files that were found.
+fn texts(submission: &Submission) -> Vec<&str> {
+    let files = submission.files.iter();
+    files.filter_map(|(_, text)| text.as_deref().ok()).collect()
+}
+
 fn tar(files: &[(&str, &[u8])]) -> Vec<u8> {
     let mut builder = tar::Builder::new(Vec::new());
     for (path, bytes) in files {
@@ -134,11 +140,7 @@ fn archives_in_a_platforms_folder_are_read_like_folders() {
         ("old.zip/readme", b"a folder"),
     ]);
     let submission = Submission::collect_with_archives(folder.path(), &RAYS).unwrap();
-    let texts = submission
-        .files
-        .iter()
-        .filter_map(|(_, text)| text.as_deref().ok());
-    assert_eq!(texts.collect::<Vec<_>>(), ["new"]);
+    assert_eq!(texts(&submission), ["new"]);
     // Without them, there is nothing to grade.
     let none = Submission::collect(folder.path(), &RAYS);
     assert!(matches!(none, Err(SubmissionError::NoTaskFiles { .. })));
@@ -159,11 +161,7 @@ fn archives_behind_links_are_not_read() {
     let link = folder.path().join("work.tar");
     system::symlink(&elsewhere.path().join("work.tar"), &link).unwrap();
     let submission = Submission::collect_with_archives(folder.path(), &RAYS).unwrap();
-    let texts = submission
-        .files
-        .iter()
-        .filter_map(|(_, text)| text.as_deref().ok());
-    assert_eq!(texts.collect::<Vec<_>>(), ["new"]);
+    assert_eq!(texts(&submission), ["new"]);
 }
 
 #[test]

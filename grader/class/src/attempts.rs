@@ -158,6 +158,27 @@ mod tests {
         assert_eq!(groups, expected);
     }
 
+    #[test]
+    fn identifiers_of_records_that_are_joined_later_lead_to_the_same_person() {
+        let enrolled = Person {
+            sid: "u1".to_owned(),
+            ..person("A. Lee", "", "ann")
+        };
+        let by_sid = Person {
+            login: String::new(),
+            ..enrolled.clone()
+        };
+        let rows = [
+            vec![person("Ann", "a@x.edu", "")],
+            vec![enrolled],
+            // Joins the two above, and says nothing of the sid.
+            vec![person("Ann", "a@x.edu", "ann")],
+            vec![by_sid],
+        ];
+        let groups = attempts_by_person(rows.iter().map(Vec::as_slice));
+        assert_eq!(groups, [[(0, 0), (1, 0), (2, 0), (3, 0)]]);
+    }
+
     /// Returns a row for each submission: its id, its outcome and its time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {

@@ -12,7 +12,7 @@
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
 //! | results | [`drift`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`], [`paths`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`], [`paths`] |
 
 pub mod attempts;
 pub mod cli;
@@ -31,6 +31,7 @@ pub mod input_error;
 pub mod late;
 pub mod layout;
 pub mod listing;
+pub mod lists;
 pub mod manual;
 pub mod merge;
 pub mod model;

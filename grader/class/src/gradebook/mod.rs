@@ -91,26 +91,20 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     } = spec;
     let (matches, mut warnings) = match_rows(&table, &keys, is_person, name, class);
     let mut changes = Vec::new();
-    let mut filled: BTreeMap<usize, (&ClassRow, &PersonGrade)> = BTreeMap::new();
+    let mut found: BTreeMap<usize, Vec<(&ClassRow, &PersonGrade)>> = BTreeMap::new();
     for (class_row, grade, row_index) in matches {
-        let who = name(&table.rows[row_index]);
-        if let Some((other, _)) = filled.insert(row_index, (class_row, grade)) {
-            let (one, two) = (&other.result.id, &class_row.result.id);
-            warnings.push(format!(
-                "{who} has two submissions, {one} and {two}: keep one"
-            ));
-        }
+        found.entry(row_index).or_default().push((class_row, grade));
     }
-    // If a person has two submissions, neither is filled in.
-    let has_two_submissions = |warnings: &[String], who: &str| {
-        let prefix = format!("{who} has two submissions");
-        warnings.iter().any(|warning| warning.starts_with(&prefix))
-    };
-    for (row_index, (class_row, grade)) in filled {
+    for (row_index, found) in found {
         let who = name(&table.rows[row_index]);
-        if has_two_submissions(&warnings, &who) {
+        let [(class_row, grade)] = found[..] else {
+            let ids = found.iter().map(|(row, _)| row.result.id.as_str());
+            let ids = ids.collect::<Vec<_>>().join(", ");
+            warnings.push(format!(
+                "{who} has several submissions ({ids}): keep one; left unchanged"
+            ));
             continue;
-        }
+        };
         let locked = is_locked(&table.rows[row_index]);
         let cell = &mut table.rows[row_index][target];
         let Some(counted) = grade.counted else {
@@ -198,7 +192,7 @@ fn match_rows<'c>(
                     warnings.push(format!(
                         "{} could be any of {}: fill in by hand",
                         person.display_name(),
-                        names.join(", ")
+                        names.join("; ")
                     ));
                 }
                 None => warnings.push(format!("{} is not in this list", person.display_name())),

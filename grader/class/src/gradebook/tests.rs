@@ -85,10 +85,24 @@ fn ambiguous_people_and_duplicate_submissions_are_not_filled_in() {
     let filled = fill_canvas(file.path(), Some("Path"), &class(&people)).unwrap();
     assert_eq!(cells(&filled), ["100", "", "", ""]);
     let wanted = [
-        "Ann Lee could be any of Lee, Ann, Lee, Ann: fill in by hand",
+        "Ann Lee could be any of Lee, Ann; Lee, Ann: fill in by hand",
         "Nobody is not in this list",
-        "Doe, Jane has two submissions, b and c: keep one",
+        "Doe, Jane has several submissions (b, c): keep one; left unchanged",
     ];
+    assert_eq!(filled.warnings, wanted);
+}
+
+#[test]
+fn a_namesake_with_several_submissions_takes_no_points_away() {
+    let file = list(CANVAS);
+    let people = [
+        ("a", person("Ann Lee", "", "u2", "")),
+        ("b", person("Ann Lee", "", "u3", "")),
+        ("c", person("Ann Lee", "", "u2", "")),
+    ];
+    let filled = fill_canvas(file.path(), Some("Path"), &class(&people)).unwrap();
+    assert_eq!(cells(&filled), ["100", "", "", "80"]);
+    let wanted = ["Lee, Ann has several submissions (a, c): keep one; left unchanged"];
     assert_eq!(filled.warnings, wanted);
 }
 

@@ -11,12 +11,11 @@ use crate::drift::{Changes, RemovedEntry, find_removed, find_resubmitted};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::grade::{Completion, read_manual_points};
-use crate::groups;
 use crate::late::warn_about_unmatched_extensions;
+use crate::lists;
 use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
 use crate::output::write_results;
-use crate::roster;
 use crate::run::Run;
 use crate::shard::Shard;
 use crate::store::Store;
@@ -72,21 +71,15 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let rows: Vec<EntryResult> = out.results()?;
     let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
     let mut rows: Vec<EntryResult> = rows.collect();
-    let mut people: Vec<&mut Person> = rows
-        .iter_mut()
-        .flat_map(|row| &mut row.info.people)
-        .collect();
+    let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if arguments.lists.roster.is_some() {
         // This roster counts, and not the one that the shard was graded with.
-        for person in &mut people {
+        for person in infos.iter_mut().flat_map(|info| &mut info.people) {
             person.group.clear();
             person.extension.clear();
         }
     }
-    let mut missing = roster::join(&arguments.lists, &mut people)?;
-    let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
-    roster::set_submission_times(&arguments.lists, &mut infos)?;
-    groups::add_group_members(&arguments.lists, &mut infos, &mut missing)?;
+    let missing = lists::complete_entries(&arguments.lists, &mut infos)?;
     let manual = read_manual_points(&arguments.lists, &GradeOptions::default())?;
     let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
     manual.check_students(&people)?;

@@ -93,6 +93,16 @@ mod tests {
     }
 
     #[test]
+    fn the_length_of_a_direction_does_not_matter() {
+        let wanted = Vec3::new(2.0, -1.0, 2.0) / 3.0;
+        for length in [1e-40_f32, 1e-30, 1.0, 1e30, 1e38] {
+            let error = direction_error(wanted * length, wanted, DIRECTION);
+            assert!(error <= 1.0, "{length}: {error}");
+        }
+        assert!(direction_error(-wanted * 1e38, wanted, DIRECTION) > 1.0);
+    }
+
+    #[test]
     fn a_zero_limit_allows_only_a_zero_error() {
         assert_eq!(in_units_of(0.0, 0.0), 0.0);
         assert_eq!(in_units_of(0.0, 1e-30), f64::INFINITY);

@@ -1,5 +1,6 @@
 //! Tests of the whole package, with the practice exam.
 
+mod answers;
 mod exams;
 mod properties;
 

@@ -1,0 +1,151 @@
+//! The answers that follow from the keys of the practice exam, and errors in their elements.
+
+use std::sync::LazyLock;
+
+use glam::{Vec2, Vec3};
+use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
+
+use super::EXAM;
+use crate::exam::{ExamQuestion, ExpectedHit, Key, Surface};
+
+/// The questions, each with the answer that follows from its key. Trees are left out: many different
+/// ones are right.
+pub static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| {
+    let questions = EXAM.items.iter().flat_map(|item| &item.questions);
+    questions
+        .filter_map(|question| Some((question, keys_answer(question)?)))
+        .collect()
+});
+
+const UNIT: Trace = Trace {
+    distance: 1.0,
+    position: Vec3::ONE,
+    normal: Vec3::X,
+    uv: Vec2::ZERO,
+    origin: Vec3::ZERO,
+    material: 0,
+};
+
+fn values<T>(all: impl IntoIterator<Item = T>) -> Vec<ElementOutcome<T>> {
+    all.into_iter().map(ElementOutcome::Value).collect()
+}
+
+/// Returns the answer that the key describes.
+pub fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
+    Some(match &question.key {
+        Key::Rays { directions, .. } => {
+            let ray = |&dir: &Vec3| Ray {
+                origin: Vec3::ZERO,
+                dir,
+                range: Interval::AHEAD,
+            };
+            Answer::Rays(values(directions.iter().map(ray)))
+        }
+        Key::Hits { hits, .. } => {
+            let rays = question.question.rays();
+            let rays = rays
+                .expect("the key is that of a question with rays")
+                .to_vec();
+            let trace = |(hit, ray): (&ExpectedHit, &Ray)| Trace {
+                distance: hit.distance,
+                position: hit.position,
+                normal: hit.normal,
+                uv: hit.uv,
+                origin: ray.origin,
+                material: hit.material,
+            };
+            let hits = hits.iter().zip(&rays);
+            let traces = hits.map(|(hit, ray)| Some(trace((hit.as_ref()?, ray))));
+            Answer::Hits(values(traces))
+        }
+        Key::FirstHits { hits, .. } => {
+            let trace = |surface: &Surface| Trace {
+                distance: surface.depth,
+                normal: surface.normal,
+                uv: surface.uv,
+                ..UNIT
+            };
+            Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
+        }
+        Key::Spans { spans } => Answer::Spans(values(spans.iter().copied())),
+        Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
+        Key::Tree { .. } => return None,
+    })
+}
+
+/// A way in which an element is wrong.
+#[derive(Clone, Copy, Debug)]
+pub enum Error {
+    /// Numbers are too large by this fraction.
+    Relative(f32),
+    NotANumber,
+    Panicked,
+}
+
+impl Error {
+    fn number(self, number: f32) -> f32 {
+        match self {
+            Error::Relative(error) => number * (1.0 + error),
+            Error::NotANumber | Error::Panicked => f32::NAN,
+        }
+    }
+
+    fn vector(self, vector: Vec3) -> Vec3 {
+        vector.map(|number| self.number(number))
+    }
+
+    fn spoil<T>(self, outcome: &mut ElementOutcome<T>, spoil: impl FnOnce(&mut T)) {
+        match outcome {
+            _ if matches!(self, Error::Panicked) => {
+                *outcome = ElementOutcome::Panicked(Panic {
+                    message: "index out of bounds".to_owned(),
+                    location: "sphere.rs:1".to_owned(),
+                });
+            }
+            ElementOutcome::Value(value) => spoil(value),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {}
+        }
+    }
+
+    /// Makes one element of a right answer wrong.
+    pub fn apply(self, answer: &mut Answer, index: usize) {
+        match answer {
+            Answer::Rays(rays) => self.spoil(&mut rays[index], |ray| {
+                ray.origin = self.vector(Vec3::ONE) - 1.0;
+                ray.dir.x = self.number(ray.dir.x + 1.0) - 1.0;
+                ray.range.min = self.number(1.0) - 1.0;
+            }),
+            Answer::Hits(hits) => self.spoil(&mut hits[index], |hit| match hit {
+                Some(trace) => {
+                    trace.distance = self.number(trace.distance);
+                    trace.position = self.vector(trace.position);
+                    trace.normal.x = self.number(trace.normal.x + 1.0) - 1.0;
+                    trace.uv.y = self.number(trace.uv.y + 1.0) - 1.0;
+                    trace.origin = self.vector(trace.origin);
+                    trace.material += 1;
+                }
+                None => *hit = Some(UNIT),
+            }),
+            Answer::Spans(spans) => self.spoil(&mut spans[index], |span| match span {
+                Some(times) => times.max = self.number(times.max),
+                None => *span = Some(Interval::new(0.0, 1.0)),
+            }),
+            Answer::Picture(outcome) => self.spoil(outcome, |pixels| {
+                pixels[index] = self.vector(pixels[index] + 1.0) - 1.0;
+            }),
+            Answer::Tree(_) | Answer::Done => unreachable!("these have no elements"),
+        }
+    }
+}
+
+pub fn count(answer: &Answer) -> usize {
+    match answer {
+        Answer::Rays(rays) => rays.len(),
+        Answer::Hits(hits) => hits.len(),
+        Answer::Spans(spans) => spans.len(),
+        Answer::Picture(ElementOutcome::Value(pixels)) => pixels.len(),
+        Answer::Picture(_) | Answer::Tree(_) | Answer::Done => {
+            unreachable!("this is not the key's answer to anything")
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Archives that are not read: damaged, malicious or too large ones.
+
+use super::*;
+
+#[test]
+fn rejects_two_spellings_of_one_path() {
+    let spellings = [
+        "src/bvh.rs",
+        "./src/bvh.rs",
+        "src//bvh.rs",
+        "src\\bvh.rs",
+        "src/BVH.rs",
+        "Src/bvh.rs",
+        "src./bvh.rs",
+        "src/bvh.rs ",
+        "src/bvh.rs..",
+    ];
+    for spelling in spellings {
+        // The crate that writes zip files refuses to write the same path twice.
+        let bytes = match spelling {
+            "src/bvh.rs" => tar(&[("src/bvh.rs", b"1"), (spelling, b"2")]),
+            _ => zip(&[("src/bvh.rs", b"1"), (spelling, b"2")]),
+        };
+        let why = collect_error(&bytes);
+        assert!(
+            matches!(why, ArchiveError::DuplicatePath(..)),
+            "{spelling}: {why}"
+        );
+    }
+    let (composed, decomposed) = ("Zo\u{e9}/bvh.rs", "Zoe\u{301}/bvh.rs");
+    let why = collect_error(&zip(&[(composed, b"1"), (decomposed, b"2")]));
+    assert!(matches!(why, ArchiveError::DuplicatePath(..)), "{why}");
+}
+
+#[test]
+fn rejects_paths_outside_the_archive_and_escapes_them() {
+    for path in [
+        "../bvh.rs",
+        "/bvh.rs",
+        "a/../../bvh.rs",
+        r"..\bvh.rs",
+        "C:bvh.rs",
+    ] {
+        let normalized = path.replace('\\', "/");
+        assert_eq!(
+            collect_error(&zip(&[(path, b"")])),
+            ArchiveError::PathOutside(normalized.clone())
+        );
+        let tarred = tar_with(path, EntryType::Regular, b"");
+        assert_eq!(
+            collect_error(&tarred),
+            ArchiveError::PathOutside(normalized)
+        );
+    }
+    let odd = collect_error(&zip(&[("../\u{1b}[2J\n\u{202e}x", b"")]));
+    assert_eq!(
+        odd,
+        ArchiveError::PathOutside(r"../\u{1b}[2J\n\u{202e}x".to_owned())
+    );
+}
+
+#[test]
+fn rejects_links_and_devices_except_under_target() {
+    let kinds = [
+        EntryType::Symlink,
+        EntryType::Link,
+        EntryType::Char,
+        EntryType::Block,
+        EntryType::Fifo,
+    ];
+    for kind in kinds {
+        let why = ArchiveError::NotRegular("bvh.rs".to_owned());
+        assert_eq!(collect_error(&tar_with("bvh.rs", kind, b"")), why);
+    }
+    let built = write_archive(
+        "a.tar",
+        &tar_with("hw/target/debug/hw", EntryType::Link, b""),
+    );
+    assert_eq!(
+        Archive::open(&built.path).unwrap().members(),
+        Ok(Vec::new())
+    );
+
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default();
+    writer
+        .add_symlink("bvh.rs", "/etc/passwd", options)
+        .unwrap();
+    let zip = writer.finish().unwrap().into_inner();
+    assert_eq!(
+        collect_error(&zip),
+        ArchiveError::NotRegular("bvh.rs".to_owned())
+    );
+}
+
+#[test]
+fn reports_what_is_wrong_with_an_unusable_archive() {
+    assert_eq!(collect_error(b""), ArchiveError::Empty);
+    assert_eq!(collect_error(&zip(&[])), ArchiveError::Empty);
+    assert_eq!(collect_error(&[0; 1024]), ArchiveError::Empty);
+    assert_eq!(
+        collect_error(b"Rar!\x1a\x07\x01\x00"),
+        ArchiveError::UnsupportedKind(".rar")
+    );
+    assert_eq!(
+        collect_error(b"7z\xbc\xaf\x27\x1c\x00\x04"),
+        ArchiveError::UnsupportedKind(".7z")
+    );
+    assert_eq!(collect_error(b"%PDF-1.7"), ArchiveError::NotAnArchive);
+    assert_eq!(
+        collect_error(&gzip(b"pub struct Sphere")),
+        ArchiveError::NotAnArchive
+    );
+    assert!(matches!(
+        collect("a.zip", &zip(&[("a/b/c/d.rs", b"")])),
+        Err(SubmissionError::NoTaskFiles { .. })
+    ));
+    assert!(matches!(
+        collect("a.zip", &zip(&[("a/bvh.rs", b""), ("b/bvh.rs", b"x")])),
+        Err(SubmissionError::Ambiguous { .. })
+    ));
+}
+
+#[test]
+fn truncated_archives_are_damaged_or_lack_files() {
+    for whole in [zip(FILES), tar(FILES), gzip(&tar(FILES))] {
+        for length in (0..whole.len()).step_by(7) {
+            match collect("a", &whole[..length]) {
+                Ok(submission) => assert_eq!(submission.files.len(), RAYS.files.len()),
+                Err(SubmissionError::Archive { .. } | SubmissionError::NoTaskFiles { .. }) => {}
+                Err(other) => panic!("{length}: {other}"),
+            }
+        }
+    }
+    assert!(matches!(
+        collect_error(&zip(FILES)[..200]),
+        ArchiveError::Damaged(_)
+    ));
+}
+
+#[test]
+fn limits_how_much_an_archive_bomb_inflates() {
+    let zeros = vec![0; 64 << 20];
+    let files: Files = &[("bvh.rs", &zeros), ("sphere.rs", b"fine")];
+    for bomb in [zip(files), gzip(&tar(files))] {
+        let submission = collect("bomb", &bomb).unwrap();
+        assert_eq!(
+            *text(&submission, "bvh.rs"),
+            Err(TaskFileError::TooLong("bvh.rs"))
+        );
+        assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
+    }
+    // Members of a tar are inflated even if they are not requested.
+    let many: Vec<(&str, &[u8])> = vec![("film.mp4", zeros.as_slice()); 5];
+    assert_eq!(
+        collect_error(&gzip(&tar(&many))),
+        ArchiveError::TooLarge(256 << 20)
+    );
+}
+
+#[test]
+fn rejects_archives_with_too_many_files() {
+    let names: Vec<String> = (0..=MAX_MEMBERS).map(|n| format!("{n}")).collect();
+    let files: Vec<(&str, &[u8])> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
+    assert_eq!(
+        collect_error(&gzip(&tar(&files))),
+        ArchiveError::TooManyFiles
+    );
+    assert_eq!(collect_error(&zip(&files)), ArchiveError::TooManyFiles);
+}
+
+#[test]
+fn reports_the_name_of_an_encrypted_file() {
+    // Sets the encryption bit in both headers of the only member.
+    let mut bytes = zip(&[("bvh.rs", b"tree")]);
+    let directory = bytes
+        .windows(4)
+        .position(|four| four == b"PK\x01\x02")
+        .unwrap();
+    bytes[6] |= 1;
+    bytes[directory + 8] |= 1;
+    assert_eq!(
+        collect_error(&bytes),
+        ArchiveError::Encrypted("bvh.rs".to_owned())
+    );
+}
+
+#[test]
+fn names_the_kind_of_each_archive_that_it_does_not_read() {
+    let kinds: [(&[u8], &str); 5] = [
+        (b"Rar!\x1a\x07", ".rar"),
+        (b"7z\xbc\xaf\x27\x1c", ".7z"),
+        (b"\xfd7zXZ\0", ".xz"),
+        (b"BZh91AY", ".bz2"),
+        (b"\x28\xb5\x2f\xfd", ".zst"),
+    ];
+    for (head, kind) in kinds {
+        assert_eq!(collect_error(head), ArchiveError::UnsupportedKind(kind));
+    }
+    assert_eq!(collect_error(&[b'x'; 1024]), ArchiveError::NotAnArchive);
+}
+

@@ -1,5 +1,7 @@
 //! Tests with regular archives; helpers for all tests of archives.
 
+mod rejected;
+
 use std::io::{Cursor, Write};
 use std::path::PathBuf;
 

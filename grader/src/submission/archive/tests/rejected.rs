@@ -199,4 +199,3 @@ fn names_the_kind_of_each_archive_that_it_does_not_read() {
     }
     assert_eq!(collect_error(&[b'x'; 1024]), ArchiveError::NotAnArchive);
 }
-

@@ -39,24 +39,11 @@ fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
                 .map(|&dir| observe_ray(checks, &ray(dir)))
                 .collect()
         }
-        Key::Hits { checks, hits } => {
-            let trace = |hit: &ExpectedHit, ray: &Ray| Trace {
-                distance: hit.distance,
-                position: hit.position,
-                normal: hit.normal,
-                uv: hit.uv,
-                origin: ray.origin,
-                material: hit.material,
-            };
-            let scaled = hits
-                .iter()
-                .zip(question.question.rays().into_iter().flat_map(Rays::to_vec));
+        Key::Hits { checks, .. } => {
+            let traces = expected_traces(question);
+            let scaled = traces.iter().zip(scales(question));
             scaled
-                .zip(scales(question))
-                .map(|((hit, ray), scale)| {
-                    let trace = hit.as_ref().map(|hit| trace(hit, &ray));
-                    observe_hit(checks, trace.as_ref(), scale)
-                })
+                .map(|(trace, scale)| observe_checked(checks, trace.as_ref(), scale))
                 .collect()
         }
         Key::Spans { spans } => {
@@ -76,10 +63,11 @@ fn observe_question(question: &ExamQuestion, answer: &Answer) -> Vec<ObservedAns
             observe_each(rays, |_, ray| observe_ray(checks, ray))
         }
         (Key::Hits { checks, .. }, Answer::Hits(hits)) => {
-            let scales = scales(question);
-            let scale = |element: usize| scales.get(element).copied().unwrap_or(1.0);
+            let (scales, traces) = (scales(question), expected_traces(question));
             observe_each(hits, |element, hit| {
-                observe_hit(checks, hit.as_ref(), scale(element))
+                let scale = scales.get(element).copied().unwrap_or(1.0);
+                let expected = traces.get(element).and_then(Option::as_ref);
+                observe_hit(checks, hit.as_ref(), expected, scale)
             })
         }
         (Key::Spans { .. }, Answer::Spans(spans)) => {
@@ -171,7 +159,47 @@ fn observe_ray(checks: &[RayCheck], ray: &Ray) -> ObservedAnswer {
     ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
 }
 
-fn observe_hit(checks: &[HitCheck], trace: Option<&Trace>, scale: f32) -> ObservedAnswer {
+/// Returns the correct hit of each ray.
+fn expected_traces(question: &ExamQuestion) -> Vec<Option<Trace>> {
+    let Key::Hits { hits, .. } = &question.key else {
+        return Vec::new();
+    };
+    let rays = question.question.rays().into_iter().flat_map(Rays::to_vec);
+    let trace = |(hit, ray): (&Option<ExpectedHit>, Ray)| {
+        let hit = hit.as_ref()?;
+        Some(Trace {
+            distance: hit.distance,
+            position: hit.position,
+            normal: hit.normal,
+            uv: hit.uv,
+            origin: ray.origin,
+            material: hit.material,
+        })
+    };
+    hits.iter().zip(rays).map(trace).collect()
+}
+
+/// Observes a hit. From a wrong distance, correct code computes a wrong position, normal and uv in one
+/// way or another: a normal may still be of length one, or not. So only the distance is observed then.
+fn observe_hit(
+    checks: &[HitCheck],
+    trace: Option<&Trace>,
+    expected: Option<&Trace>,
+    scale: f32,
+) -> ObservedAnswer {
+    let matches = |checks: &[HitCheck]| {
+        let expected = observe_checked(checks, expected, scale);
+        observe_checked(checks, trace, scale).matches(&expected)
+    };
+    let distance = [HitCheck::Distance];
+    if matches(checks) || matches(&distance) {
+        observe_checked(checks, trace, scale)
+    } else {
+        observe_checked(&distance, trace, scale)
+    }
+}
+
+fn observe_checked(checks: &[HitCheck], trace: Option<&Trace>, scale: f32) -> ObservedAnswer {
     let Some(trace) = trace else {
         return ObservedAnswer::NoHit;
     };

@@ -116,7 +116,7 @@ fn trace(uv: Vec2, material: u32) -> Trace {
 #[test]
 fn each_material_is_far_from_the_others() {
     let of = |material| {
-        observe_hit(
+        observe_checked(
             &[HitCheck::Material],
             Some(&trace(Vec2::ZERO, material)),
             1.0,
@@ -128,7 +128,7 @@ fn each_material_is_far_from_the_others() {
 
 #[test]
 fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
-    let uv = observe_hit(
+    let uv = observe_checked(
         &[HitCheck::Uv],
         Some(&trace(Vec2::new(3.0 * UV, 0.5), 0)),
         1.0,
@@ -136,4 +136,38 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
     assert_eq!(uv, ObservedAnswer::Numbers(vec![3.0, 0.5 / UV]));
     assert_eq!(direction(Vec3::Z), [0.0, 0.0, 1.0 / DIRECTION]);
     assert_eq!(direction(4.0 * Vec3::Z), direction(Vec3::Z));
+}
+
+/// A normal that is computed from a wrong position has length one only if it is normalised, and both are
+/// usual. Which distance it belongs to is the same in both.
+#[test]
+fn what_follows_from_a_wrong_distance_is_not_observed() {
+    let checks = [HitCheck::Normal, HitCheck::UnitNormal];
+    let expected = trace(Vec2::ZERO, 0);
+    let of = |trace: &Trace, expected| observe_hit(&checks, Some(trace), expected, 1.0);
+    let farther = |normal| Trace {
+        distance: 1.5,
+        normal,
+        ..expected
+    };
+    let (scaled, unit) = (farther(Vec3::Y * 1.5), farther(Vec3::Y));
+    for expected in [Some(&expected), None] {
+        assert!(of(&scaled, expected).matches(&of(&unit, expected)));
+    }
+    let even_farther = Trace {
+        distance: 2.0,
+        ..unit
+    };
+    let wrong = [
+        of(&unit, Some(&expected)),
+        of(&even_farther, Some(&expected)),
+    ];
+    assert!(!wrong[0].matches(&wrong[1]));
+
+    // Right normals are right, whatever the distance is, and wrong ones at the right distance differ.
+    let right = of(&expected, Some(&expected));
+    assert!(of(&farther(expected.normal), Some(&expected)).matches(&right));
+    let at_right_distance = |normal| Trace { normal, ..expected };
+    let [one, other] = [Vec3::Y * 1.5, Vec3::Y].map(at_right_distance);
+    assert!(!of(&one, Some(&expected)).matches(&of(&other, Some(&expected))));
 }

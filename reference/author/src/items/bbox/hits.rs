@@ -3,7 +3,10 @@
 use glam::{DVec3, Vec3, dvec3};
 use protocol::{Interval, Ray};
 
-use super::{Query, bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around};
+use super::{
+    Query, almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box,
+    ray_from_around,
+};
 use crate::items::place::Place;
 use crate::items::similarity::dust;
 use crate::items::{Declaration, DeclaredItem, Group, item, ray};
@@ -131,15 +134,19 @@ pub(super) fn axis_parallel(seed: Seed) -> DeclaredItem {
         Declaration {
             id: "bbox.axis_parallel",
             points: 1,
-            title: "directions with components 0 and −0 work as well",
+            title: "directions with components 0, −0 and almost 0 work as well",
             look: "A ray that does not move along an axis is always or never between its planes. \
                    Dividing by zero gives infinities that say so: make sure that your comparisons \
-                   handle them.",
+                   handle them. A component that is only almost 0 still moves the ray: divide by \
+                   it as it is.",
             section: "boxes.md#zero-and-minus-zero",
             group: Some(Group::Boxes),
             needs: &[],
         },
-        vec![bbox_question(bounds, queries)],
+        vec![
+            bbox_question(bounds, queries),
+            almost_parallel::question(&mut rng),
+        ],
     )
 }
 

@@ -1,5 +1,6 @@
 //! Items of task 3, step 0: boxes.
 
+mod almost_parallel;
 mod hits;
 mod times;
 

@@ -1,0 +1,66 @@
+//! Rays that are almost parallel to a plane of a box, and take all the way through the box to cross it.
+//! They show a direction that is changed by a small constant, or taken for parallel.
+
+use glam::DVec3;
+use judging::exam::ExamQuestion;
+use protocol::{Interval, Ray};
+
+use super::{QUERIES_OF_EACH_KIND, bbox_question};
+use crate::oracle::bbox::Bounds;
+use crate::seed::Rng;
+
+/// Returns rays that hit a box, followed by as many that miss it.
+pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
+    // The planes are so close to the origin that usual formulas lose no digits, whatever they divide.
+    let mut corner = || {
+        let corner = DVec3::from_array(std::array::from_fn(|_| rng.uniform(0.2, 0.4)));
+        corner.as_vec3().as_dvec3()
+    };
+    let bounds = Bounds {
+        min: -corner(),
+        max: corner(),
+    };
+    let mut queries = Vec::new();
+    for is_hit in [true, false] {
+        for number in 0..QUERIES_OF_EACH_KIND {
+            queries.push((
+                ray_that_crosses_a_plane(rng, &bounds, number, is_hit),
+                Interval::AHEAD,
+            ));
+        }
+    }
+    bbox_question(bounds, queries)
+}
+
+/// Returns a ray that is almost parallel to a plane of the box, and crosses this plane on its way
+/// through the box, or else before or after it.
+fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hit: bool) -> Ray {
+    let (along, across) = (number % 3, (number + 1) % 3);
+    let third = 3 - along - across;
+    let enters = number % 2 == 0;
+    let size = bounds.max - bounds.min;
+    let mut dir = DVec3::ZERO;
+    dir[along] = rng.sign();
+    // Between 0.0006 and 0.003; each factor is as likely as the others.
+    dir[across] = rng.sign() * 0.0006 * 5.0_f64.powf(rng.uniform(0.0, 1.0));
+    dir[third] = rng.uniform(-0.02, 0.02);
+    let dir = dir.normalize();
+
+    // The point in which the ray crosses the plane.
+    let moves_up = dir[across] > 0.0;
+    let mut point = bounds.center() + 0.2 * rng.point(1.0) * size;
+    point[across] = if enters == moves_up {
+        bounds.min[across]
+    } else {
+        bounds.max[across]
+    };
+    if !is_hit {
+        // A ray that enters the slab there has already left the box, and one that leaves it is not yet in
+        // the box.
+        let beyond = (0.6 + rng.uniform(0.2, 0.6)) * size[along];
+        let forward = if enters { 1.0 } else { -1.0 };
+        point[along] = bounds.center()[along] + forward * dir[along].signum() * beyond;
+    }
+    let origin = point - rng.uniform(2.0, 4.0) * dir;
+    Ray::new(origin.as_vec3(), dir.as_vec3())
+}

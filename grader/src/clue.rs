@@ -3,7 +3,7 @@
 use judging::assignment::TaskInfo;
 use judging::signatures::PanicKind;
 
-use crate::probe::{Crash, Fault};
+use crate::probe::{Crash, Fault, TimeLimit};
 
 /// The clue for a question that is answered correctly when it is asked alone.
 pub const KEPT_STATE: &str = "The same question is answered correctly when it is asked alone, so your \
@@ -14,7 +14,11 @@ pub const KEPT_STATE: &str = "The same question is answered correctly when it is
 pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
     let TaskInfo { file, method, .. } = task;
     match fault {
-        Fault::TimedOut(_) => format!(
+        Fault::TimedOut(TimeLimit::Waiting) => format!(
+            "Find what `{method}` in {file} waits for: a sleep, a lock, a channel, or input. Nothing in \
+             this task needs to wait."
+        ),
+        Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Wall) => format!(
             "Find the loop or the recursion that `{method}` in {file} does not leave with this \
              question: what changes from one round to the next, and what ends it?"
         ),
@@ -39,8 +43,8 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
 pub fn of_panic(message: &str) -> Option<&'static str> {
     Some(match PanicKind::of(message)? {
         PanicKind::Index => {
-            "Read the index and the length in the message: is the index one too far, is the list empty, or \
-             is it an index into another list?"
+            "Compare the index with the length: is it one too far, is the list empty, or is it an index into \
+             another list? A vector has the axes 0, 1 and 2."
         }
         PanicKind::Arithmetic => {
             "`usize` and `u32` have no values below zero, and no whole number can be divided by zero. \

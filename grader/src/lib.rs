@@ -13,7 +13,7 @@
 //! | files of the report | [`cached_report`], [`report_files`] |
 //! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
 //! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers, in [`svg`] |
-//! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`stage_times`] |
+//! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`given_files`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
 //! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], above [`disk`]; [`system`], [`nearest_name`] |
@@ -36,6 +36,7 @@ pub mod error;
 pub mod exam_source;
 pub mod files;
 pub mod format;
+pub mod given_files;
 pub mod grade;
 pub mod hand_in;
 pub mod handed_out;

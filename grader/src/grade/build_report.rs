@@ -30,10 +30,25 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         let changed = text.as_ref().map_or(Vec::new(), |text| {
             build.handed_out.changed_methods(file, text)
         });
-        if !changed.is_empty() {
-            let (file, changed) = (file.name, changed.join(", "));
+        let names = |is_missing| {
+            let changed = changed.iter();
+            let names = changed.filter(|method| method.is_missing == is_missing);
+            names
+                .map(|method| method.name)
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let (missing, changed) = (names(true), names(false));
+        if !missing.is_empty() {
             notes.push(format!(
-                "{file}: given methods were changed, which by itself costs no points: {changed}"
+                "{}: given methods are missing, which other code may need; put them back: {missing}",
+                file.name
+            ));
+        }
+        if !changed.is_empty() {
+            notes.push(format!(
+                "{}: given methods were changed, which by itself costs no points: {changed}",
+                file.name
             ));
         }
     }

@@ -19,6 +19,7 @@ use crate::bundle_version::mixed_versions;
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::{OutputError, Outputs};
+use crate::given_files;
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::policy::{Lateness, Policy};
@@ -251,6 +252,10 @@ impl<'a> Grader<'a> {
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
         score.build.notes.extend(mixed_versions(&self.workspace));
+        score
+            .build
+            .notes
+            .extend(given_files::changed(self.workspace.root()));
         score.timings.build_ms = millis(built.took);
         score.timings.stages.build = built.took;
         score

@@ -136,18 +136,30 @@ impl HandedOut {
             .map(|task: &TaskInfo| task.method)
     }
 
-    /// Returns the names of given methods of a task file that differ from the starter in `text`.
-    /// They are mentioned in a note.
-    pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<&'static str> {
+    /// Returns the given methods of a task file that differ from the starter in `text`. They are
+    /// mentioned in a note.
+    pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
         let to_write: Vec<&str> = self.methods_to_write(file.name).collect();
         let given = methods(file.starter).into_iter();
         given
             .filter(|(name, _)| !to_write.contains(name))
             .filter(|(_, method)| !contains(&text, &tokens(method)))
-            .map(|(name, _)| name)
+            .map(|(name, _)| ChangedMethod {
+                name,
+                is_missing: !contains(&text, &tokens(&format!("fn {name}"))),
+            })
             .collect()
     }
+}
+
+/// A given method that a submission has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChangedMethod {
+    /// The method's name.
+    pub name: &'static str,
+    /// Whether there is no method of this name any more.
+    pub is_missing: bool,
 }
 
 impl fmt::Debug for HandedOut {
@@ -195,11 +207,18 @@ mod tests {
     #[test]
     fn reports_a_changed_given_method_but_not_a_stub() {
         let sphere = task_file("sphere.rs");
-        let changed = |text: &str| RAYS.changed_methods(sphere, text);
+        let changed = |text: &str| {
+            let changed = RAYS.changed_methods(sphere, text).into_iter();
+            changed
+                .map(|method| (method.name, method.is_missing))
+                .collect::<Vec<_>>()
+        };
         assert!(changed(sphere.starter).is_empty());
         assert!(changed(&sphere.starter.replace("    ", "  ")).is_empty());
         assert!(changed(&sphere.starter.replace("todo!", "panic!")).is_empty());
-        assert_eq!(changed(&sphere.starter.replace("/ PI", "/ 3.0")), ["uv"]);
+        let replaced = |was: &str, now: &str| changed(&sphere.starter.replace(was, now));
+        assert_eq!(replaced("/ PI", "/ 3.0"), [("uv", false)]);
+        assert_eq!(replaced("fn uv(", "fn uv_of("), [("uv", true)]);
     }
 
     #[test]

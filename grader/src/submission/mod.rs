@@ -233,7 +233,9 @@ fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec
             let theirs = String::from_utf8_lossy(bytes);
             // Compares by line: git and editors may change line endings.
             let same = theirs.lines().eq(given.text.lines());
-            (!same).then(|| format!("{name} differs from the given one, which is used"))
+            (!same).then(|| {
+                format!("{name} differs from the given file: the given one is used, not yours")
+            })
         }
         None => Some(format!(
             "{} is not one of the task files: ignored",

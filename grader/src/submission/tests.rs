@@ -142,7 +142,7 @@ fn only_given_files_that_were_changed_are_noted() {
     assert_eq!(texts(&submission), [("bvh.rs", "new")]);
     let notes = [
         "helper.rs is not one of the task files: ignored",
-        "world.rs differs from the given one, which is used",
+        "world.rs differs from the given file: the given one is used, not yours",
     ];
     assert_eq!(submission.notes, notes);
 }

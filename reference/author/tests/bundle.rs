@@ -14,6 +14,7 @@ use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
 use author::exams;
+use grader::given_files;
 use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
@@ -334,4 +335,18 @@ fn an_update_has_everything_but_the_students_files_and_the_same_version() {
             .collect::<Vec<_>>()
     );
     assert_eq!(update.version(), BUNDLE.version());
+}
+
+#[test]
+fn the_given_code_is_listed_as_it_is() {
+    let list = BUNDLE.text(given_files::LIST).unwrap();
+    for file in [
+        "student/protocol/src/interval.rs",
+        "student/framework/src/lib.rs",
+    ] {
+        assert!(list.contains(&format!("  {file}\n")), "{list}");
+    }
+    let files = BUNDLE.files.iter();
+    let same = given_files::list(files.map(|(path, bytes)| (path.as_str(), bytes.as_slice())));
+    assert_eq!(list, same);
 }

@@ -167,10 +167,34 @@ fn write_failing_items(
     } else {
         String::new()
     };
+    let hidden = failing
+        .iter()
+        .filter(|item| shown.iter().all(|other| other.id != item.id));
+    let how = format!("{}{how}", waiting(hidden.copied()));
     write_hidden_count(out, others, &how)?;
     match &task.printed {
         Some(printed) => write_printed(out, task, printed),
         None => Ok(()),
+    }
+}
+
+/// Returns how many of these items wait for an item of another task, for the end of a sentence.
+fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
+    let blockers: Vec<&str> = items
+        .filter_map(|item| {
+            let Verdict::Blocked { by } = &item.verdict else {
+                return None;
+            };
+            Some(by.as_str())
+        })
+        .collect();
+    let names: BTreeSet<&str> = blockers.iter().copied().collect();
+    match blockers.len() {
+        0 => String::new(),
+        count => {
+            let names = names.into_iter().collect::<Vec<_>>().join(" and ");
+            format!(", of which {count} wait for {names}")
+        }
     }
 }
 

@@ -18,6 +18,7 @@ mod version;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use grader::given_files;
 use grader::handed_out::HandedOut;
 
 use crate::bundle::folders::FoldersError;
@@ -112,6 +113,9 @@ impl Bundle {
         }
         manifests::add_trimmed(root, &mut bundle)?;
         version::add(root, handed_out, &mut bundle)?;
+        let files = bundle.files.iter();
+        let given = given_files::list(files.map(|(path, bytes)| (path.as_str(), bytes.as_slice())));
+        bundle.insert(given_files::LIST, given);
         let lock = lock::lock_file(root, &bundle)?;
         bundle.insert("Cargo.lock", lock);
         Ok(bundle)

@@ -120,7 +120,7 @@ fn reads_zip_tar_and_tar_gz_alike() {
         );
         let notes = [
             "helper.rs is not one of the task files: ignored",
-            "world.rs differs from the given one, which is used",
+            "world.rs differs from the given file: the given one is used, not yours",
         ];
         assert_eq!(submission.notes, notes);
     }

@@ -37,7 +37,7 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
 fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hit: bool) -> Ray {
     let (along, across) = (number % 3, (number + 1) % 3);
     let third = 3 - along - across;
-    let enters = number % 2 == 0;
+    let enters = number.is_multiple_of(2);
     let size = bounds.max - bounds.min;
     let mut dir = DVec3::ZERO;
     dir[along] = rng.sign();

@@ -77,7 +77,7 @@ pub(super) fn contains(seed: Seed) -> DeclaredItem {
             look: "A node's box encloses the whole boxes of all primitives below it. Those of a \
                    leaf are start..start + size in the list that you return: compare a leaf's box \
                    with them, and the boxes of the nodes above with those of their children.",
-            section: "building.md#counting-and-partitioning-must-agree",
+            section: "building.md#the-contract",
             group: Some(Group::Trees),
             needs: &[],
         },

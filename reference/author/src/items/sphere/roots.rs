@@ -56,8 +56,9 @@ pub(super) fn beside(seed: Seed) -> DeclaredItem {
             id: "sphere.beside",
             points: 1,
             title: "a ray that passes beside the sphere misses it",
-            look: "The quadratic then has no real root: check the value under the square root \
-                   before you take the root.",
+            look: "Without a real root there is no hit, and with two there may be one: work \
+                   out the value under the square root for the ray shown, before you take \
+                   the root.",
             section: "sphere.md#the-square-root-of-a-negative-number",
             group: Some(Group::SphereHits),
             needs: &[],
@@ -120,7 +121,8 @@ pub(super) fn behind(seed: Seed) -> DeclaredItem {
             id: "sphere.behind",
             points: 1,
             title: "a sphere behind the ray is missed",
-            look: "Both roots are then negative, and so outside ray.range.",
+            look: "Behind the ray both roots are negative, and so outside ray.range; ahead \
+                   of it both are positive. Work out both for the ray shown.",
             section: "sphere.md#the-near-root-can-be-out-of-range",
             group: Some(Group::SphereHits),
             needs: &[],

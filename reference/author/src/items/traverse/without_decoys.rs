@@ -64,8 +64,9 @@ pub(super) fn first_box_empty(seed: Seed) -> DeclaredItem {
             id: "traverse.first_box_empty",
             points: 1,
             title: "a ray may hit a box without hitting anything inside it",
-            look: "Until something is hit, there is no closest hit to compare with: a closest \
-                   distance that starts at 0 skips everything.",
+            look: "Work out by hand what the two boxes and the primitives in them give for \
+                   the ray shown. Until something is hit, there is no closest hit to \
+                   compare with, and no child may be skipped because of one.",
             section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
             group: None,
             needs: &[Group::TriangleHits, Group::Boxes],

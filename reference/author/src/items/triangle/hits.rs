@@ -187,7 +187,9 @@ pub(super) fn behind_the_ray(seed: Seed) -> DeclaredItem {
             id: "triangle.behind_the_ray",
             points: 1,
             title: "a triangle behind the ray is missed",
-            look: "Behind the ray, t is negative, although the weights look like those of a hit.",
+            look: "Work out t for the ray shown. Behind the ray it is negative, although \
+                   the weights look like those of a hit; ahead of the ray it is in \
+                   ray.range.",
             section: "triangle.md#hits-behind-the-origin-do-not-count",
             group: Some(Group::TriangleHits),
             needs: &[],

@@ -53,8 +53,9 @@ pub(super) fn uv(seed: Seed) -> DeclaredItem {
             id: "triangle.uv",
             points: 1,
             title: "uv is interpolated between the corners' texture coordinates",
-            look: "The barycentric u and v are weights; the uv of the Trace is the weighted sum of \
-                   the corners' uv.",
+            look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at \
+                   p0, p1 and p2, and w = 1 − u − v. The barycentric u and v are only its \
+                   weights.",
             section: "triangle.md#the-weights-are-not-the-texture-coordinates",
             group: Some(Group::TriangleSurface),
             needs: &[],

@@ -1,0 +1,117 @@
+//! The given code that is compiled into the grader itself: whether it is as it was handed out.
+//!
+//! The grader replaces other given files by its own, but not these. If a student changes one, for example
+//! to print something, their own results are those of the changed code, while the real grading uses the
+//! given one.
+
+use std::path::Path;
+
+use judging::content_hash::file_hash;
+
+use crate::files;
+
+/// The list of these files in a bundle, with their hashes. There is none in this repository.
+pub const LIST: &str = "grader/given-files.txt";
+
+/// The folders of these files.
+const FOLDERS: [&str; 2] = ["student/framework/", "student/protocol/"];
+/// The number of files that a note names.
+const MAX_NAMES: usize = 3;
+
+/// Returns the text of the list, given the paths and contents of all files of a bundle.
+pub fn list<'a>(bundle: impl Iterator<Item = (&'a str, &'a [u8])>) -> String {
+    let given = bundle.filter(|(path, _)| FOLDERS.iter().any(|folder| path.starts_with(folder)));
+    given
+        .map(|(path, contents)| format!("{}  {path}\n", hash(contents)))
+        .collect()
+}
+
+/// Returns a note if files of the workspace in this folder differ from the list. A missing file does not
+/// compile, so it needs no note.
+pub fn changed(root: &Path) -> Option<String> {
+    let list = files::read_to_string(root.join(LIST)).ok()?;
+    let listed = list.lines().filter_map(|line| line.split_once("  "));
+    let is_changed = |(expected, path): &(&str, &str)| {
+        let contents = files::read(root.join(path));
+        contents.is_ok_and(|contents| hash(&contents) != *expected)
+    };
+    let changed: Vec<&str> = listed.filter(is_changed).map(|(_, path)| path).collect();
+    note(&changed)
+}
+
+fn note(changed: &[&str]) -> Option<String> {
+    let (first, others) = changed.split_at(changed.len().min(MAX_NAMES));
+    let more = match others.len() {
+        0 => String::new(),
+        count => format!(" and {count} more"),
+    };
+    (!first.is_empty()).then(|| {
+        format!(
+            "given code was changed: {}{more}. These results are those of the changed code, and in the \
+             real grading the given code is used: unpack the archive again, over these files",
+            first.join(", ")
+        )
+    })
+}
+
+/// Returns the hash of a file, whatever its line ends: Git and editors change these.
+fn hash(contents: &[u8]) -> String {
+    let mut contents = contents.to_owned();
+    contents.retain(|byte| *byte != b'\r');
+    file_hash(&contents)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_has_the_code_in_the_given_folders() {
+        let files: [(&str, &[u8]); 3] = [
+            ("student/protocol/src/interval.rs", b"abc"),
+            ("student/src/bvh.rs", b"abc"),
+            ("student/framework/src/lib.rs", b"abc"),
+        ];
+        let expected = "\
+            ba80a53f981c4d0d6a2797b69f12f6e9  student/protocol/src/interval.rs\n\
+            ba80a53f981c4d0d6a2797b69f12f6e9  student/framework/src/lib.rs\n";
+        assert_eq!(list(files.into_iter()), expected);
+    }
+
+    #[test]
+    fn a_changed_file_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |path: &str, text: &str| {
+            files::write_with_parents(folder.path().join(path), text).unwrap();
+        };
+        let paths = ["student/protocol/src/a.rs", "student/framework/src/b.rs"];
+        assert_eq!(changed(folder.path()), None, "without a list");
+        write(
+            LIST,
+            &list(paths.into_iter().map(|path| (path, &b"1\n"[..]))),
+        );
+        for path in paths {
+            write(path, "1\r\n");
+        }
+        assert_eq!(changed(folder.path()), None);
+        write(paths[1], "2\n");
+        let note = changed(folder.path()).unwrap();
+        assert!(
+            note.contains(paths[1]) && !note.contains(paths[0]),
+            "{note}"
+        );
+    }
+
+    #[test]
+    fn a_note_names_a_few_of_the_changed_files() {
+        assert_eq!(note(&[]), None);
+        let many = note(&["a.rs", "b.rs", "c.rs", "d.rs", "e.rs"]).unwrap();
+        assert!(many.starts_with("given code was changed: a.rs, b.rs, c.rs and 2 more. "));
+    }
+
+    #[test]
+    fn line_ends_do_not_matter() {
+        assert_eq!(hash(b"a\r\nb\r\n"), hash(b"a\nb\n"));
+        assert_ne!(hash(b"a\nb\n"), hash(b"a\nc\n"));
+    }
+}

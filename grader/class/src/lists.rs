@@ -1,4 +1,4 @@
-//! What the roster and the platforms' gradebooks add to a class's entries.
+//! Completes a class's entries from the roster and the platforms' gradebooks.
 
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};

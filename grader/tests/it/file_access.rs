@@ -65,7 +65,8 @@ fn collect(root: &Path, path: &Path, except: &[&str], found: &mut Vec<String>) {
         .unwrap()
         .to_string_lossy()
         .replace('\\', "/");
-    let is_source = name.ends_with(".rs") && !name.ends_with("tests.rs");
+    let is_test = name.ends_with("tests.rs") || name.contains("/tests/");
+    let is_source = name.ends_with(".rs") && !is_test;
     if is_source && !except.contains(&name.as_str()) {
         let source = fs::read_to_string(path).unwrap();
         let lines = calls(&source).into_iter();

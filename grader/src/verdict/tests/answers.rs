@@ -159,7 +159,7 @@ fn a_panic_is_shown_with_its_line_and_a_clue() {
     );
     let at = line.at.unwrap();
     assert_eq!((at.file.as_str(), at.line), ("bbox.rs", 34));
-    assert!(line.clue.unwrap().starts_with("Read the index"));
+    assert!(line.clue.unwrap().starts_with("Compare the index"));
     assert_eq!(line.look.as_deref(), Some("look here"));
     let evidence = line.evidence.unwrap();
     assert_eq!(

@@ -41,8 +41,12 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
     let size = bounds.max - bounds.min;
     let mut dir = DVec3::ZERO;
     dir[along] = rng.sign();
-    // Between 0.0006 and 0.003; each factor is as likely as the others.
-    dir[across] = rng.sign() * 0.0006 * 5.0_f64.powf(rng.uniform(0.0, 1.0));
+    let slope = if number / 2 % 2 == 0 {
+        0.0006..0.0009
+    } else {
+        0.001..0.003
+    };
+    dir[across] = rng.sign() * rng.uniform(slope.start, slope.end);
     dir[third] = rng.uniform(-0.02, 0.02);
     let dir = dir.normalize();
 

@@ -135,10 +135,9 @@ pub(super) fn axis_parallel(seed: Seed) -> DeclaredItem {
             id: "bbox.axis_parallel",
             points: 1,
             title: "directions with components 0, −0 and almost 0 work as well",
-            look: "A ray that does not move along an axis is always or never between its planes. \
-                   Dividing by zero gives infinities that say so: make sure that your comparisons \
-                   handle them. A component that is only almost 0 still moves the ray: divide by \
-                   it as it is.",
+            look: "A ray that does not move along an axis is always or never between its planes: \
+                   dividing by zero gives infinities that say so, if your comparisons handle them. \
+                   A component that is almost 0 still moves the ray.",
             section: "boxes.md#zero-and-minus-zero",
             group: Some(Group::Boxes),
             needs: &[],

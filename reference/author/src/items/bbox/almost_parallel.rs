@@ -41,7 +41,7 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
     let size = bounds.max - bounds.min;
     let mut dir = DVec3::ZERO;
     dir[along] = rng.sign();
-    let slope = if number / 2 % 2 == 0 {
+    let slope = if (number / 2).is_multiple_of(2) {
         0.0006..0.0009
     } else {
         0.001..0.003

@@ -4,6 +4,7 @@
 //! to print something, their own results are those of the changed code, while the real grading uses the
 //! given one.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use judging::content_hash::file_hash;
@@ -18,9 +19,10 @@ const FOLDERS: [&str; 2] = ["student/framework/", "student/protocol/"];
 /// The number of files that a note names.
 const MAX_NAMES: usize = 3;
 
-/// Returns the text of the list, given the paths and contents of all files of a bundle.
-pub fn list<'a>(bundle: impl Iterator<Item = (&'a str, &'a [u8])>) -> String {
-    let given = bundle.filter(|(path, _)| FOLDERS.iter().any(|folder| path.starts_with(folder)));
+/// Returns the text of the list, given the contents of all files of a bundle, by their paths.
+pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
+    let files = bundle.iter();
+    let given = files.filter(|(path, _)| FOLDERS.iter().any(|folder| path.starts_with(folder)));
     given
         .map(|(path, contents)| format!("{}  {path}\n", hash(contents)))
         .collect()
@@ -65,17 +67,24 @@ fn hash(contents: &[u8]) -> String {
 mod tests {
     use super::*;
 
+    fn bundle<const N: usize>(files: [(&str, &str); N]) -> BTreeMap<String, Vec<u8>> {
+        let files = files.into_iter();
+        files
+            .map(|(path, text)| (path.to_owned(), text.as_bytes().to_owned()))
+            .collect()
+    }
+
     #[test]
     fn the_list_has_the_code_in_the_given_folders() {
-        let files: [(&str, &[u8]); 3] = [
-            ("student/protocol/src/interval.rs", b"abc"),
-            ("student/src/bvh.rs", b"abc"),
-            ("student/framework/src/lib.rs", b"abc"),
-        ];
+        let files = bundle([
+            ("student/protocol/src/interval.rs", "abc"),
+            ("student/src/bvh.rs", "abc"),
+            ("student/framework/src/lib.rs", "abc"),
+        ]);
         let expected = "\
-            ba80a53f981c4d0d6a2797b69f12f6e9  student/protocol/src/interval.rs\n\
-            ba80a53f981c4d0d6a2797b69f12f6e9  student/framework/src/lib.rs\n";
-        assert_eq!(list(files.into_iter()), expected);
+            ba80a53f981c4d0d6a2797b69f12f6e9  student/framework/src/lib.rs\n\
+            ba80a53f981c4d0d6a2797b69f12f6e9  student/protocol/src/interval.rs\n";
+        assert_eq!(list(&files), expected);
     }
 
     #[test]
@@ -86,10 +95,7 @@ mod tests {
         };
         let paths = ["student/protocol/src/a.rs", "student/framework/src/b.rs"];
         assert_eq!(changed(folder.path()), None, "without a list");
-        write(
-            LIST,
-            &list(paths.into_iter().map(|path| (path, &b"1\n"[..]))),
-        );
+        write(LIST, &list(&bundle(paths.map(|path| (path, "1\n")))));
         for path in paths {
             write(path, "1\r\n");
         }

@@ -30,26 +30,23 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         let changed = text.as_ref().map_or(Vec::new(), |text| {
             build.handed_out.changed_methods(file, text)
         });
-        let names = |is_missing| {
-            let changed = changed.iter();
-            let names = changed.filter(|method| method.is_missing == is_missing);
-            names
-                .map(|method| method.name)
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
-        let (missing, changed) = (names(true), names(false));
-        if !missing.is_empty() {
-            notes.push(format!(
-                "{}: given methods are missing, which other code may need; put them back: {missing}",
-                file.name
-            ));
-        }
-        if !changed.is_empty() {
-            notes.push(format!(
-                "{}: given methods were changed, which by itself costs no points: {changed}",
-                file.name
-            ));
+        let (missing, changed): (Vec<_>, Vec<_>) =
+            changed.into_iter().partition(|method| method.is_missing);
+        let file = file.name;
+        for (methods, what) in [
+            (
+                missing,
+                "are missing, which other code may need; put them back",
+            ),
+            (changed, "were changed, which by itself costs no points"),
+        ] {
+            if !methods.is_empty() {
+                let names: Vec<&str> = methods.iter().map(|method| method.name).collect();
+                notes.push(format!(
+                    "{file}: given methods {what}: {}",
+                    names.join(", ")
+                ));
+            }
         }
     }
     notes

@@ -251,11 +251,9 @@ impl<'a> Grader<'a> {
         score.book = Book::find(&self.workspace);
         score.isolation = built.build.isolation();
         score.build = build_report(submission, &built.build);
-        score.build.notes.extend(mixed_versions(&self.workspace));
-        score
-            .build
-            .notes
-            .extend(given_files::changed(self.workspace.root()));
+        let notes = &mut score.build.notes;
+        notes.extend(mixed_versions(&self.workspace));
+        notes.extend(given_files::changed(self.workspace.root()));
         score.timings.build_ms = millis(built.took);
         score.timings.stages.build = built.took;
         score

@@ -91,14 +91,15 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     } = spec;
     let (matches, mut warnings) = match_rows(&table, &keys, is_person, name, class);
     let mut changes = Vec::new();
-    let mut found: BTreeMap<usize, Vec<(&ClassRow, &PersonGrade)>> = BTreeMap::new();
+    let mut submissions_of: BTreeMap<usize, Vec<(&ClassRow, &PersonGrade)>> = BTreeMap::new();
     for (class_row, grade, row_index) in matches {
-        found.entry(row_index).or_default().push((class_row, grade));
+        let submissions = submissions_of.entry(row_index).or_default();
+        submissions.push((class_row, grade));
     }
-    for (row_index, found) in found {
+    for (row_index, submissions) in submissions_of {
         let who = name(&table.rows[row_index]);
-        let [(class_row, grade)] = found[..] else {
-            let ids = found.iter().map(|(row, _)| row.result.id.as_str());
+        let [(class_row, grade)] = submissions[..] else {
+            let ids = submissions.iter().map(|(row, _)| row.result.id.as_str());
             let ids = ids.collect::<Vec<_>>().join(", ");
             warnings.push(format!(
                 "{who} has several submissions ({ids}): keep one; left unchanged"

@@ -1,7 +1,7 @@
 //! Answer keys: the data that [`judge`](mod@crate::judge) compares answers with.
 
 use glam::Vec3;
-use protocol::{Interval, packed};
+use protocol::{Interval, Ray, Trace, packed};
 use serde::{Deserialize, Serialize};
 
 /// The correct answers to one question.
@@ -148,6 +148,20 @@ pub struct ExpectedHit {
     pub uv: glam::Vec2,
     /// Material of the primitive that was hit.
     pub material: u32,
+}
+
+impl ExpectedHit {
+    /// Returns the trace with which a correct submission answers to this ray.
+    pub fn to_trace(&self, ray: &Ray) -> Trace {
+        Trace {
+            distance: self.distance,
+            position: self.position,
+            normal: self.normal,
+            uv: self.uv,
+            origin: ray.origin,
+            material: self.material,
+        }
+    }
 }
 
 /// The correct hit at one position of a picture.

@@ -8,7 +8,7 @@ mod tree;
 use glam::Vec3;
 use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace};
 
-use crate::exam::{ExamQuestion, ExpectedHit, HitCheck, Item, Key, RayCheck};
+use crate::exam::{ExamQuestion, HitCheck, Item, Key, RayCheck};
 use crate::judge::measure::{DIRECTION, LENGTH, UV};
 use crate::judge::{FailureKind, judge, scale};
 use crate::signatures::{NoAnswerReason, ObservedAnswer};
@@ -165,18 +165,9 @@ fn expected_traces(question: &ExamQuestion) -> Vec<Option<Trace>> {
         return Vec::new();
     };
     let rays = question.question.rays().into_iter().flat_map(Rays::to_vec);
-    let trace = |(hit, ray): (&Option<ExpectedHit>, Ray)| {
-        let hit = hit.as_ref()?;
-        Some(Trace {
-            distance: hit.distance,
-            position: hit.position,
-            normal: hit.normal,
-            uv: hit.uv,
-            origin: ray.origin,
-            material: hit.material,
-        })
-    };
-    hits.iter().zip(rays).map(trace).collect()
+    let hits = hits.iter().zip(rays);
+    hits.map(|(hit, ray)| Some(hit.as_ref()?.to_trace(&ray)))
+        .collect()
 }
 
 /// Observes a hit. From a wrong distance, correct code computes a wrong position, normal and uv in one
@@ -187,16 +178,18 @@ fn observe_hit(
     expected: Option<&Trace>,
     scale: f32,
 ) -> ObservedAnswer {
-    let matches = |checks: &[HitCheck]| {
-        let expected = observe_checked(checks, expected, scale);
-        observe_checked(checks, trace, scale).matches(&expected)
-    };
+    let observe = |checks: &[HitCheck], trace| observe_checked(checks, trace, scale);
+    let is_correct = |checks| observe(checks, trace).matches(&observe(checks, expected));
     let distance = [HitCheck::Distance];
-    if matches(checks) || matches(&distance) {
-        observe_checked(checks, trace, scale)
-    } else {
-        observe_checked(&distance, trace, scale)
-    }
+    let follows_from_distance = !is_correct(checks) && !is_correct(&distance);
+    observe(
+        if follows_from_distance {
+            &distance
+        } else {
+            checks
+        },
+        trace,
+    )
 }
 
 fn observe_checked(checks: &[HitCheck], trace: Option<&Trace>, scale: f32) -> ObservedAnswer {

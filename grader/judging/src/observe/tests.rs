@@ -4,6 +4,7 @@ use glam::Vec2;
 use protocol::Shape;
 
 use super::*;
+use crate::exam::ExpectedHit;
 
 /// Returns the observed numbers of each element of one question.
 fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
 
 use super::EXAM;
-use crate::exam::{ExamQuestion, ExpectedHit, Key, Surface};
+use crate::exam::{ExamQuestion, Key, Surface};
 
 /// The questions, each with the answer that follows from its key. Trees are left out: many different
 /// ones are right.
@@ -46,16 +46,8 @@ pub fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
             let rays = rays
                 .expect("the key is that of a question with rays")
                 .to_vec();
-            let trace = |(hit, ray): (&ExpectedHit, &Ray)| Trace {
-                distance: hit.distance,
-                position: hit.position,
-                normal: hit.normal,
-                uv: hit.uv,
-                origin: ray.origin,
-                material: hit.material,
-            };
             let hits = hits.iter().zip(&rays);
-            let traces = hits.map(|(hit, ray)| Some(trace((hit.as_ref()?, ray))));
+            let traces = hits.map(|(hit, ray)| Some(hit.as_ref()?.to_trace(ray)));
             Answer::Hits(values(traces))
         }
         Key::FirstHits { hits, .. } => {

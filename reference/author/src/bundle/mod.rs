@@ -113,9 +113,7 @@ impl Bundle {
         }
         manifests::add_trimmed(root, &mut bundle)?;
         version::add(root, handed_out, &mut bundle)?;
-        let files = bundle.files.iter();
-        let given = given_files::list(files.map(|(path, bytes)| (path.as_str(), bytes.as_slice())));
-        bundle.insert(given_files::LIST, given);
+        bundle.insert(given_files::LIST, given_files::list(&bundle.files));
         let lock = lock::lock_file(root, &bundle)?;
         bundle.insert("Cargo.lock", lock);
         Ok(bundle)

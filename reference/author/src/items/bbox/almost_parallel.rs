@@ -1,5 +1,5 @@
-//! Rays that are almost parallel to a plane of a box, and take all the way through the box to cross it.
-//! They show a direction that is changed by a small constant, or taken for parallel.
+//! Rays that are almost parallel to a face of a box, and yet cross the plane of this face. The times are
+//! wrong if a small constant is added to the direction, or if a small component is taken for 0.
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
@@ -32,8 +32,8 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     bbox_question(bounds, queries)
 }
 
-/// Returns a ray that is almost parallel to a plane of the box, and crosses this plane on its way
-/// through the box, or else before or after it.
+/// Returns a ray that is almost parallel to a face of the box. If it is a hit, it crosses the plane of
+/// this face where it enters or leaves the box, and otherwise beside the box.
 fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hit: bool) -> Ray {
     let (along, across) = (number % 3, (number + 1) % 3);
     let third = 3 - along - across;
@@ -41,12 +41,12 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
     let size = bounds.max - bounds.min;
     let mut dir = DVec3::ZERO;
     dir[along] = rng.sign();
-    let slope = if (number / 2).is_multiple_of(2) {
-        0.0006..0.0009
+    let (least, most) = if (number / 2).is_multiple_of(2) {
+        (0.0006, 0.0009)
     } else {
-        0.001..0.003
+        (0.001, 0.003)
     };
-    dir[across] = rng.sign() * rng.uniform(slope.start, slope.end);
+    dir[across] = rng.sign() * rng.uniform(least, most);
     dir[third] = rng.uniform(-0.02, 0.02);
     let dir = dir.normalize();
 
@@ -61,7 +61,7 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
     if !is_hit {
         // A ray that enters the slab there has already left the box, and one that leaves it is not yet in
         // the box.
-        let beyond = (0.6 + rng.uniform(0.2, 0.6)) * size[along];
+        let beyond = rng.uniform(0.8, 1.2) * size[along];
         let forward = if enters { 1.0 } else { -1.0 };
         point[along] = bounds.center()[along] + forward * dir[along].signum() * beyond;
     }

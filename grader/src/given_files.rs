@@ -50,7 +50,7 @@ fn note(changed: &[&str]) -> Option<String> {
     (!first.is_empty()).then(|| {
         format!(
             "given code was changed: {}{more}. These results are those of the changed code, and in the \
-             real grading the given code is used: unpack the archive again, over these files",
+             real grading the given code is used: take these files, and no others, from the archive again",
             first.join(", ")
         )
     })

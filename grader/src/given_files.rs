@@ -50,7 +50,8 @@ fn note(changed: &[&str]) -> Option<String> {
     (!first.is_empty()).then(|| {
         format!(
             "given code was changed: {}{more}. These results are those of the changed code, and in the \
-             real grading the given code is used: take these files, and no others, from the archive again",
+             real grading the given code is used: undo the changes, or take these files, and no others, from the \
+             archive and run `cargo clean`, since Cargo takes their old dates for no change",
             first.join(", ")
         )
     })

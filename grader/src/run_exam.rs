@@ -10,12 +10,15 @@ use judging::recognise::Observations;
 use protocol::Answer;
 
 use crate::build::{Build, SubstitutedProgram};
+use crate::handed_out::HandedOut;
 use crate::item_outcome::{ItemOutcome, NotRun};
 use crate::probe::{Allowance, Budget};
 use crate::report_answers::ReportAnswers;
 use crate::score::{ItemScore, Score, Verdict, VerdictKind};
 use crate::task_session::{TaskSession, TimeSpent};
-use crate::verdict::{add_hints, blocked_score, blocking_item, item_score, substituted_score};
+use crate::verdict::{
+    add_clue, add_hints, blocked_score, blocking_item, item_score, substituted_score,
+};
 
 /// Grades every item of `exam` and records its score. After each item, `progress` is called with
 /// the score and the answers to draw. If `progress` returns an error, grading stops.
@@ -138,18 +141,21 @@ impl<'a> TaskSessions<'a> {
     /// printed.
     fn finish(mut self, exam: &Exam, lines: &mut [ItemScore]) -> Option<String> {
         let substituted = self.substituted.as_ref().map(TaskSession::observations);
-        explain_items(exam, lines, self.own.observations(), substituted);
+        let own = self.own.observations();
+        explain_items(exam, lines, own, substituted, self.build.handed_out);
         self.own.printed()
     }
 }
 
 /// Adds the hints for the mistakes that explain a task's answers: those of the submission's own
-/// program, and those of the program with substituted parts.
+/// program, and those of the program with substituted parts. Where no mistake does, and not one ray hits
+/// anything, adds the clue for that.
 fn explain_items(
     exam: &Exam,
     lines: &mut [ItemScore],
     own: &Observations,
     substituted: Option<&Observations>,
+    handed_out: &HandedOut,
 ) {
     for line in lines.iter_mut().filter(|line| can_have_hint(&line.verdict)) {
         let observations = match substituted {
@@ -158,6 +164,12 @@ fn explain_items(
         };
         if let Some(item) = exam.items.iter().find(|item| item.id == line.id) {
             add_hints(line, &observations.explain(exam, item));
+            if observations.misses_everything() {
+                add_clue(
+                    line,
+                    handed_out.assignment.info(item.task).if_nothing_is_hit,
+                );
+            }
         }
     }
 }
@@ -181,13 +193,15 @@ fn can_have_hint(verdict: &Verdict) -> bool {
 mod tests {
     use std::collections::BTreeMap;
 
+    use judging::exam::Key;
     use judging::observe::observe;
     use judging::signatures::{KnownMistake, MistakeAnswers};
-    use protocol::{ElementOutcome, Interval};
+    use protocol::{ElementOutcome, Interval, Panic};
 
     use super::*;
     use crate::build::NotCompiled;
     use crate::handed_out::RAYS;
+    use crate::score::Hint;
     use crate::small_exam::{boxes, exam, item, pending};
 
     #[test]
@@ -301,7 +315,7 @@ mod tests {
             for line in &mut lines {
                 line.verdict = verdict.clone();
             }
-            explain_items(&exam, &mut lines, own, substituted);
+            explain_items(&exam, &mut lines, own, substituted, &RAYS);
             assert!(lines[2].hints.is_empty());
             [0, 1].map(|line| lines[line].hints.len())
         };
@@ -309,6 +323,62 @@ mod tests {
         assert_eq!(hinted(Verdict::Wrong, &right, Some(&wrong)), [1, 0]);
         assert_eq!(hinted(Verdict::Wrong, &wrong, Some(&right)), [0, 1]);
         assert_eq!(hinted(Verdict::Pass, &wrong, Some(&wrong)), [0, 0]);
+    }
+
+    #[test]
+    fn a_clue_says_that_not_one_ray_hits_unless_a_hint_says_more() {
+        let mut exam = exam(&["bbox.flat", "bbox.behind", "bbox.clipped"]);
+        for item in &mut exam.items {
+            item.questions = vec![boxes(3)];
+            item.questions[0].key = Key::Spans {
+                spans: vec![Some(Interval::AHEAD); 3],
+            };
+        }
+        let miss = ElementOutcome::Value(None);
+        let hit = ElementOutcome::Value(Some(Interval::AHEAD));
+        let panicked = ElementOutcome::Panicked(Panic {
+            message: "x".to_owned(),
+            location: String::new(),
+        });
+        let clues = |items: usize, last: &ElementOutcome<Option<Interval>>, line: &ItemScore| {
+            let mut observations = Observations::default();
+            for item in &exam.items[..items] {
+                let spans = vec![miss.clone(), miss.clone(), last.clone()];
+                observations.record(item, Ok(&[Answer::Spans(spans)]));
+            }
+            let mut lines = [line.clone()];
+            explain_items(&exam, &mut lines, &observations, None, &RAYS);
+            lines[0].clue.clone()
+        };
+        let wrong = ItemScore {
+            verdict: Verdict::Wrong,
+            ..pending(&exam).items().next().unwrap().clone()
+        };
+        let bbox = RAYS.assignment.find("bbox").unwrap();
+        let clue = bbox.if_nothing_is_hit.map(str::to_owned);
+        assert!(clue.is_some());
+        assert_eq!(clues(3, &miss, &wrong), clue);
+        assert_eq!(clues(2, &miss, &wrong), None);
+        assert_eq!(clues(3, &hit, &wrong), None);
+        assert_eq!(clues(3, &panicked, &wrong), None);
+        let timed_out = ItemScore {
+            verdict: Verdict::TimedOut,
+            ..wrong.clone()
+        };
+        assert_eq!(clues(3, &miss, &timed_out), None);
+        let with_clue = ItemScore {
+            clue: Some("kept".to_owned()),
+            ..wrong.clone()
+        };
+        assert_eq!(clues(3, &miss, &with_clue), with_clue.clue);
+        // A hint of a known mistake says more than the clue.
+        let mut hinted = wrong;
+        hinted.hints = vec![Hint {
+            nudge: String::new(),
+            hint: String::new(),
+        }];
+        add_clue(&mut hinted, clue.as_deref());
+        assert_eq!(hinted.clue, None);
     }
 
     #[test]

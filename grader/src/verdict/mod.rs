@@ -19,7 +19,7 @@ use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::score::{
     BuildReport, CodeLocation, Evidence, Hint, ItemScore, SCHEMA_VERSION, Score, TaskScore,
-    Timings, Verdict,
+    Timings, Verdict, VerdictKind,
 };
 
 /// Maximum length of a student's or the compiler's text in a message, in characters.
@@ -330,6 +330,13 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     }
     let ids: Vec<&str> = mistakes.iter().map(|mistake| mistake.id.as_str()).collect();
     line.staff = Some(format!("answers like {}", ids.join(" or ")));
+}
+
+/// Adds a clue to an item with wrong answers, if neither a hint nor another clue says more.
+pub fn add_clue(line: &mut ItemScore, clue: Option<&str>) {
+    if line.verdict.kind() == VerdictKind::Failed && line.hints.is_empty() && line.clue.is_none() {
+        line.clue = clue.map(str::to_owned);
+    }
 }
 
 /// Returns the score of an item that was graded with substituted parts. This score counts: mistakes

@@ -22,7 +22,7 @@ fn no_page_logs_errors_sends_requests_or_runs_injected_scripts() {
         assert_eq!(tab.requests(), [""; 0]);
         let title = tab.eval("document.title");
         let title = title.as_str().unwrap();
-        let parts = ["Rays and a BVH: ", " of 100 points, alice"];
+        let parts = ["Path tracing: rays and a BVH: ", " of 100 points, alice"];
         assert!(
             title.starts_with(parts[0]) && title.ends_with(parts[1]),
             "{title}"

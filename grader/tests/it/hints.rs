@@ -106,3 +106,34 @@ fn an_answer_that_is_right_when_asked_alone_is_said_to_depend_on_earlier_calls()
     // The same answers, without state.
     assert_eq!(with_distance("distance: t + 1.0,"), [""; 0]);
 }
+
+#[test]
+fn code_that_hits_nothing_is_told_what_to_compare_for_every_ray() {
+    let reversed = (
+        "triangle.rs",
+        "let s = ray.origin - self.p0.position;",
+        "let s = self.p0.position - ray.origin;",
+    );
+    let swapped = (
+        "bbox.rs",
+        "if enter > times.min { enter } else { times.min },",
+        "if leave > times.min { leave } else { times.min } + 1e6,",
+    );
+    // With a hit among the misses, something else is wrong than with every ray.
+    let one_hits = (
+        "sphere.rs",
+        "let t = [near, far].into_iter().find(|&t| ray.range.contains(t))?;",
+        "let t = [near, far].into_iter().find(|&t| t > 5.0)?;",
+    );
+    let not_one = |(file, from, to): (&str, &str, &str)| {
+        let graded = Submission::reference("misses")
+            .with_replaced(file, from, to)
+            .grade();
+        let clues = clues(&graded).into_iter();
+        let not_one = clues.filter(|clue| clue.starts_with("Not one ray hits"));
+        not_one.count()
+    };
+    assert!(not_one(reversed) > 10);
+    assert_eq!(not_one(swapped), 10);
+    assert_eq!(not_one(one_hits), 0);
+}

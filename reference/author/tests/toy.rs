@@ -39,6 +39,7 @@ static TASKS: Assignment = Assignment {
             file: "ball.rs",
             method: "hit",
             points: 40,
+            if_nothing_is_hit: None,
         },
         TaskInfo {
             id: "slab",
@@ -46,6 +47,7 @@ static TASKS: Assignment = Assignment {
             file: "slab.rs",
             method: "hit",
             points: 20,
+            if_nothing_is_hit: None,
         },
         TaskInfo {
             id: "nearest",
@@ -53,6 +55,7 @@ static TASKS: Assignment = Assignment {
             file: "slab.rs",
             method: "nearest",
             points: 40,
+            if_nothing_is_hit: None,
         },
     ],
     render: None,

@@ -46,6 +46,9 @@ pub struct TaskInfo {
     pub method: &'static str,
     /// The total points of the task's items.
     pub points: u32,
+    /// The advice for code with which not one ray hits anything. `None` if the task has no rays that can
+    /// hit something.
+    pub if_nothing_is_hit: Option<&'static str>,
 }
 
 /// The id of a task, such as `sphere`. Its assignment resolves it to a [`TaskInfo`].

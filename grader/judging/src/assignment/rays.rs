@@ -5,7 +5,7 @@ use super::{Assignment, TaskInfo};
 /// Tasks 1 to 3, after the slides "A3: PathTracing", tasks 1 to 3.
 pub static RAYS: Assignment = Assignment {
     id: "rays",
-    title: "Rays and a BVH",
+    title: "Path tracing: rays and a BVH",
     folders: &["", "src", "student/src"],
     other_folders: &[
         "grader",
@@ -23,6 +23,7 @@ pub static RAYS: Assignment = Assignment {
             file: "camera.rs",
             method: "sample_ray",
             points: 15,
+            if_nothing_is_hit: None,
         },
         TaskInfo {
             id: "triangle",
@@ -30,6 +31,12 @@ pub static RAYS: Assignment = Assignment {
             file: "triangle.rs",
             method: "hit",
             points: 20,
+            if_nothing_is_hit: Some(
+                "Not one ray hits a triangle, so find what is wrong for every ray. Work out u, v, \
+                 1 − u − v and t by hand for the ray shown, and compare them with those in your code. If \
+                 several have the wrong sign, look at s, at the operands of each cross product, and at \
+                 the two minus signs.",
+            ),
         },
         TaskInfo {
             id: "sphere",
@@ -37,6 +44,11 @@ pub static RAYS: Assignment = Assignment {
             file: "sphere.rs",
             method: "hit",
             points: 15,
+            if_nothing_is_hit: Some(
+                "Not one ray hits a sphere, so find what is wrong for every ray. Work out b, c, the \
+                 discriminant and both roots by hand for the ray shown, and compare them with those in \
+                 your code. Then see which comparison rejects both roots.",
+            ),
         },
         TaskInfo {
             id: "bbox",
@@ -44,6 +56,11 @@ pub static RAYS: Assignment = Assignment {
             file: "bbox.rs",
             method: "hit",
             points: 10,
+            if_nothing_is_hit: Some(
+                "Not one ray hits a box, so find what is wrong for every ray. Work out by hand, for \
+                 the ray shown and each axis, when it enters the slab and when it leaves it. Which of \
+                 these times are different in your code, and which comparison rejects them?",
+            ),
         },
         TaskInfo {
             id: "build",
@@ -51,6 +68,7 @@ pub static RAYS: Assignment = Assignment {
             file: "bvh.rs",
             method: "build",
             points: 20,
+            if_nothing_is_hit: None,
         },
         TaskInfo {
             id: "traverse",
@@ -58,6 +76,11 @@ pub static RAYS: Assignment = Assignment {
             file: "bvh.rs",
             method: "hit",
             points: 20,
+            if_nothing_is_hit: Some(
+                "Not one ray hits anything, so find what is wrong for every ray. Follow the ray shown \
+                 from the root. Does your code enter the boxes that it hits, and test all primitives of \
+                 the leaves? Is a hit that it finds kept, compared the right way round, and returned?",
+            ),
         },
     ],
     render: Some("cargo render cornell-box"),

@@ -16,9 +16,9 @@ mod evidence;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use protocol::Answer;
+use protocol::{Answer, ElementOutcome};
 
-use crate::exam::{Exam, Item};
+use crate::exam::{Exam, Item, Key};
 use crate::observe::observe;
 use crate::recognise::evidence::Evidence;
 use crate::signatures::{KnownMistake, NoAnswerReason, ObservedAnswer};
@@ -27,13 +27,27 @@ use crate::signatures::{KnownMistake, NoAnswerReason, ObservedAnswer};
 /// list would not help.
 pub const MAX_MISTAKES: usize = 3;
 
-/// A submission's answers to the signature elements of each item, by item id.
+/// The number of items with rays that should hit something, from which on it is telling if none does.
+const MIN_ITEMS_WITHOUT_HITS: usize = 3;
+
+/// The observations of a submission's answers in one task.
 #[derive(Clone, Debug, Default)]
-pub struct Observations(BTreeMap<String, Vec<ObservedAnswer>>);
+pub struct Observations {
+    /// The answers to the signature elements of each item, by item id.
+    answers: BTreeMap<String, Vec<ObservedAnswer>>,
+    /// The number of items in which a ray should hit something.
+    items_to_hit: usize,
+    /// Whether there is any answer other than that a ray misses.
+    has_other_than_miss: bool,
+}
 
 impl Observations {
     /// Records the answers to an item, or the reason why there are none.
     pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
+        if let Ok(answers) = answers {
+            self.items_to_hit += usize::from(can_be_hit(item));
+            self.has_other_than_miss |= answers.iter().any(has_other_than_miss);
+        }
         if item.signatures.elements.is_empty() {
             return;
         }
@@ -51,14 +65,20 @@ impl Observations {
             }
             Err(why) => vec![ObservedAnswer::NoAnswer(why); item.signatures.elements.len()],
         };
-        self.0.insert(item.id.clone(), observed);
+        self.answers.insert(item.id.clone(), observed);
+    }
+
+    /// Returns whether not one ray hits anything, of those to several items.
+    pub fn misses_everything(&self) -> bool {
+        !self.has_other_than_miss && self.items_to_hit >= MIN_ITEMS_WITHOUT_HITS
     }
 
     /// Returns the known mistakes that explain an item. There are several if the answers do not
     /// distinguish them, or if each of two explains a part.
     pub fn explain<'a>(&self, exam: &'a Exam, item: &Item) -> Vec<&'a KnownMistake> {
         let items = exam.items.iter().filter(|other| other.task == item.task);
-        let observed = items.filter_map(|item| Some((item, self.0.get(&item.id)?.as_slice())));
+        let observed =
+            items.filter_map(|item| Some((item, self.answers.get(&item.id)?.as_slice())));
         let evidence = Evidence::new(exam, observed.collect());
 
         let mut named = evidence.causes();
@@ -73,6 +93,28 @@ impl Observations {
             named
         }
     }
+}
+
+/// Returns whether one of an item's rays hits something, if the answers are correct.
+fn can_be_hit(item: &Item) -> bool {
+    item.questions.iter().any(|question| match &question.key {
+        Key::Hits { hits, .. } => hits.iter().any(Option::is_some),
+        Key::Spans { spans } => spans.iter().any(Option::is_some),
+        Key::Rays { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. } => false,
+    })
+}
+
+/// Returns whether any ray has another answer than that it misses.
+fn has_other_than_miss(answer: &Answer) -> bool {
+    match answer {
+        Answer::Hits(hits) => !hits.iter().all(is_miss),
+        Answer::Spans(spans) => !spans.iter().all(is_miss),
+        Answer::Rays(_) | Answer::Tree(_) | Answer::Picture(_) | Answer::Done => false,
+    }
+}
+
+fn is_miss<T>(outcome: &ElementOutcome<Option<T>>) -> bool {
+    matches!(outcome, ElementOutcome::Value(None))
 }
 
 #[cfg(test)]

@@ -64,7 +64,10 @@ fn exam(correct: &[Vec<ObservedAnswer>], mistakes: &[Mistake]) -> Exam {
 /// Returns the ids of the mistakes that explain each item, given a submission's answers.
 fn explained(exam: &Exam, answers: &[Vec<ObservedAnswer>]) -> Vec<Vec<String>> {
     let ids = exam.items.iter().map(|item| item.id.clone());
-    let observations = Observations(ids.zip(answers.iter().cloned()).collect());
+    let observations = Observations {
+        answers: ids.zip(answers.iter().cloned()).collect(),
+        ..Observations::default()
+    };
     let of_item = |item| {
         let mistakes = observations.explain(exam, item).into_iter();
         mistakes.map(|mistake| mistake.id.clone()).collect()

@@ -1,9 +1,11 @@
 //! Arranges a report on a terminal that may be too small for it.
 
+use judging::assignment::Task;
+
 use crate::report::text::ReportParts;
 
 /// Everything that one page shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Page<'a> {
     /// The phase of grading.
     pub(super) status: &'a str,
@@ -12,57 +14,85 @@ pub(super) struct Page<'a> {
     pub(super) next: &'a str,
     /// The table in one line.
     pub(super) short_table: &'a str,
-    /// How to see what does not fit.
-    pub(super) rest: &'a str,
+    /// Returns a line that says how to see what does not fit, given the task that it is about.
+    pub(super) rest: &'a dyn Fn(Option<Task>) -> String,
 }
+
+/// A line, and the task that it is about.
+type Line = (String, Option<Task>);
 
 /// Returns at most `rows` lines. If not even the first failing item fits, it comes first, and the
 /// table shrinks to a line below it.
-pub(super) fn fit<'a>(page: &Page<'a>, rows: usize) -> Vec<&'a str> {
+pub(super) fn fit(page: &Page, rows: usize) -> Vec<String> {
+    let lines = arrange(page, rows).into_iter();
+    lines.map(|(line, _)| line).collect()
+}
+
+fn arrange(page: &Page, rows: usize) -> Vec<Line> {
     let ReportParts {
         headline,
         table,
         details,
     } = page.report;
-    let mut whole = vec![page.status, ""];
-    let parts = [headline, table, details];
-    whole.extend(parts.into_iter().flat_map(|part| part.lines()));
+    let mut whole = vec![line(page.status), line("")];
+    whole.extend(headline.lines().chain(table.lines()).map(line));
+    let before_details = whole.len();
+    for detail in details {
+        let lines = detail.text.lines();
+        whole.extend(lines.map(|line| (line.to_owned(), detail.task)));
+    }
+    let details = &whole[before_details..];
+    let first_item = details.iter().skip(1).take_while(|line| !is_empty(line));
+    let first_item = first_item.count();
+    let mut short: Vec<Line> = details
+        .iter()
+        .skip_while(|line| is_empty(line))
+        .cloned()
+        .collect();
+
+    let next = page.next.lines().map(line).filter(|line| !is_empty(line));
     if !page.next.is_empty() {
-        whole.push("");
-        whole.extend(page.next.lines().filter(|line| !line.is_empty()));
+        whole.push(line(""));
+        whole.extend(next.clone());
     }
     if whole.len() <= rows {
         return whole;
     }
-    let before_details = 2 + headline.lines().count() + table.lines().count();
-    let first_item = details.lines().skip(1).take_while(|line| !line.is_empty());
-    let first_item = first_item.count();
     if first_item > 0 && before_details + 1 + first_item < rows {
-        whole.truncate(rows - 1);
-        whole.push(page.rest);
-        return whole;
+        return cut(whole, rows, page);
     }
-    let mut details: Vec<&str> = details.lines().skip_while(|line| line.is_empty()).collect();
-    if details.is_empty() {
-        details = page.next.lines().filter(|line| !line.is_empty()).collect();
+    if short.is_empty() {
+        short = next.collect();
     }
-    let around = [page.status, page.short_table].len();
-    let space = rows.saturating_sub(around);
-    let mut lines = vec![page.status];
-    if details.len() <= space {
-        lines.extend(details);
-    } else {
-        lines.extend(&details[..space.saturating_sub(1)]);
-        lines.push(page.rest);
-    }
-    lines.push(page.short_table);
+    short.insert(0, line(page.status));
+    let mut lines = cut(short, rows.saturating_sub(1), page);
+    lines.push(line(page.short_table));
     lines.truncate(rows);
     lines
+}
+
+/// Returns the lines that fit. If some do not, the last one says how to see the rest.
+fn cut(mut lines: Vec<Line>, rows: usize, page: &Page) -> Vec<Line> {
+    if lines.len() > rows {
+        let rest = lines.split_off(rows.saturating_sub(1));
+        let task = rest.first().and_then(|(_, task)| *task);
+        lines.push(((page.rest)(task), task));
+    }
+    lines
+}
+
+fn line(text: &str) -> Line {
+    (text.to_owned(), None)
+}
+
+fn is_empty((line, _): &Line) -> bool {
+    line.is_empty()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::text::Detail;
 
     fn lines(details: usize, rows: usize) -> Vec<String> {
         let numbered = |name: &str, count: usize| -> String {
@@ -71,16 +101,19 @@ mod tests {
         let report = ReportParts {
             headline: "headline\n\n".to_owned(),
             table: numbered("task", 6),
-            details: format!("\n{}", numbered("detail", details)),
+            details: vec![Detail {
+                task: None,
+                text: format!("\n{}", numbered("detail", details)),
+            }],
         };
         let page = Page {
             status: "status",
             report: &report,
             next: "next\n\n",
             short_table: "short table",
-            rest: "rest",
+            rest: &|_| "rest".to_owned(),
         };
-        fit(&page, rows).into_iter().map(str::to_owned).collect()
+        fit(&page, rows)
     }
 
     #[test]
@@ -123,5 +156,34 @@ mod tests {
         for rows in 0..30 {
             assert!(lines(9, rows).len() <= rows, "{rows}");
         }
+    }
+
+    #[test]
+    fn the_line_about_the_rest_names_the_task_that_is_cut() {
+        let [one, two] = ["one.x", "two.x"].map(|id| Task::in_id(id).unwrap());
+        let detail = |task: Task, lines: &str| Detail {
+            task: Some(task),
+            text: format!("\n{lines}"),
+        };
+        let report = ReportParts {
+            headline: "headline\n\n".to_owned(),
+            table: "table\n".to_owned(),
+            details: vec![detail(one, "1\n2\n"), detail(two, "3\n4\n")],
+        };
+        let page = Page {
+            status: "status",
+            report: &report,
+            next: "",
+            short_table: "short table",
+            rest: &|task| task.map_or("none".to_owned(), |task| task.to_string()),
+        };
+        let last = |rows| fit(&page, rows).pop().unwrap();
+        assert_eq!(fit(&page, 11).len(), 11);
+        // With ten rows, a line of the second task does not fit.
+        assert_eq!(last(11), "4");
+        assert_eq!(last(10), "two");
+        assert_eq!(last(9), "two");
+        // With less, the table shrinks, and a line of the first task does not fit either.
+        assert_eq!(fit(&page, 4), ["status", "1", "one", "short table"]);
     }
 }

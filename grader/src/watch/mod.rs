@@ -37,12 +37,15 @@ pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     loop {
         match grade_version(&grader, &submission, last.as_ref(), &screen) {
             Ok(score) => {
-                last = Some(score);
                 // Only once: from now on, the page reloads itself.
                 if let Some(files) = page.take() {
                     desktop::show(&files.page);
                 }
-                submission = watcher.wait_for_change(&submission);
+                // A terminal that cannot be written now is reported at the next save.
+                submission = watcher.wait_for_change_while(&submission, || {
+                    let _ = screen.show_if_resized(&score);
+                });
+                last = Some(score);
             }
             // Not `wait_for_change`: if the save is undone meanwhile, the same version is graded
             // again, because the screen shows a part of its results.

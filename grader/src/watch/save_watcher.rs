@@ -35,15 +35,24 @@ impl<'a> SaveWatcher<'a> {
     /// Waits for the next version and returns it. Two reads in a row must give the same version,
     /// because editors write a file in several steps, and some delete it first.
     pub fn wait_for_change(&self, last: &Submission) -> Submission {
-        self.wait_for(|now| now != last)
+        self.wait_for(|now| now != last, || ())
+    }
+
+    /// Waits for the next version, and calls `meanwhile` between two reads.
+    pub fn wait_for_change_while(&self, last: &Submission, meanwhile: impl FnMut()) -> Submission {
+        self.wait_for(|now| now != last, meanwhile)
     }
 
     /// Waits until two reads in a row give the same version, whichever it is.
     pub fn wait_for_version(&self) -> Submission {
-        self.wait_for(|_| true)
+        self.wait_for(|_| true, || ())
     }
 
-    fn wait_for(&self, is_wanted: impl Fn(&Submission) -> bool) -> Submission {
+    fn wait_for(
+        &self,
+        is_wanted: impl Fn(&Submission) -> bool,
+        mut meanwhile: impl FnMut(),
+    ) -> Submission {
         let mut before = None;
         loop {
             let now = (self.collect)().filter(&is_wanted);
@@ -51,6 +60,7 @@ impl<'a> SaveWatcher<'a> {
                 Some(now) if before.as_ref() == Some(&now) => return now,
                 now => before = now,
             }
+            meanwhile();
             (self.pause)();
         }
     }
@@ -90,6 +100,14 @@ mod tests {
             Some(watcher.wait_for_change(&version("old").unwrap())),
             version("whole")
         );
+    }
+
+    #[test]
+    fn does_something_else_between_two_reads() {
+        let watcher = watcher_reading(["old", "new", "new"].map(version).to_vec());
+        let mut calls = 0;
+        watcher.wait_for_change_while(&version("old").unwrap(), || calls += 1);
+        assert_eq!(calls, 2);
     }
 
     #[test]

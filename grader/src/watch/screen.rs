@@ -1,10 +1,12 @@
 //! The terminal output of `--watch`: a single page, redrawn in one write so that it does not
 //! flicker. Without a terminal, reports are printed one after the other.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::io;
 
 use console::{Term, truncate_str};
+use judging::assignment::Task;
 
 use crate::options::GradeOptions;
 use crate::report::next_step::next_step;
@@ -41,6 +43,8 @@ pub struct Screen<'a> {
     term: Term,
     options: &'a GradeOptions,
     paths: SourcePaths,
+    /// The rows and columns of the page that is on the screen.
+    drawn_size: Cell<(u16, u16)>,
 }
 
 impl<'a> Screen<'a> {
@@ -56,6 +60,7 @@ impl<'a> Screen<'a> {
             term,
             options,
             paths,
+            drawn_size: Cell::default(),
         }
     }
 
@@ -70,7 +75,7 @@ impl<'a> Screen<'a> {
             report: &ReportParts::default(),
             next: "",
             short_table: "",
-            rest: "",
+            rest: &|_| String::new(),
         })
     }
 
@@ -93,53 +98,63 @@ impl<'a> Screen<'a> {
         };
         let status = status_line(score, phase, !old.is_empty());
         if self.term.is_term() {
+            let mut report = report;
+            for detail in &mut report.details {
+                detail.text = self.paths.in_text(&detail.text).into_owned();
+            }
             let page = Page {
                 status: &status,
-                report: &ReportParts {
-                    details: self.paths.in_text(&report.details).into_owned(),
-                    ..report
-                },
+                report: &report,
                 next: &next,
                 short_table: &short_table(score, tasks),
-                rest: &format!("  … the rest: {}", command_for_the_rest(score)),
+                rest: &|task| format!("  … the rest: {}", command_for_the_rest(score, task)),
             };
             self.draw(&page)
         } else {
-            let ReportParts {
-                headline,
-                table,
-                details,
-            } = report;
+            let details = report.details_text();
             let details = self.paths.in_text(&details);
+            let ReportParts {
+                headline, table, ..
+            } = report;
             anstream::print!("\n{headline}{table}{details}\n{next}");
             anstream::println!("{}\n", status.trim());
             Ok(())
         }
     }
 
+    /// Shows the final results again if the terminal has another size than before.
+    pub fn show_if_resized(&self, score: &Score) -> io::Result<()> {
+        if self.term.is_term() && self.term.size() != self.drawn_size.get() {
+            self.show(score, Phase::Waiting, &BTreeSet::new())?;
+        }
+        Ok(())
+    }
+
     /// Draws as much as fits on the screen. Lines are truncated, because a wrapped line would push
     /// the others down.
     fn draw(&self, page: &Page) -> io::Result<()> {
         let (rows, columns) = self.term.size();
+        self.drawn_size.set((rows, columns));
         let columns = usize::from(columns);
         self.term.move_cursor_to(0, 0)?;
         for line in fit(page, usize::from(rows).saturating_sub(1)) {
             self.term.clear_line()?;
             self.term
-                .write_line(&strip_unwanted_colours(&truncate_str(line, columns, "…")))?;
+                .write_line(&strip_unwanted_colours(&truncate_str(&line, columns, "…")))?;
         }
         self.term.clear_to_end_of_screen()?;
         self.term.flush()
     }
 }
 
-/// Returns the command that shows all of what may not fit: the first task that fails.
-fn command_for_the_rest(score: &Score) -> String {
+/// Returns the command that shows all of what does not fit: of this task, or of the first that fails.
+fn command_for_the_rest(score: &Score, task: Option<Task>) -> String {
     let fails = |verdict: &Verdict| !matches!(verdict, Verdict::Pass | Verdict::Pending);
     let mut tasks = score.tasks.iter();
     let failing = tasks.find(|task| task.items.iter().any(|item| fails(&item.verdict)));
-    match failing.or(score.tasks.first()) {
-        Some(task) => score.rerun_command.task(task.id.id()),
+    let first = || failing.or(score.tasks.first()).map(|task| task.id);
+    match task.or_else(first) {
+        Some(task) => score.rerun_command.task(task.id()),
         None => "cargo grade".to_owned(),
     }
 }

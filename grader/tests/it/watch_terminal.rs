@@ -61,6 +61,13 @@ impl Terminal {
         command
     }
 
+    /// Changes the number of rows.
+    fn resize(&self, rows: u32) {
+        let mut tmux = self.tmux();
+        let resized = tmux.args(["resize-window", "-y", &rows.to_string()]);
+        assert!(resized.status().is_ok_and(|status| status.success()));
+    }
+
     /// Returns the screen, with escape sequences for colours.
     fn screen(&self) -> String {
         let captured = self.tmux().args(["capture-pane", "-p", "-e"]).output();
@@ -139,6 +146,33 @@ fn twenty_four_lines_show_a_failing_item_and_the_whole_table() {
         "camera.corners",
         "more items of this task",
     ] {
+        assert!(lines.contains(text), "{text}:\n{lines}");
+    }
+}
+
+#[test]
+fn the_report_is_arranged_again_when_the_terminal_is_resized() {
+    let submission = wrong_camera("resized");
+    let Some(terminal) = Terminal::watch(&submission, 12, "") else {
+        return;
+    };
+    let lines = terminal.lines_of_the_report().join("\n");
+    assert!(!lines.contains("Task 3: boxes"), "{lines}");
+    terminal.resize(24);
+    terminal.wait_for("Task 3: boxes");
+    terminal.resize(12);
+    terminal.wait_for("the rest: cargo grade");
+}
+
+#[test]
+fn the_rest_of_a_second_task_is_shown_by_its_own_command() {
+    let submission =
+        wrong_camera("second").with_replaced("sphere.rs", "distance: t,", "distance: t + 1.0,");
+    let Some(terminal) = Terminal::watch(&submission, 34, "") else {
+        return;
+    };
+    let lines = terminal.lines_of_the_report().join("\n");
+    for text in ["camera.corners", "sphere.", "--task sphere"] {
         assert!(lines.contains(text), "{text}:\n{lines}");
     }
 }

@@ -8,6 +8,7 @@ use std::fmt::{self, Write};
 
 use anstream::adapter::strip_str;
 use anstyle::{AnsiColor, Style};
+use judging::assignment::Task;
 use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::report::failing_items::{explained_items, most_telling_first, with_something_new};
@@ -61,20 +62,35 @@ pub struct ReportParts {
     pub headline: String,
     /// One line for each task.
     pub table: String,
-    /// The compiler's errors and the failing items, each after an empty line.
-    pub details: String,
+    /// The compiler's errors and notes, and each task's failing items, all after empty lines.
+    pub details: Vec<Detail>,
+}
+
+/// A part of a report below its table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Detail {
+    /// The task, if the part is about one.
+    pub task: Option<Task>,
+    /// The text, with an empty line before each item.
+    pub text: String,
+}
+
+impl ReportParts {
+    /// Returns the text below the table.
+    pub fn details_text(&self) -> String {
+        self.details
+            .iter()
+            .map(|detail| detail.text.as_str())
+            .collect()
+    }
 }
 
 /// Renders the report on the selected tasks with ANSI colours, which the output stream strips if
 /// necessary.
 pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String {
     let parts = report_parts(score, tasks, hints, OldResults::default());
-    let ReportParts {
-        headline,
-        table,
-        details,
-    } = parts;
-    format!("\n{headline}{table}{details}\n")
+    let details = parts.details_text();
+    format!("\n{}{}{details}\n", parts.headline, parts.table)
 }
 
 /// Renders the parts of the report. Old results are grey.
@@ -110,7 +126,7 @@ fn write_parts(
         grey_if(is_old(task), &mut line);
         parts.table.push_str(&line);
     }
-    let out = &mut parts.details;
+    let out = &mut String::new();
     // Single-line messages are omitted here, because the items of the task show them.
     let compiler_messages = score
         .build
@@ -126,11 +142,18 @@ fn write_parts(
         writeln!(out, "\n  note: {note}")?;
     }
     grey_if(old.build, out);
+    parts.details.push(Detail {
+        task: None,
+        text: std::mem::take(out),
+    });
     for task in &tasks {
         let mut text = String::new();
         write_failing_items(&mut text, task, score, selection, hints)?;
         grey_if(is_old(task), &mut text);
-        out.push_str(&text);
+        parts.details.push(Detail {
+            task: Some(task.id),
+            text,
+        });
     }
     Ok(())
 }

@@ -91,23 +91,35 @@ fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'s
 
 fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
     let item = exam.items.iter().find(|item| item.id == id);
-    item.ok_or_else(|| {
-        let ids = || exam.items.iter().map(|item| item.id.as_str());
-        let task = id.split('.').next().unwrap_or_default();
-        let of_task: Vec<&str> = ids()
-            .filter(|id| id.split_once('.').is_some_and(|(known, _)| known == task))
-            .collect();
-        let (whose, known) = if of_task.is_empty() {
-            ("the items", ids().collect())
-        } else {
-            ("the items of this task", of_task)
-        };
-        Error::Replay(format!(
-            "the exam has no item `{id}`{}; {whose} are: {}",
-            suggestion(id, ids()),
-            known.join(", ")
-        ))
-    })
+    item.ok_or_else(|| Error::Replay(unknown_item(exam, id)))
+}
+
+/// Returns a message that names the items that may be meant: those of all tasks with this name, or those
+/// of the task.
+fn unknown_item(exam: &Exam, id: &str) -> String {
+    let ids = || exam.items.iter().map(|item| item.id.as_str());
+    let parts = || ids().filter_map(|known| Some((known, known.split_once('.')?)));
+    let of_name: Vec<&str> = parts()
+        .filter(|(_, (_, name))| *name == id)
+        .map(|(known, _)| known)
+        .collect();
+    if !of_name.is_empty() {
+        let names = of_name.join(" or ");
+        return format!("the exam has no item `{id}` (did you mean {names}?)");
+    }
+    let task = id.split('.').next().unwrap_or_default();
+    let of_task: Vec<&str> = parts()
+        .filter(|(_, (of, _))| *of == task)
+        .map(|(known, _)| known)
+        .collect();
+    let (whose, known) = if of_task.is_empty() {
+        ("the items", ids().collect())
+    } else {
+        ("the items of this task", of_task)
+    };
+    let nearest = suggestion(id, ids());
+    let known = known.join(", ");
+    format!("the exam has no item `{id}`{nearest}; {whose} are: {known}")
 }
 
 /// Returns the indices of a question and of an element in it.

@@ -303,6 +303,21 @@ fn replay(submission: &Submission, question: &str) -> String {
 }
 
 #[test]
+fn a_name_without_its_task_suggests_the_items_of_all_tasks() {
+    let error = |name: &str| exit_code_and_error(&["--replay", name]).1;
+    let unnamed = error("from_inside");
+    assert!(
+        unnamed.contains("(did you mean sphere.from_inside or bbox.from_inside?)"),
+        "{unnamed}"
+    );
+    let misspelt = error("sphere.from_insde");
+    assert!(
+        misspelt.contains("(did you mean sphere.from_inside?); the items of this task"),
+        "{misspelt}"
+    );
+}
+
+#[test]
 fn an_unknown_question_lists_the_known_ones() {
     let (code, error) = exit_code_and_error(&["--replay", "sphere.nothing#1"]);
     assert_eq!(code, 2);

@@ -26,12 +26,12 @@ pub enum TaskFileError {
     #[error("{0} is longer than 1 MiB")]
     TooLong(&'static str),
     /// The file is not valid UTF-8.
-    #[error("{name} is not UTF-8 text: byte {byte} is invalid")]
+    #[error("{name} is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8")]
     NotText {
         /// The name of the task file.
         name: &'static str,
-        /// The position of the first invalid byte, counted from 1.
-        byte: usize,
+        /// The line of the first invalid byte, counted from 1.
+        line: usize,
     },
     /// The system cannot read the file.
     #[error("cannot read {name}: {why}")]

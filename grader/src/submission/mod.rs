@@ -217,9 +217,10 @@ fn decode(name: &'static str, bytes: Vec<u8>) -> Result<String, TaskFileError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(TaskFileError::TooLong(name));
     }
-    String::from_utf8(bytes).map_err(|error| TaskFileError::NotText {
-        name,
-        byte: error.utf8_error().valid_up_to() + 1,
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
+        TaskFileError::NotText { name, line }
     })
 }
 

@@ -118,12 +118,13 @@ fn a_file_may_be_as_long_as_the_limit() {
 }
 
 #[test]
-fn bytes_that_are_not_text_are_counted_from_one() {
-    let error = decode("bvh.rs", b"ab\xffc".to_vec()).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "bvh.rs is not UTF-8 text: byte 3 is invalid"
-    );
+fn the_line_of_a_byte_that_is_not_text_is_named() {
+    for (bytes, line) in [(&b"ab\xffc\n"[..], 1), (b"a\nb\n\xff\n", 3)] {
+        let error = decode("bvh.rs", bytes.to_vec()).unwrap_err();
+        let expected =
+            format!("bvh.rs is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8");
+        assert_eq!(error.to_string(), expected);
+    }
 }
 
 #[test]

@@ -41,6 +41,9 @@ pub enum SceneErrorKind {
     /// The text is empty.
     #[error("the scene is empty: it needs at least a camera, materials and shapes")]
     Empty,
+    /// The text is not a JSON object, as in a file of another kind.
+    #[error("this is not a scene: a scene begins with `{{`. scenes/README.md describes the format")]
+    NotAScene,
     /// The file is a mesh.
     #[error(
         "this is a mesh, not a scene. A scene can show it, with this entry in its `shapes`: \

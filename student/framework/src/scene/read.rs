@@ -21,6 +21,11 @@ pub(super) fn scene(
     if text.trim().is_empty() {
         return Err(SceneError::new(None, SceneErrorKind::Empty));
     }
+    let first = text.len() - text.trim_start().len();
+    if !text[first..].starts_with('{') {
+        let position = TextPosition::at_offset(text, first);
+        return Err(SceneError::new(Some(position), SceneErrorKind::NotAScene));
+    }
     let file = parse(text)?;
     let (names, materials): (Vec<String>, Vec<_>) = file.materials.0.into_iter().unzip();
     let index_of = |name: &str| {

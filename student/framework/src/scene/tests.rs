@@ -41,6 +41,15 @@ fn parses_a_scene() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_no_scene() {
+    for (text, position) in [("# Path tracing\n", "1:1"), ("\n  [1, 2]", "2:3")] {
+        let message = problem(text);
+        let expected = format!("scene:{position}: this is not a scene: a scene begins with `{{`. ");
+        assert!(message.starts_with(&expected), "{message}");
+    }
+}
+
+#[test]
 fn reports_the_position_of_an_unknown_key_and_lists_the_known_ones() {
     let shape = SPHERE.replace("radius", "radus");
     let expected = "scene:6:40: unknown key `radus` (did you mean radius?); the keys here are: center, \
@@ -234,7 +243,7 @@ fn reports_the_line_of_truncated_or_invalid_json() {
         truncated.contains("scene:2:") && truncated.contains("a `}` is missing"),
         "{truncated}"
     );
-    assert!(problem("hello").contains("scene:1:1: expected a value"));
+    assert!(problem("{ hello").contains("scene:1:3: "));
     let after = problem(&format!("{}\n]", scene(CAMERA, RED, SPHERE)));
     assert!(
         after.contains("scene:9:1: the scene ends before this"),

@@ -10,6 +10,7 @@ use crate::exams;
 use crate::generated_file::Mode;
 use crate::proof::by_heart::grade_by_heart;
 use crate::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, table};
+use crate::proof::failures::{SeedCounts, THINNEST};
 use crate::proof::{self, failures, matrix};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
@@ -27,17 +28,18 @@ pub(super) fn mistakes(root: &Path, args: &MistakesArgs) -> CommandResult {
         Mode::Write => failures::MANY_SEEDS,
         Mode::Check => failures::FEW_SEEDS,
     };
-    let seeds = args.seeds.unwrap_or(default);
+    let seeds = args.seeds.map_or(default, SeedCounts::of);
     let (failed, catches) = failures::failed_items(&solutions, &practice, seeds)?;
     let thin = catches.problems();
     let caught = failed.fails.len() - thin.len();
     let line = format!(
-        "mistakes {}, clearly caught {caught}, seeds {}",
+        "mistakes {}, clearly caught {caught}, seeds {}; the thinnest {THINNEST}, seeds {}",
         failed.fails.len(),
-        failed.seeds
+        seeds.all,
+        seeds.thinnest
     );
     // Before the files are written, so that they do not count as changes of the commit.
-    record_result(args.record, "mistakes", &written(&(0..seeds)), &line)?;
+    record_result(args.record, "mistakes", &written(&(0..seeds.all)), &line)?;
     let committed = FailedItems::load(root, HANDED_OUT)?;
     if mode == Mode::Check {
         let mut problems = failures::problems(&committed, &failed);

@@ -20,20 +20,41 @@ use crate::solutions::catalogue::Mistake;
 use crate::solutions::failed_items::{self, FailedItems};
 use crate::solutions::workbench::{BuiltSolution, WorkbenchError};
 
-/// The default number of seeds for writing the lists in the repository.
-pub const MANY_SEEDS: u64 = 100;
-/// The default number of seeds for a check, which must be fast.
-pub const FEW_SEEDS: u64 = 1;
-/// The number of mistakes that are caught least clearly, which get as many seeds again.
-const THINNEST: usize = 50;
+/// The default numbers of seeds for writing the lists in the repository.
+pub const MANY_SEEDS: SeedCounts = SeedCounts::of(20);
+/// The default numbers of seeds for a check, which must be fast.
+pub const FEW_SEEDS: SeedCounts = SeedCounts {
+    all: 1,
+    thinnest: 2,
+};
+/// The number of mistakes that are caught least clearly, which are graded with more seeds.
+pub const THINNEST: usize = 50;
 
-/// Determines the items that each mistake fails in the practice exam and in the exams of the seeds
-/// below `seeds`, and how clearly they catch it. The mistakes that are caught least clearly are
-/// asked in the exams of as many seeds again.
+/// The numbers of seeds, counted from 0, whose exams grade the mistakes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SeedCounts {
+    /// The number of seeds for each mistake.
+    pub all: u64,
+    /// The number of seeds for the [`THINNEST`] mistakes that are caught least clearly.
+    pub thinnest: u64,
+}
+
+impl SeedCounts {
+    /// Returns ten times as many seeds for the mistakes that are caught least clearly.
+    pub const fn of(all: u64) -> Self {
+        SeedCounts {
+            all,
+            thinnest: 10 * all,
+        }
+    }
+}
+
+/// Determines the items that each mistake fails in the practice exam and in the exams of the seeds,
+/// and how clearly they catch it. The mistakes that are caught least clearly are graded with more seeds.
 pub fn failed_items(
     solutions: &Solutions,
     practice: &Exam,
-    seeds: u64,
+    seeds: SeedCounts,
 ) -> Result<(FailedItems, Catches), ProofError> {
     let built: Vec<(&Mistake, BuiltSolution)> = solutions
         .mistakes
@@ -41,7 +62,7 @@ pub fn failed_items(
         .map(|(mistake, sources)| Ok((mistake, solutions.workbench.build(sources, &mistake.id)?)))
         .collect::<Result<_, WorkbenchError>>()?;
     let all: Vec<&(&Mistake, BuiltSolution)> = built.iter().collect();
-    let of_seeds = caught_with_seeds(solutions, &all, 0..seeds)?;
+    let of_seeds = caught_with_seeds(solutions, &all, 0..seeds.all)?;
     let of_practice = caught_in(&all, practice)?;
 
     let mut catches = Catches::default();
@@ -60,7 +81,7 @@ pub fn failed_items(
         .iter()
         .filter(|(mistake, _)| thinnest.contains(&mistake.id))
         .collect();
-    for of_exam in caught_with_seeds(solutions, &again, seeds..2 * seeds)? {
+    for of_exam in caught_with_seeds(solutions, &again, seeds.all..seeds.thinnest)? {
         for ((mistake, _), caught) in again.iter().zip(&of_exam) {
             catches.add(&mistake.id, caught);
         }
@@ -76,7 +97,7 @@ pub fn failed_items(
     };
     let fails = built.iter().enumerate();
     let failed = FailedItems {
-        seeds,
+        seeds: seeds.all,
         fails: fails
             .map(|(index, (mistake, _))| (mistake.id.clone(), with_every_seed(index)))
             .collect(),

@@ -25,7 +25,7 @@ use crate::solutions::{Solutions, SolutionsError};
 
 /// Grades all solutions with the exam of one seed. With a seed from which the lists of failed items
 /// come, a mistake must fail all of its items. With any other seed, one of them can pass by luck:
-/// an item that one exam in 200 does not catch is likely to be in a list from 100 seeds.
+/// an item that one exam in 200 does not catch is likely to be in a list from 20 seeds.
 fn prove_seed(
     solutions: &Solutions,
     seed: u64,

@@ -12,7 +12,12 @@ pub const KEPT_STATE: &str = "The same question is answered correctly when it is
 
 /// Returns the clue for an item without an answer.
 pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
-    let TaskInfo { file, method, .. } = task;
+    let TaskInfo {
+        file,
+        method,
+        clues,
+        ..
+    } = task;
     match fault {
         Fault::TimedOut(TimeLimit::Waiting) => format!(
             "Find what `{method}` in {file} waits for: a sleep, a lock, a channel, or input. Nothing in \
@@ -26,10 +31,12 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
             "Find the list that grows in each round of `{method}` in {file}, and what should end its \
              growth."
         ),
-        Fault::Crashed(Crash::StackOverflow) => format!(
-            "Find the call in {file} that can get the same arguments as its caller. If a tree is built, \
-             `--replay` names the fewest primitives that still overflow the stack."
-        ),
+        Fault::Crashed(Crash::StackOverflow) => match clues.if_stack_overflows {
+            Some(clue) => clue.to_owned(),
+            None => {
+                format!("Find the call in {file} that can get the same arguments as its caller.")
+            }
+        },
         Fault::Crashed(Crash::Exited(_)) => {
             format!("Look in {file} for `std::process::exit`: a method must return or panic.")
         }
@@ -55,4 +62,24 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              should be returned then?"
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handed_out::RAYS;
+
+    #[test]
+    fn a_stack_overflow_in_a_build_leads_to_the_split() {
+        let clue = |task: &str| {
+            let task = RAYS.assignment.find(task).unwrap();
+            of_fault(&Fault::Crashed(Crash::StackOverflow), task)
+        };
+        let build = clue("build");
+        assert!(build.contains("one side of its split is empty"), "{build}");
+        assert_eq!(
+            clue("traverse"),
+            "Find the call in bvh.rs that can get the same arguments as its caller."
+        );
+    }
 }

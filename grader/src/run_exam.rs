@@ -167,7 +167,11 @@ fn explain_items(
             if observations.misses_everything() {
                 add_clue(
                     line,
-                    handed_out.assignment.info(item.task).if_nothing_is_hit,
+                    handed_out
+                        .assignment
+                        .info(item.task)
+                        .clues
+                        .if_nothing_is_hit,
                 );
             }
         }
@@ -355,7 +359,7 @@ mod tests {
             ..pending(&exam).items().next().unwrap().clone()
         };
         let bbox = RAYS.assignment.find("bbox").unwrap();
-        let clue = bbox.if_nothing_is_hit.map(str::to_owned);
+        let clue = bbox.clues.if_nothing_is_hit.map(str::to_owned);
         assert!(clue.is_some());
         assert_eq!(clues(3, &miss, &wrong), clue);
         assert_eq!(clues(2, &miss, &wrong), None);

@@ -19,7 +19,7 @@ use grader::options::{Dependents, GradeOptions};
 use grader::sandbox::Isolation;
 use grader::score::Score;
 use grader::select_isolation::IsolationRequest;
-use judging::assignment::{Assignment, TaskInfo};
+use judging::assignment::{Assignment, TaskClues, TaskInfo};
 use judging::drawing_data::DrawingData;
 use judging::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key};
 use judging::signatures::MistakeSignatures;
@@ -39,7 +39,7 @@ static TASKS: Assignment = Assignment {
             file: "ball.rs",
             method: "hit",
             points: 40,
-            if_nothing_is_hit: None,
+            clues: TaskClues::NONE,
         },
         TaskInfo {
             id: "slab",
@@ -47,7 +47,7 @@ static TASKS: Assignment = Assignment {
             file: "slab.rs",
             method: "hit",
             points: 20,
-            if_nothing_is_hit: None,
+            clues: TaskClues::NONE,
         },
         TaskInfo {
             id: "nearest",
@@ -55,7 +55,7 @@ static TASKS: Assignment = Assignment {
             file: "slab.rs",
             method: "nearest",
             points: 40,
-            if_nothing_is_hit: None,
+            clues: TaskClues::NONE,
         },
     ],
     render: None,

@@ -46,9 +46,26 @@ pub struct TaskInfo {
     pub method: &'static str,
     /// The total points of the task's items.
     pub points: u32,
-    /// The advice for code with which not one ray hits anything. `None` if the task has no rays that can
-    /// hit something.
+    /// The clues for failures that say little by themselves.
+    pub clues: TaskClues,
+}
+
+/// Clues to what is wrong with a task's code, for failures that say little by themselves.
+#[derive(Debug, PartialEq, Eq)]
+pub struct TaskClues {
+    /// For code with which not one ray hits anything. `None` if the task has no rays that can hit
+    /// something.
     pub if_nothing_is_hit: Option<&'static str>,
+    /// For code that overflows the stack. `None` if nothing is known of the recursion.
+    pub if_stack_overflows: Option<&'static str>,
+}
+
+impl TaskClues {
+    /// No clues.
+    pub const NONE: TaskClues = TaskClues {
+        if_nothing_is_hit: None,
+        if_stack_overflows: None,
+    };
 }
 
 /// The id of a task, such as `sphere`. Its assignment resolves it to a [`TaskInfo`].

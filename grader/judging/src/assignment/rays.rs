@@ -1,6 +1,6 @@
 //! The assignment `rays`.
 
-use super::{Assignment, TaskInfo};
+use super::{Assignment, TaskClues, TaskInfo};
 
 /// Tasks 1 to 3, after the slides "A3: PathTracing", tasks 1 to 3.
 pub static RAYS: Assignment = Assignment {
@@ -23,7 +23,7 @@ pub static RAYS: Assignment = Assignment {
             file: "camera.rs",
             method: "sample_ray",
             points: 15,
-            if_nothing_is_hit: None,
+            clues: TaskClues::NONE,
         },
         TaskInfo {
             id: "triangle",
@@ -31,12 +31,7 @@ pub static RAYS: Assignment = Assignment {
             file: "triangle.rs",
             method: "hit",
             points: 20,
-            if_nothing_is_hit: Some(
-                "Not one ray hits a triangle, so find what is wrong for every ray. Work out u, v, \
-                 1 − u − v and t by hand for the ray shown, and compare them with those in your code. If \
-                 several have the wrong sign, look at s, at the operands of each cross product, and at \
-                 the two minus signs.",
-            ),
+            clues: TRIANGLE_CLUES,
         },
         TaskInfo {
             id: "sphere",
@@ -44,11 +39,7 @@ pub static RAYS: Assignment = Assignment {
             file: "sphere.rs",
             method: "hit",
             points: 15,
-            if_nothing_is_hit: Some(
-                "Not one ray hits a sphere, so find what is wrong for every ray. Work out b, c, the \
-                 discriminant and both roots by hand for the ray shown, and compare them with those in \
-                 your code. Then see which comparison rejects both roots.",
-            ),
+            clues: SPHERE_CLUES,
         },
         TaskInfo {
             id: "bbox",
@@ -56,11 +47,7 @@ pub static RAYS: Assignment = Assignment {
             file: "bbox.rs",
             method: "hit",
             points: 10,
-            if_nothing_is_hit: Some(
-                "Not one ray hits a box, so find what is wrong for every ray. Work out by hand, for \
-                 the ray shown and each axis, when it enters the slab and when it leaves it. Which of \
-                 these times are different in your code, and which comparison rejects them?",
-            ),
+            clues: BBOX_CLUES,
         },
         TaskInfo {
             id: "build",
@@ -68,7 +55,7 @@ pub static RAYS: Assignment = Assignment {
             file: "bvh.rs",
             method: "build",
             points: 20,
-            if_nothing_is_hit: None,
+            clues: BUILD_CLUES,
         },
         TaskInfo {
             id: "traverse",
@@ -76,13 +63,56 @@ pub static RAYS: Assignment = Assignment {
             file: "bvh.rs",
             method: "hit",
             points: 20,
-            if_nothing_is_hit: Some(
-                "Not one ray hits anything, so find what is wrong for every ray. Follow the ray shown \
-                 from the root. Does your code enter the boxes that it hits, and test all primitives of \
-                 the leaves? Is a hit that it finds kept, compared the right way round, and returned?",
-            ),
+            clues: TRAVERSE_CLUES,
         },
     ],
     render: Some("cargo render cornell-box"),
     challenge: Some("traversal.md#a-challenge"),
+};
+
+const TRIANGLE_CLUES: TaskClues = TaskClues {
+    if_nothing_is_hit: Some(
+        "Not one ray hits a triangle, so find what is wrong for every ray. Work out u, v, 1 − u − \
+         v and t by hand for the ray shown, and compare them with those in your code. If several \
+         have the wrong sign, look at s, at the operands of each cross product, and at the two \
+         minus signs.",
+    ),
+    ..TaskClues::NONE
+};
+
+const SPHERE_CLUES: TaskClues = TaskClues {
+    if_nothing_is_hit: Some(
+        "Not one ray hits a sphere, so find what is wrong for every ray. Work out b, c, the \
+         discriminant and both roots by hand for the ray shown, and compare them with those in \
+         your code. Then see which comparison rejects both roots.",
+    ),
+    ..TaskClues::NONE
+};
+
+const BBOX_CLUES: TaskClues = TaskClues {
+    if_nothing_is_hit: Some(
+        "Not one ray hits a box, so find what is wrong for every ray. Work out by hand, for the \
+         ray shown and each axis, when it enters the slab and when it leaves it. Which of these \
+         times are different in your code, and which comparison rejects them?",
+    ),
+    ..TaskClues::NONE
+};
+
+const BUILD_CLUES: TaskClues = TaskClues {
+    if_stack_overflows: Some(
+        "Find the call in bvh.rs that gets as many primitives as its caller. Either that node \
+         should have become a leaf, or one side of its split is empty: do you count the two sides \
+         by the same rule by which you move the primitives? `--replay` names the fewest \
+         primitives that still overflow the stack.",
+    ),
+    ..TaskClues::NONE
+};
+
+const TRAVERSE_CLUES: TaskClues = TaskClues {
+    if_nothing_is_hit: Some(
+        "Not one ray hits anything, so find what is wrong for every ray. Follow the ray shown \
+         from the root. Does your code enter the boxes that it hits, and test all primitives of \
+         the leaves? Is a hit that it finds kept, compared the right way round, and returned?",
+    ),
+    ..TaskClues::NONE
 };

@@ -3,7 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use grader::error::Error;
 use grader::handed_out::{HandedOut, RAYS};
@@ -43,6 +43,38 @@ impl SubmissionGrader for FailingGrader {
     ) -> Result<(Score, String), Error> {
         self.asked.fetch_add(1, Ordering::Relaxed);
         Err(Error::Probe(io::Error::other("no\u{1b} program")))
+    }
+}
+
+/// A grader that looks at the stored result of entry `a` while it grades.
+struct WatchingGrader<'a> {
+    inner: FailingGrader,
+    store: &'a Store,
+    has_result: AtomicBool,
+}
+
+impl SubmissionGrader for WatchingGrader<'_> {
+    fn handed_out(&self) -> &'static HandedOut {
+        self.inner.handed_out()
+    }
+
+    fn policy(&self) -> &Policy {
+        self.inner.policy()
+    }
+
+    fn settings(&self) -> Result<Settings, Error> {
+        self.inner.settings()
+    }
+
+    fn grade(
+        &self,
+        submission: &Submission,
+        files: &mut ReportFiles,
+        show_status: &dyn Fn(&str),
+    ) -> Result<(Score, String), Error> {
+        let has_result = self.store.result("a").unwrap().is_some();
+        self.has_result.fetch_or(has_result, Ordering::Relaxed);
+        self.inner.grade(submission, files, show_status)
     }
 }
 
@@ -118,6 +150,31 @@ fn a_submission_with_a_valid_score_is_not_graded_again() {
     let found = entry_grader.grade(0, &entry).unwrap();
     assert_eq!(found.score(), None);
     assert_eq!(store.replaced_score("a").unwrap().unwrap().points, 80);
+}
+
+/// Otherwise a run that is killed between two files of an entry would leave an old stamp beside a new
+/// score, which would count if the submission became the old one again.
+#[test]
+fn an_entry_has_no_result_while_it_is_graded_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::new(&folder.path().join("out"));
+    store.save_graded(&result("a", &["Ann"], graded(80)), "old key", 1);
+    assert!(store.result("a").unwrap().is_some());
+    let run = run();
+    let grader = WatchingGrader {
+        inner: FailingGrader::default(),
+        store: &store,
+        has_result: AtomicBool::new(false),
+    };
+    let entry_grader = EntryGrader {
+        grader: &grader,
+        store: &store,
+        run: &run,
+        progress: &Progress::new(1, 1),
+    };
+    entry_grader.grade(0, &written("a", folder.path())).unwrap();
+    assert_eq!(grader.inner.asked.load(Ordering::Relaxed), ATTEMPTS);
+    assert!(!grader.has_result.load(Ordering::Relaxed));
 }
 
 #[test]

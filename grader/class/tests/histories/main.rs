@@ -3,8 +3,9 @@
 //! full and processes do not start. After each step the files must be such as a model allows, and
 //! runs that end well give the same bytes as a run in a new folder.
 //!
-//! `cargo test -p class --test histories` runs 100 histories, with `-- --count 10000` more, and with
-//! `-- --seed 17` the one with this seed. No submission is compiled: scores are recorded.
+//! `cargo test -p class --test histories` runs 100 histories until one is lost, with `-- --count 10000`
+//! more, all of them, and with `-- --seed 17` the one with this seed. No submission is compiled: scores
+//! are recorded.
 
 mod comparison;
 mod faulty_disk;
@@ -22,12 +23,15 @@ use std::thread;
 
 use clap::Parser;
 
+/// The number of histories in a run of the tests.
+const DEFAULT_COUNT: u64 = 100;
+
 /// Runs random histories of a class.
 #[derive(Clone, Debug, Parser)]
 struct Arguments {
-    /// Number of histories
-    #[arg(long, default_value_t = 100)]
-    count: u64,
+    /// Number of histories, which are all run; default: up to 100, until one is lost
+    #[arg(long)]
+    count: Option<u64>,
     /// Seed of the first history
     #[arg(long, default_value_t = 0)]
     from: u64,
@@ -43,6 +47,9 @@ struct Arguments {
     /// Run the histories in this process, and write what is lost into this file
     #[arg(long, hide = true)]
     report: Option<PathBuf>,
+    /// End when a history is lost
+    #[arg(long, hide = true)]
+    until_lost: bool,
     /// Words that test runners add
     #[arg(hide = true)]
     _words: Vec<String>,
@@ -52,12 +59,13 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let seeds = match arguments.seed {
         Some(seed) => seed..seed + 1,
-        None => arguments.from..arguments.from + arguments.count,
+        None => arguments.from..arguments.from + arguments.count.unwrap_or(DEFAULT_COUNT),
     };
+    let until_lost = arguments.until_lost || arguments.count.is_none();
     match &arguments.report {
-        Some(report) => run_here(seeds, report),
+        Some(report) => run_here(seeds, report, arguments.until_lost),
         None => {
-            let result = run_in_processes(&seeds, arguments.jobs);
+            let result = run_in_processes(&seeds, arguments.jobs, until_lost);
             if arguments.record && !record(&seeds, &result) {
                 return ExitCode::FAILURE;
             }
@@ -72,11 +80,12 @@ fn main() -> ExitCode {
 
 /// Runs histories in this process. The commands print as they do for people, so the process
 /// that starts this one ignores its output.
-fn run_here(seeds: Range<u64>, report: &Path) -> ExitCode {
+fn run_here(seeds: Range<u64>, report: &Path, until_lost: bool) -> ExitCode {
     faulty_disk::install();
     let lost = seeds.filter_map(|seed| Some((seed, history::run(seed).err()?)));
     let lost = lost.map(|(seed, what)| format!("\0history {seed}: {what}\n"));
-    fs::write(report, lost.collect::<String>()).unwrap();
+    let most = if until_lost { 1 } else { usize::MAX };
+    fs::write(report, lost.take(most).collect::<String>()).unwrap();
     ExitCode::SUCCESS
 }
 
@@ -104,7 +113,7 @@ fn record(seeds: &Range<u64>, result: &str) -> bool {
 }
 
 /// Runs histories in several processes, prints what is lost, and returns the closing line.
-fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> String {
+fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>, until_lost: bool) -> String {
     let cores = || thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
     let count = seeds.end - seeds.start;
     let jobs = jobs.unwrap_or_else(cores).clamp(1, count.max(1));
@@ -117,6 +126,7 @@ fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> String {
             .args(["--from", &from.to_string(), "--count", &count.to_string()])
             .arg("--report")
             .arg(report(job))
+            .args(until_lost.then_some("--until-lost"))
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
@@ -125,9 +135,14 @@ fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> String {
     let children: Vec<Child> = (0..jobs).map(start).collect();
     let mut lost = Vec::new();
     for (job, mut child) in (0..).zip(children) {
+        if until_lost && !lost.is_empty() {
+            // It may have ended by itself.
+            let _ = child.kill();
+        }
         let status = child.wait().unwrap();
         match fs::read_to_string(report(job)) {
             Ok(text) => lost.extend(text.split('\0').skip(1).map(str::to_owned)),
+            Err(_) if until_lost && !lost.is_empty() => {}
             Err(_) => lost.push(format!(
                 "a process ended with {status}: run fewer histories\n"
             )),
@@ -139,7 +154,16 @@ fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>) -> String {
     if !lost.is_empty() {
         println!("`cargo test -p class --test histories -- --seed NUMBER` repeats one");
     }
-    let result = format!("histories {}, lost {}", in_thousands(count), lost.len());
+    let more = if until_lost && !lost.is_empty() {
+        " or more"
+    } else {
+        ""
+    };
+    let result = format!(
+        "histories {}, lost {}{more}",
+        in_thousands(count),
+        lost.len()
+    );
     println!("{result}");
     result
 }

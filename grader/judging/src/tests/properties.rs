@@ -175,12 +175,12 @@ fn with_ray(answer: &mut Answer, index: usize, change: impl Fn(&mut Ray)) {
     }
 }
 
-/// Pictures are few of the questions, so random ones would hardly meet them.
+/// Pictures are few of the questions, so random ones would hardly meet them. One of each kind is enough.
 #[test]
 fn pictures_are_measured_and_masked_as_they_are_judged() {
     let mut kinds = BTreeSet::new();
     for (question, own) in QUESTIONS.iter() {
-        if mismatches(question, own).is_none() {
+        if mismatches(question, own).is_none() || !kinds.insert(kind_of_picture(own)) {
             continue;
         }
         let all = count(own);
@@ -203,14 +203,12 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
             assert_eq!(mask.iter().flatten().count(), wrong);
         }
         let mut short = own.clone();
-        kinds.insert(match &mut short {
-            Answer::Rays(rays) => rays.pop().map(|_| "rays"),
-            Answer::Hits(hits) => hits.pop().map(|_| "first hits"),
-            Answer::Picture(ElementOutcome::Value(pixels)) => pixels.pop().map(|_| "radiance"),
-            Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {
-                panic!("this is no picture: {own:?}")
-            }
-        });
+        match &mut short {
+            Answer::Rays(rays) => drop(rays.pop()),
+            Answer::Hits(hits) => drop(hits.pop()),
+            Answer::Picture(ElementOutcome::Value(pixels)) => drop(pixels.pop()),
+            Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {}
+        }
         assert_eq!(judge(question, &short).credit, Credit::NONE);
         let measured = measure(question, &short);
         assert!(
@@ -220,8 +218,18 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
         );
         assert_eq!(mismatches(question, &short), None);
     }
-    let all = ["first hits", "radiance", "rays"].map(Some);
-    assert_eq!(Vec::from_iter(kinds), all);
+    assert_eq!(Vec::from_iter(kinds), ["first hits", "radiance", "rays"]);
+}
+
+fn kind_of_picture(answer: &Answer) -> &'static str {
+    match answer {
+        Answer::Rays(_) => "rays",
+        Answer::Hits(_) => "first hits",
+        Answer::Picture(ElementOutcome::Value(_)) => "radiance",
+        Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {
+            panic!("this is no picture: {answer:?}")
+        }
+    }
 }
 
 proptest! {

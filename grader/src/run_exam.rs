@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io;
 use std::time::Instant;
 
-use judging::assignment::Task;
+use judging::assignment::{Task, TaskInfo};
 use judging::exam::{Exam, Item};
 use judging::recognise::Observations;
 use protocol::Answer;
@@ -164,18 +164,20 @@ fn explain_items(
         };
         if let Some(item) = exam.items.iter().find(|item| item.id == line.id) {
             add_hints(line, &observations.explain(exam, item));
-            if observations.misses_everything() {
-                add_clue(
-                    line,
-                    handed_out
-                        .assignment
-                        .info(item.task)
-                        .clues
-                        .if_nothing_is_hit,
-                );
+            let info = handed_out.assignment.info(item.task);
+            let of_task = exam.items.iter().filter(|other| other.task == item.task);
+            if has_whole_task(exam, info) && observations.misses_everything(of_task) {
+                add_clue(line, info.clues.if_nothing_is_hit);
             }
         }
     }
+}
+
+/// Returns whether an exam has all items of a task. After a save, the items that failed before are graded
+/// first, and rays of the others may hit something.
+fn has_whole_task(exam: &Exam, info: &TaskInfo) -> bool {
+    let items = exam.items.iter().filter(|item| item.task == info.task());
+    items.map(|item| item.points).sum::<u32>() == info.points
 }
 
 /// Returns whether a hint is possible: there is a wrong answer, or a known reason why there is no
@@ -331,8 +333,9 @@ mod tests {
 
     #[test]
     fn a_clue_says_that_not_one_ray_hits_unless_a_hint_says_more() {
-        let mut exam = exam(&["bbox.flat", "bbox.behind", "bbox.clipped"]);
-        for item in &mut exam.items {
+        let mut whole = exam(&["bbox.flat", "bbox.behind", "bbox.clipped", "bbox.slabs"]);
+        for (item, points) in whole.items.iter_mut().zip([4, 2, 2, 2]) {
+            item.points = points;
             item.questions = vec![boxes(3)];
             item.questions[0].key = Key::Spans {
                 spans: vec![Some(Interval::AHEAD); 3],
@@ -344,37 +347,43 @@ mod tests {
             message: "x".to_owned(),
             location: String::new(),
         });
-        let clues = |items: usize, last: &ElementOutcome<Option<Interval>>, line: &ItemScore| {
+        // Returns the clue in a line, if some items are answered with two misses and `last`.
+        let clue_in = |line: &ItemScore, exam: &Exam, answered: usize, last: &ElementOutcome<_>| {
             let mut observations = Observations::default();
-            for item in &exam.items[..items] {
+            for item in &whole.items[..answered] {
                 let spans = vec![miss.clone(), miss.clone(), last.clone()];
                 observations.record(item, Ok(&[Answer::Spans(spans)]));
             }
             let mut lines = [line.clone()];
-            explain_items(&exam, &mut lines, &observations, None, &RAYS);
+            explain_items(exam, &mut lines, &observations, None, &RAYS);
             lines[0].clue.clone()
         };
         let wrong = ItemScore {
             verdict: Verdict::Wrong,
-            ..pending(&exam).items().next().unwrap().clone()
+            ..pending(&whole).items().next().unwrap().clone()
         };
         let bbox = RAYS.assignment.find("bbox").unwrap();
         let clue = bbox.clues.if_nothing_is_hit.map(str::to_owned);
         assert!(clue.is_some());
-        assert_eq!(clues(3, &miss, &wrong), clue);
-        assert_eq!(clues(2, &miss, &wrong), None);
-        assert_eq!(clues(3, &hit, &wrong), None);
-        assert_eq!(clues(3, &panicked, &wrong), None);
+        assert_eq!(clue_in(&wrong, &whole, 4, &miss), clue);
+        assert_eq!(clue_in(&wrong, &whole, 4, &hit), None);
+        assert_eq!(clue_in(&wrong, &whole, 4, &panicked), None);
+        // What is not answered, or not asked, may be a hit.
+        assert_eq!(clue_in(&wrong, &whole, 3, &miss), None);
+        let mut some = whole.clone();
+        some.items.pop();
+        assert_eq!(clue_in(&wrong, &some, 3, &miss), None);
+
         let timed_out = ItemScore {
             verdict: Verdict::TimedOut,
             ..wrong.clone()
         };
-        assert_eq!(clues(3, &miss, &timed_out), None);
+        assert_eq!(clue_in(&timed_out, &whole, 4, &miss), None);
         let with_clue = ItemScore {
             clue: Some("kept".to_owned()),
             ..wrong.clone()
         };
-        assert_eq!(clues(3, &miss, &with_clue), with_clue.clue);
+        assert_eq!(clue_in(&with_clue, &whole, 4, &miss), with_clue.clue);
         // A hint of a known mistake says more than the clue.
         let mut hinted = wrong;
         hinted.hints = vec![Hint {

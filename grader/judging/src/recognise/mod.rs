@@ -35,7 +35,7 @@ const MIN_ITEMS_WITHOUT_HITS: usize = 3;
 pub struct Observations {
     /// The answers to the signature elements of each item, by item id.
     answers: BTreeMap<String, Vec<ObservedAnswer>>,
-    /// The number of items in which a ray should hit something.
+    /// The number of answered items in which a ray should hit something.
     items_to_hit: usize,
     /// Whether there is any answer other than that a ray misses.
     has_other_than_miss: bool,
@@ -68,9 +68,11 @@ impl Observations {
         self.answers.insert(item.id.clone(), observed);
     }
 
-    /// Returns whether not one ray hits anything, of those to several items.
-    pub fn misses_everything(&self) -> bool {
-        !self.has_other_than_miss && self.items_to_hit >= MIN_ITEMS_WITHOUT_HITS
+    /// Returns whether all of a task's items were answered, and not one ray hits anything.
+    pub fn misses_everything<'a>(&self, items: impl IntoIterator<Item = &'a Item>) -> bool {
+        let to_hit = items.into_iter().filter(|item| can_be_hit(item)).count();
+        let all_answered = self.items_to_hit == to_hit;
+        all_answered && to_hit >= MIN_ITEMS_WITHOUT_HITS && !self.has_other_than_miss
     }
 
     /// Returns the known mistakes that explain an item. There are several if the answers do not

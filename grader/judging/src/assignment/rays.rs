@@ -74,8 +74,8 @@ const TRIANGLE_CLUES: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
         "Not one ray hits a triangle, so find what is wrong for every ray. Work out u, v, 1 − u − \
          v and t by hand for the ray shown, and compare them with those in your code. If several \
-         have the wrong sign, look at s, at the operands of each cross product, and at the two \
-         minus signs.",
+         have the wrong sign, look at s, at the operands of each cross product, and at the \
+         formula's two minus signs.",
     ),
     ..TaskClues::NONE
 };

@@ -4,12 +4,14 @@
 use std::path::Path;
 
 use grader::files::{self, PathError};
-use toml_edit::{Array, DocumentMut, Item, TomlError};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, TomlError, value};
 
 use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
+/// The manifest of the only crate whose tests are in the bundle: the worked examples.
+const STUDENT_MANIFEST: &str = "student/Cargo.toml";
 /// The manifest keys that are only for tests and benches, which are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
@@ -45,12 +47,15 @@ pub enum ManifestError {
 /// staff. Also trims the manifests that are already in the bundle.
 pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), ManifestError> {
     let text = |path: &str| files::read_to_string(root.join(path));
-    bundle.insert("student/Cargo.toml", text("student/Cargo.toml")?);
+    bundle.insert(STUDENT_MANIFEST, text(STUDENT_MANIFEST)?);
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
     for path in paths.iter().filter(|path| path.ends_with("Cargo.toml")) {
         let mut manifest = parse(path, bundle.text(path).unwrap_or_default())?;
         for key in TEST_KEYS {
             manifest.remove(key);
+        }
+        if path != STUDENT_MANIFEST {
+            leave_out_tests(&mut manifest);
         }
         // Default features exist only for staff commands.
         if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_mut) {
@@ -83,6 +88,20 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     aliases.retain(|name, _| ALIASES.contains(&name));
     bundle.insert(path, config.to_string());
     Ok(())
+}
+
+/// Says that a crate has no tests and benches. What is left of its tests does not compile, and editors
+/// compile them after each save.
+fn leave_out_tests(manifest: &mut DocumentMut) {
+    let programs = manifest.get_mut("bin");
+    let programs = programs.and_then(Item::as_array_of_tables_mut);
+    for program in programs.into_iter().flat_map(ArrayOfTables::iter_mut) {
+        program["test"] = value(false);
+        program["bench"] = value(false);
+    }
+    let lib = manifest.entry("lib").or_insert_with(toml_edit::table);
+    lib["test"] = value(false);
+    lib["bench"] = value(false);
 }
 
 /// Keeps the workspace members that are in the bundle.

@@ -1,6 +1,6 @@
 //! Checks a bundle's archive as a student would use it: unpacks it with an empty home directory,
-//! runs the commands that its documents show, and grades the starter (0 points) and the reference
-//! (100).
+//! compiles it as an editor does, runs the commands that its documents show, and grades the starter
+//! (0 points) and the reference (100).
 
 mod home;
 mod shell_commands;
@@ -23,6 +23,15 @@ use crate::bundle::{Bundle, archive};
 const TEST_FOLDER: &str = "target/bundle";
 /// The documents whose commands are run.
 const DOCUMENTS: [&str; 2] = ["README.md", "handout/src/start.md"];
+/// The command that editors run when a folder is opened and after each save. A fresh bundle has no errors
+/// and no warnings.
+const EDITOR_COMMAND: [&str; 5] = [
+    "cargo",
+    "check",
+    "--workspace",
+    "--all-targets",
+    "--keep-going",
+];
 /// The score file that `cargo grade` writes, relative to the unpacked folder.
 const SCORE_FILE: &str = "target/grade/student/score.json";
 
@@ -77,6 +86,12 @@ pub fn check(
     let commands =
         shell_commands::commands(DOCUMENTS.into_iter().filter_map(|path| unpacked.text(path)));
     let mut problems = Vec::new();
+    let editor = EDITOR_COMMAND.map(str::to_owned).to_vec();
+    for run in run_commands(&[editor], &home, &folder)? {
+        if run.code != Some(0) || run.stderr.contains("warning: ") {
+            problems.push(run.problem("the starter"));
+        }
+    }
     for run in run_commands(&commands, &home, &folder)? {
         // The stubs make `cargo examples` exit with code 101, and `cargo render` with code 1.
         let is_expected = matches!(run.code, Some(0 | 1 | 101));

@@ -88,7 +88,8 @@ pub fn check(
     let mut problems = Vec::new();
     let editor = EDITOR_COMMAND.map(str::to_owned).to_vec();
     for run in run_commands(&[editor], &home, &folder)? {
-        if run.code != Some(0) || run.stderr.contains("warning: ") {
+        // Not any warning: cargo also warns before it repeats a download.
+        if run.code != Some(0) || run.stderr.contains(" generated ") {
             problems.push(run.problem("the starter"));
         }
     }

@@ -243,7 +243,7 @@ fn reports_the_line_of_truncated_or_invalid_json() {
         truncated.contains("scene:2:") && truncated.contains("a `}` is missing"),
         "{truncated}"
     );
-    assert!(problem("{ hello").contains("scene:1:3: "));
+    assert!(problem("{ \"camera\": hello").contains("scene:1:13: expected a value"));
     let after = problem(&format!("{}\n]", scene(CAMERA, RED, SPHERE)));
     assert!(
         after.contains("scene:9:1: the scene ends before this"),

@@ -114,13 +114,13 @@ fn code_that_hits_nothing_is_told_what_to_compare_for_every_ray() {
         "let s = ray.origin - self.p0.position;",
         "let s = self.p0.position - ray.origin;",
     );
-    let swapped = (
+    let too_late = (
         "bbox.rs",
         "if enter > times.min { enter } else { times.min },",
         "if leave > times.min { leave } else { times.min } + 1e6,",
     );
-    // With a hit among the misses, something else is wrong than with every ray.
-    let one_hits = (
+    // With hits among the misses, something else is wrong than with every ray.
+    let some_hit = (
         "sphere.rs",
         "let t = [near, far].into_iter().find(|&t| ray.range.contains(t))?;",
         "let t = [near, far].into_iter().find(|&t| t > 5.0)?;",
@@ -134,6 +134,6 @@ fn code_that_hits_nothing_is_told_what_to_compare_for_every_ray() {
         not_one.count()
     };
     assert!(not_one(reversed) > 10);
-    assert_eq!(not_one(swapped), 10);
-    assert_eq!(not_one(one_hits), 0);
+    assert_eq!(not_one(too_late), 10);
+    assert_eq!(not_one(some_hit), 0);
 }

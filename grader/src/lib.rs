@@ -34,6 +34,7 @@ pub mod doctor;
 pub mod drawing;
 pub mod error;
 pub mod exam_source;
+mod explain;
 pub mod files;
 pub mod format;
 pub mod given_files;

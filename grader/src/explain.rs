@@ -61,7 +61,7 @@ mod tests {
     use judging::exam::Key;
     use judging::observe::observe;
     use judging::signatures::{KnownMistake, MistakeAnswers};
-    use protocol::{Answer, ElementOutcome, Interval, Panic};
+    use protocol::{Answer, ElementOutcome, Interval};
 
     use super::*;
     use crate::handed_out::RAYS;
@@ -126,14 +126,10 @@ mod tests {
         }
         let miss = ElementOutcome::Value(None);
         let hit = ElementOutcome::Value(Some(Interval::AHEAD));
-        let panicked = ElementOutcome::Panicked(Panic {
-            message: "x".to_owned(),
-            location: String::new(),
-        });
-        // Returns the clue in a line, if some items are answered with two misses and `last`.
-        let clue_in = |line: &ItemScore, exam: &Exam, answered: usize, last: &ElementOutcome<_>| {
+        // Returns the clue in a line, if all items are answered with two misses and `last`.
+        let clue_in = |line: &ItemScore, exam: &Exam, last: &ElementOutcome<_>| {
             let mut observations = Observations::default();
-            for item in &whole.items[..answered] {
+            for item in &exam.items {
                 let spans = vec![miss.clone(), miss.clone(), last.clone()];
                 observations.record(item, Ok(&[Answer::Spans(spans)]));
             }
@@ -148,25 +144,23 @@ mod tests {
         let bbox = RAYS.assignment.find("bbox").unwrap();
         let clue = bbox.clues.if_nothing_is_hit.map(str::to_owned);
         assert!(clue.is_some());
-        assert_eq!(clue_in(&wrong, &whole, 4, &miss), clue);
-        assert_eq!(clue_in(&wrong, &whole, 4, &hit), None);
-        assert_eq!(clue_in(&wrong, &whole, 4, &panicked), None);
-        // What is not answered, or not asked, may be a hit.
-        assert_eq!(clue_in(&wrong, &whole, 3, &miss), None);
+        assert_eq!(clue_in(&wrong, &whole, &miss), clue);
+        assert_eq!(clue_in(&wrong, &whole, &hit), None);
+        // What is not asked may be a hit.
         let mut some = whole.clone();
         some.items.pop();
-        assert_eq!(clue_in(&wrong, &some, 3, &miss), None);
+        assert_eq!(clue_in(&wrong, &some, &miss), None);
 
         let timed_out = ItemScore {
             verdict: Verdict::TimedOut,
             ..wrong.clone()
         };
-        assert_eq!(clue_in(&timed_out, &whole, 4, &miss), None);
+        assert_eq!(clue_in(&timed_out, &whole, &miss), None);
         let with_clue = ItemScore {
             clue: Some("kept".to_owned()),
             ..wrong.clone()
         };
-        assert_eq!(clue_in(&with_clue, &whole, 4, &miss), with_clue.clue);
+        assert_eq!(clue_in(&with_clue, &whole, &miss), with_clue.clue);
         // A hint of a known mistake says more than the clue.
         let mut hinted = wrong;
         hinted.hints = vec![Hint {

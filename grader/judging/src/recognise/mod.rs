@@ -97,7 +97,8 @@ impl Observations {
     }
 }
 
-/// Returns whether one of an item's rays hits something, if the answers are correct.
+/// Returns whether one of an item's rays hits something, if the answers are correct. A picture does not
+/// count: it needs other tasks too, and may lack an answer because of them.
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
         Key::Hits { hits, .. } => hits.iter().any(Option::is_some),

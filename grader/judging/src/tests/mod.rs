@@ -2,6 +2,7 @@
 
 mod answers;
 mod exams;
+mod misses;
 mod properties;
 
 use std::path::Path;

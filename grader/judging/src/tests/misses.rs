@@ -1,0 +1,110 @@
+//! Code that hits nothing, in each task of the practice exam.
+
+use protocol::{Answer, ElementOutcome, Question};
+
+use super::EXAM;
+use super::answers::{Error, keys_answer};
+use crate::assignment::{RAYS, TaskInfo};
+use crate::exam::{ExamQuestion, Item, Key};
+use crate::recognise::Observations;
+use crate::signatures::NoAnswerReason;
+
+/// Returns an item's correct answers. A tree has none, and does not matter here.
+fn right(item: &Item) -> Vec<Answer> {
+    let answers = item.questions.iter().map(keys_answer);
+    answers.map(|own| own.unwrap_or(Answer::Done)).collect()
+}
+
+/// Returns the answers of code that hits nothing.
+fn missed(item: &Item) -> Vec<Answer> {
+    let miss = |(question, right): (&ExamQuestion, Answer)| {
+        let count = question.question.count();
+        match question.question {
+            Question::BBox { .. } => Answer::Spans(vec![ElementOutcome::Value(None); count]),
+            Question::Shapes { .. }
+            | Question::Traverse { .. }
+            | Question::BuildAndTraverse { .. } => {
+                Answer::Hits(vec![ElementOutcome::Value(None); count])
+            }
+            Question::Camera { .. }
+            | Question::Build { .. }
+            | Question::Radiance { .. }
+            | Question::Done => right,
+        }
+    };
+    item.questions.iter().zip(right(item)).map(miss).collect()
+}
+
+fn is_picture(item: &Item) -> bool {
+    let of_first_hits = |question: &ExamQuestion| matches!(question.key, Key::FirstHits { .. });
+    item.questions.iter().all(of_first_hits)
+}
+
+/// Returns whether nothing is seen to be hit in a task of which one item has these answers, or none for
+/// this reason, while all other rays miss.
+fn misses_everything(
+    items: &[&Item],
+    one: &Item,
+    answers: Result<Vec<Answer>, NoAnswerReason>,
+) -> bool {
+    let mut observations = Observations::default();
+    for item in items.iter().filter(|item| item.id != one.id) {
+        observations.record(item, Ok(&missed(item)));
+    }
+    observations.record(one, answers.as_deref().map_err(|&why| why));
+    observations.misses_everything(items.iter().copied())
+}
+
+#[test]
+fn a_task_has_a_clue_for_code_that_hits_nothing_if_its_rays_can_hit_something() {
+    let mut with_clue = Vec::new();
+    for task in RAYS.tasks {
+        let of_task = EXAM.items.iter().filter(|item| item.task == task.task());
+        let items: Vec<&Item> = of_task.collect();
+        let has_clue = task.clues.if_nothing_is_hit.is_some();
+        if has_clue {
+            with_clue.push(task.id);
+        }
+        for item in &items {
+            let missed = missed(item);
+            let misses = |answers| misses_everything(&items, item, answers);
+            assert_eq!(misses(Ok(missed.clone())), has_clue, "{}", item.id);
+            let has_hits = right(item) != missed;
+            assert_eq!(misses(Ok(right(item))), has_clue && !has_hits);
+            // What is not answered may be a hit. But a picture may lack an answer because of another task.
+            let unanswered = misses(Err(NoAnswerReason::Other));
+            let is_missed = has_clue && (!has_hits || is_picture(item));
+            assert_eq!(unanswered, is_missed, "{}", item.id);
+            if has_hits {
+                let mut panicked = missed;
+                for answer in &mut panicked {
+                    Error::Panicked.apply(answer, 0);
+                }
+                assert!(!misses(Ok(panicked)), "{}", item.id);
+            }
+        }
+    }
+    assert_eq!(with_clue, ["triangle", "sphere", "bbox", "traverse"]);
+}
+
+#[test]
+fn a_few_items_are_not_enough_to_say_that_everything_is_missed() {
+    let of_boxes = EXAM.items.iter().filter(|item| item.task.id() == "bbox");
+    let items: Vec<&Item> = of_boxes
+        .filter(|item| missed(item) != right(item))
+        .collect();
+    let misses = |count: usize| misses_everything(&items[..count], items[0], Ok(missed(items[0])));
+    assert_eq!([1, 2, 3, 4].map(misses), [false, false, true, true]);
+}
+
+#[test]
+fn only_build_has_a_clue_for_a_recursion_that_does_not_end() {
+    let overflow = |task: &&TaskInfo| task.clues.if_stack_overflows.is_some();
+    let tasks: Vec<&str> = RAYS
+        .tasks
+        .iter()
+        .filter(overflow)
+        .map(|task| task.id)
+        .collect();
+    assert_eq!(tasks, ["build"]);
+}

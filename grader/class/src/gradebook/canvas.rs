@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use super::{
-    FilledGradebook, GradebookSpec, MatchKey, column_key, fill, maximum_warning, non_empty,
-    require_column,
+    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning,
+    non_empty, require_column,
 };
 use crate::entry::Person;
 use crate::model::GradedClass;
@@ -54,10 +54,16 @@ pub fn fill_canvas(
         .find(|row| row[student].trim() == POINTS_POSSIBLE);
     let warning = possible.and_then(|row| maximum_warning(class, &row[target]));
     let sis = ["SIS User ID", "SIS Login ID"].map(|name| table.column(name));
-    let mut keys = vec![column_key(id, |person| non_empty(&person.number))];
-    keys.extend(sis[0].map(|column| column_key(column, |person| non_empty(&person.sid))));
-    keys.extend(sis[1].map(|column| column_key(column, logins)));
+    let mut keys = vec![column_key(KeyKind::Only, id, |person| {
+        non_empty(&person.number)
+    })];
+    let [sid, login] = sis;
+    keys.extend(
+        sid.map(|column| column_key(KeyKind::Only, column, |person| non_empty(&person.sid))),
+    );
+    keys.extend(login.map(|column| column_key(KeyKind::OneOfSeveral, column, logins)));
     keys.push(MatchKey {
+        kind: KeyKind::Name,
         row_text: Box::new(move |row| given_name_first(&row[student])),
         person_texts: |person| non_empty(&person.name),
     });

@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use super::{
-    FilledGradebook, GradebookSpec, column_key, fill, maximum_warning, non_empty, require_column,
+    FilledGradebook, GradebookSpec, KeyKind, column_key, fill, maximum_warning, non_empty,
+    require_column,
 };
 use crate::model::GradedClass;
 use crate::table::{Table, TableError};
@@ -24,9 +25,13 @@ pub fn fill_gradescope(path: &Path, class: &GradedClass) -> Result<FilledGradebo
     let maximum = table.column("Max Points");
     let maximum = maximum.and_then(|column| table.rows.first()?.get(column).cloned());
     let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
-    let mut keys = vec![column_key(email, |person| non_empty(&person.email))];
+    let mut keys = vec![column_key(KeyKind::OneOfSeveral, email, |person| {
+        non_empty(&person.email)
+    })];
     let sid = table.column("SID");
-    keys.extend(sid.map(|column| column_key(column, |person| non_empty(&person.sid))));
+    keys.extend(
+        sid.map(|column| column_key(KeyKind::Only, column, |person| non_empty(&person.sid))),
+    );
     let mut filled = fill(
         GradebookSpec {
             title: "Gradescope".to_owned(),

@@ -61,16 +61,44 @@ struct GradebookSpec<'a> {
 
 /// A key for matching rows with people: a row matches if its text equals one of the person's texts.
 struct MatchKey<'a> {
+    kind: KeyKind,
     row_text: Box<RowText<'a>>,
     person_texts: fn(&Person) -> Vec<String>,
+}
+
+/// What a key says about a person.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum KeyKind {
+    /// A person has only one, such as a student id: a row with another one is somebody else's.
+    Only,
+    /// A person may have several, such as email addresses.
+    OneOfSeveral,
+    /// Two people may have the same one.
+    Name,
 }
 
 /// A function that returns a row's text for a key.
 type RowText<'a> = dyn Fn(&[String]) -> String + 'a;
 
+impl MatchKey<'_> {
+    /// Returns whether the key says that a row is not of this person.
+    fn rules_out(&self, row: &[String], person: &Person) -> bool {
+        let known = normalise(&(self.row_text)(row));
+        let texts = (self.person_texts)(person);
+        let is_other = |text: &String| normalise(text) != known;
+        let differs = !known.is_empty() && !texts.is_empty() && texts.iter().all(is_other);
+        self.kind == KeyKind::Only && differs
+    }
+}
+
 /// Returns a key that takes the text of a row from a column.
-fn column_key<'a>(column: usize, person_texts: fn(&Person) -> Vec<String>) -> MatchKey<'a> {
+fn column_key<'a>(
+    kind: KeyKind,
+    column: usize,
+    person_texts: fn(&Person) -> Vec<String>,
+) -> MatchKey<'a> {
     MatchKey {
+        kind,
         row_text: Box::new(move |row| row[column].clone()),
         person_texts,
     }
@@ -181,11 +209,22 @@ fn match_rows<'c>(
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
                 let texts = (key.person_texts)(person);
                 let mut texts = texts.iter().map(|text| normalise(text));
-                texts.find_map(|text| index.get(&text))
+                texts.find_map(|text| Some((key.kind, index.get(&text)?.as_slice())))
             });
-            match found.map(Vec::as_slice) {
-                Some([row_index]) => matches.push((class_row, grade, *row_index)),
-                Some(several) => {
+            let is_namesake = |row_index: usize| {
+                let row = &table.rows[row_index];
+                keys.iter().any(|key| key.rules_out(row, person))
+            };
+            match found {
+                Some((KeyKind::Name, [row_index])) if is_namesake(*row_index) => {
+                    warnings.push(format!(
+                        "{} is not in this list: {} has another number or student id; fill in by hand",
+                        person.display_name(),
+                        name(&table.rows[*row_index])
+                    ));
+                }
+                Some((_, [row_index])) => matches.push((class_row, grade, *row_index)),
+                Some((_, several)) => {
                     let names: Vec<String> = several
                         .iter()
                         .map(|row_index| name(&table.rows[*row_index]))

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use super::{
-    FilledGradebook, GradebookSpec, MatchKey, column_key, fill, maximum_warning, non_empty,
-    require_column,
+    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning,
+    non_empty, require_column,
 };
 use crate::model::GradedClass;
 use crate::table::{Table, TableError};
@@ -25,14 +25,23 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
 
     let mut keys = vec![MatchKey {
+        kind: KeyKind::Only,
         row_text: Box::new(move |row| participant(&row[identifier])),
         person_texts: |person| non_empty(&person.number),
     }];
     let id_number = table.column("ID number");
-    keys.extend(id_number.map(|column| column_key(column, |person| non_empty(&person.sid))));
+    keys.extend(
+        id_number.map(|column| column_key(KeyKind::Only, column, |person| non_empty(&person.sid))),
+    );
     let email = table.column("Email address");
-    keys.extend(email.map(|column| column_key(column, |person| non_empty(&person.email))));
-    keys.extend(name.map(|column| column_key(column, |person| non_empty(&person.name))));
+    keys.extend(email.map(|column| {
+        column_key(KeyKind::OneOfSeveral, column, |person| {
+            non_empty(&person.email)
+        })
+    }));
+    keys.extend(
+        name.map(|column| column_key(KeyKind::Name, column, |person| non_empty(&person.name))),
+    );
     let is_locked =
         |row: &[String]| locked.is_some_and(|column| row[column].trim().eq_ignore_ascii_case("no"));
     let mut filled = fill(

@@ -92,6 +92,37 @@ fn ambiguous_people_and_duplicate_submissions_are_not_filled_in() {
     assert_eq!(filled.warnings, wanted);
 }
 
+/// A name does not count if a number or a student id says that the row is somebody else's.
+#[test]
+fn a_namesake_with_another_id_gets_no_points() {
+    let file = list(CANVAS);
+    let moodles = "Identifier,Full name,ID number,Email address,Grade\n\
+                   Participant 5,Jane Doe,u1,jane@x.edu,\n";
+    let moodles = list(moodles);
+    for (person, is_other) in [
+        (person("Jane Doe", "", "u9", ""), true),
+        (person("Jane Doe", "", "", "9"), true),
+        // She may have another address, or is known by less.
+        (person("Jane Doe", "jane@home.org", "", ""), false),
+        (person("Jane Doe", "jane@home.org", "U1", ""), false),
+    ] {
+        let class = class(&[("x", person)]);
+        let of_canvas = fill_canvas(file.path(), Some("7"), &class).unwrap();
+        let of_moodle = fill_moodle(moodles.path(), &class).unwrap();
+        for (filled, name) in [(of_canvas, "Doe, Jane"), (of_moodle, "Jane Doe")] {
+            let mut wanted = Vec::new();
+            if is_other {
+                wanted.push(format!(
+                    "Jane Doe is not in this list: {name} has another number or student id; fill in \
+                     by hand"
+                ));
+            }
+            assert_eq!(filled.warnings, wanted);
+            assert_eq!(filled.changes.is_empty(), is_other);
+        }
+    }
+}
+
 #[test]
 fn a_namesake_with_several_submissions_takes_no_points_away() {
     let file = list(CANVAS);

@@ -105,6 +105,12 @@ impl Run {
         }
     }
 
+    /// Returns whether the round was finished, in this run or in an earlier one.
+    pub fn was_ever_finished(&self) -> bool {
+        // Older grader's runs did not record earlier ones.
+        self.finished || self.was_finished
+    }
+
     /// Returns whether this is a regrade that was never finished.
     pub fn is_unfinished_regrade(&self) -> bool {
         !self.was_finished && self.before.is_some()

@@ -204,11 +204,14 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
     let run = match (store.read_run()?, regrade) {
         (None, true) => return Err(Error::NothingToRegrade(store.folder().to_owned())),
         (None, false) => Run::first_round(settings),
-        // A stopped regrade is resumed, with or without `--regrade`.
-        (Some(run), _) if run.settings == settings && (!regrade || !run.finished) => Run {
-            finished: false,
-            ..run
-        },
+        // A stopped regrade is resumed, with or without `--regrade`. But a round that was finished once
+        // is regraded, even if a later run of it, or an estimate, has not come to its end.
+        (Some(run), _) if run.settings == settings && (!regrade || !run.was_ever_finished()) => {
+            Run {
+                finished: false,
+                ..run
+            }
+        }
         (Some(run), true) => run.next_round(settings),
         (Some(run), false) => {
             return Err(Error::SettingsChanged {

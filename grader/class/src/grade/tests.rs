@@ -38,10 +38,10 @@ fn a_folder_without_scores_starts_the_first_round_and_cannot_be_regraded() {
 #[test]
 fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
     let (_folder, store) = store();
-    let round = |finished: bool, regrade: bool| {
+    let round = |finished: bool, was_finished: bool, regrade: bool| {
         let written = Run {
             finished,
-            was_finished: finished,
+            was_finished,
             ..run()
         };
         store.write_run(&written).unwrap();
@@ -49,10 +49,14 @@ fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
         assert!(!next.finished);
         next.round
     };
-    assert_eq!(round(false, false), 1);
-    assert_eq!(round(true, false), 1);
-    assert_eq!(round(false, true), 1, "a stopped regrade is resumed");
-    assert_eq!(round(true, true), 2);
+    assert_eq!(round(false, false, false), 1);
+    assert_eq!(round(true, true, false), 1);
+    assert_eq!(round(false, false, true), 1, "a stopped regrade is resumed");
+    assert_eq!(round(true, true, true), 2);
+    // Its second run was stopped, or was an estimate.
+    assert_eq!(round(false, true, false), 1);
+    assert_eq!(round(false, true, true), 2);
+    assert_eq!(round(true, false, true), 2, "of an older grader");
 }
 
 #[test]

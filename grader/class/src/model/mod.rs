@@ -191,6 +191,14 @@ impl ClassRow {
 }
 
 impl PersonGrade {
+    /// Returns whether other attempts of the person count, or may still be chosen.
+    fn is_set_aside(&self) -> bool {
+        match &self.problem {
+            Some(GradeProblem::OtherAttempt(_) | GradeProblem::SeveralAttempts(_)) => true,
+            Some(GradeProblem::UnclearTime(_)) | None => false,
+        }
+    }
+
     /// Returns sentences about what the score counts towards the grade, and the comments of staff.
     /// There are none if it counts as it is.
     pub fn explanation(&self) -> Vec<String> {
@@ -214,13 +222,17 @@ pub fn count_points(
     for result in results {
         let people = result.info.people.iter();
         let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
-        if let Some(score) = result.score() {
-            own.iter()
-                .try_for_each(|points| manual.check_range(points, score))?;
-        }
         rows.push(ClassRow::new(result, policy, own));
     }
     apply_rule(policy, &mut rows);
+    for row in &rows {
+        let Some(score) = row.result.score() else {
+            continue;
+        };
+        for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
+            manual.check_range(&grade.manual, score)?;
+        }
+    }
     Ok(rows)
 }
 

@@ -283,3 +283,23 @@ fn points_by_hand_are_added_for_their_person_and_checked() {
     let error = count("21").unwrap_err().to_string();
     assert!(error.contains("+21 points are out of range"), "{error}");
 }
+
+/// Ann's first attempt has 10 points, from which 20 cannot be taken off.
+#[test]
+fn points_by_hand_must_fit_the_attempt_that_counts() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("manual.csv");
+    let text = "student,task,delta,comment,author\nAnn,sphere,-20,,Lee\n";
+    std::fs::write(&path, text).unwrap();
+    let manual = ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap();
+    let results =
+        || [("a", 10), ("b", 80)].map(|(id, points)| result(id, &["Ann"], graded(points)));
+    let count = |text: &str| count_points(results().into(), &policy(text), &manual);
+    let rows = count("[attempts]\ncounts = 'best'").unwrap();
+    let points = rows.iter().map(|row| row.grades[0].counted);
+    let points: Vec<Option<u32>> = points.map(|counted| Some(counted?.points)).collect();
+    assert_eq!(points, [None, Some(60)]);
+    assert!(count("").is_ok(), "nobody has chosen yet");
+    let only = count_points(results()[..1].to_vec(), &Policy::default(), &manual);
+    assert!(only.is_err());
+}

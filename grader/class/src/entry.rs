@@ -23,17 +23,29 @@ pub struct Entry {
 pub struct EntryInfo {
     /// The people who get the points; at least one.
     pub people: Vec<Person>,
-    /// Whether the platform marks the submission as late.
+    /// Whether the platform's export marks the submission as late.
     pub late: bool,
-    /// The submission time, in the platform's format.
+    /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
+    /// What a list says about the time, if the export does not say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
     /// The file name under which the platform accepts a page for the people, in which `{who}` is
     /// replaced by their names. `None` if the platform has no such rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
+}
+
+/// What a roster or a platform's list says about the time of a submission.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ListedTime {
+    /// The submission time, in the list's format.
+    pub submitted: String,
+    /// Whether the list marks the submission as late.
+    pub late: bool,
 }
 
 /// One student, as described by the platform: text is copied unchanged, and unknown fields are
@@ -65,6 +77,9 @@ pub struct Person {
     /// Whether `name` comes from the name of a file or folder, so that a name in a list is better.
     #[serde(skip_serializing_if = "is_false")]
     pub is_named_by_file: bool,
+    /// Whether the person is known to belong to the submission only from the roster's groups.
+    #[serde(skip_serializing_if = "is_false")]
+    pub is_from_group: bool,
 }
 
 #[expect(
@@ -73,6 +88,15 @@ pub struct Person {
 )]
 fn is_false(flag: &bool) -> bool {
     !flag
+}
+
+/// Returns whether two texts are equal, apart from upper and lower case.
+pub fn equals_ignoring_case(one: &str, other: &str) -> bool {
+    if one.is_ascii() && other.is_ascii() {
+        one.eq_ignore_ascii_case(other)
+    } else {
+        one.to_lowercase() == other.to_lowercase()
+    }
 }
 
 /// The location of an entry's files.
@@ -156,13 +180,34 @@ impl Person {
             (&self.number, &other.number),
         ];
         let same = |(mine, theirs): &(&String, &String)| {
-            !mine.is_empty() && mine.to_lowercase() == theirs.to_lowercase()
+            !mine.is_empty() && equals_ignoring_case(mine, theirs)
         };
         pairs.iter().any(same)
     }
 }
 
 impl EntryInfo {
+    /// Returns the submission time, in the format of the platform or of the list that it is from.
+    pub fn submitted(&self) -> Option<&str> {
+        let listed = self.listed.as_ref().map(|listed| &listed.submitted);
+        self.submitted.as_ref().or(listed).map(String::as_str)
+    }
+
+    /// Returns whether the platform or a list marks the submission as late.
+    pub fn is_late(&self) -> bool {
+        self.late || self.listed.as_ref().is_some_and(|listed| listed.late)
+    }
+
+    /// Removes the groups and extensions, which only a roster can have said, because another roster
+    /// counts.
+    pub fn forget_groups_and_extensions(&mut self) {
+        self.people.retain(|person| !person.is_from_group);
+        for person in &mut self.people {
+            person.group.clear();
+            person.extension.clear();
+        }
+    }
+
     /// Returns the names of all people, joined with ` + `.
     pub fn display_names(&self) -> String {
         let names: Vec<&str> = self.people.iter().map(Person::display_name).collect();

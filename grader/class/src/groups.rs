@@ -9,19 +9,19 @@ use crate::roster::{self, Member};
 use crate::table::TableError;
 
 /// Adds the other members of a group to the entry of the member who submitted, except those who
-/// made a submission of their own. Removes the added members from `missing`.
+/// made a submission of their own. Returns whether there are any.
 pub fn add_group_members(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
-    missing: &mut Vec<Person>,
-) -> Result<(), TableError> {
+) -> Result<bool, TableError> {
     let Some(path) = &lists.roster else {
-        return Ok(());
+        return Ok(false);
     };
     let members = roster::read_members(path)?;
     let people = entries.iter().flat_map(|info| info.people.clone());
     let people: Vec<Person> = people.collect();
     let is_there = |member: &Member| people.iter().any(|person| member.matches(person));
+    let mut has_added = false;
     for info in entries {
         let theirs = members
             .iter()
@@ -32,11 +32,15 @@ pub fn add_group_members(
                 !member.person.group.is_empty() && groups.contains(member.person.group.as_str());
             is_in_group && !is_there(member)
         });
-        let others: Vec<Person> = others.map(|member| member.person.clone()).collect();
-        missing.retain(|person| !others.contains(person));
+        let others = others.map(|member| Person {
+            is_from_group: true,
+            ..member.person.clone()
+        });
+        let others: Vec<Person> = others.collect();
+        has_added |= !others.is_empty();
         info.people.extend(others);
     }
-    Ok(())
+    Ok(has_added)
 }
 
 #[cfg(test)]
@@ -65,14 +69,11 @@ mod tests {
         };
         let mut entries = ["ann", "carl", "dora"].map(submitted_by);
         let mut entries: Vec<&mut EntryInfo> = entries.iter_mut().collect();
-        let members = roster::read_members(lists.roster.as_deref().unwrap()).unwrap();
-        let mut missing: Vec<Person> = [1, 4].map(|index| members[index].person.clone()).into();
-        add_group_members(&lists, &mut entries, &mut missing).unwrap();
+        assert!(add_group_members(&lists, &mut entries).unwrap());
         let names: Vec<String> = entries.iter().map(|info| info.display_names()).collect();
         // Two members of Bob's group submitted, so Bob is in both entries. The preview reports
         // that.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
-        let missing: Vec<&str> = missing.iter().map(Person::display_name).collect();
-        assert_eq!(missing, ["Eve"]);
+        assert!(!add_group_members(&lists, &mut entries).unwrap());
     }
 }

@@ -54,10 +54,10 @@ pub fn lateness(
     };
     match exact {
         Some(lateness) => Ok(lateness),
-        None if info.late && !extensions.is_empty() => Err(UnclearTime::OnlyAFlag),
+        None if info.is_late() && !extensions.is_empty() => Err(UnclearTime::OnlyAFlag),
         // Without both times, a submission with a late flag counts as one second past the grace
         // period.
-        None if info.late => Ok(Lateness {
+        None if info.is_late() => Ok(Lateness {
             seconds: u64::from(policy.late.grace_minutes) * 60 + 1,
         }),
         None => Ok(Lateness::NONE),
@@ -70,13 +70,12 @@ pub fn submission_time(
     info: &EntryInfo,
 ) -> Result<Option<Timestamp>, UnclearTime> {
     let needed = info
-        .submitted
-        .as_ref()
+        .submitted()
         .filter(|_| policy.late.due.is_some() || policy.attempts.counts != AttemptRule::Ask);
-    let read = |text: &String| {
+    let read = |text: &str| {
         let time = read_time(text, policy.late.timezone.as_ref());
         time.map_err(|why| UnclearTime::Submitted {
-            text: text.clone(),
+            text: text.to_owned(),
             why,
         })
     };
@@ -126,7 +125,7 @@ fn unmatched_extensions<'a>(
 /// Returns whether the policy has a due time, but the submission has neither a time nor a late
 /// flag. Such a submission counts as on time.
 pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
-    policy.late.due.is_some() && !info.late && info.submitted.is_none()
+    policy.late.due.is_some() && !info.is_late() && info.submitted().is_none()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::groups;
-use crate::roster;
+use crate::roster::{self, Member};
 use crate::table::TableError;
 
 /// Fills in what the lists know about the entries: first unknown identifiers, then the other members of
@@ -13,38 +13,99 @@ pub fn complete_entries(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
 ) -> Result<Vec<Person>, TableError> {
-    let people = entries.iter_mut().flat_map(|info| &mut info.people);
-    let mut missing = roster::join(lists, &mut people.collect::<Vec<_>>())?;
-    groups::add_group_members(lists, entries, &mut missing)?;
+    let rows = roster::read_lists(lists)?;
+    fill_in(&rows, entries);
+    if groups::add_group_members(lists, entries)? {
+        fill_in(&rows, entries);
+    }
     roster::set_submission_times(lists, entries)?;
-    Ok(missing)
+    let people = entries.iter().flat_map(|info| &info.people);
+    Ok(roster::missing(&rows, &people.collect::<Vec<_>>()))
+}
+
+fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
+    let people = entries.iter_mut().flat_map(|info| &mut info.people);
+    roster::fill_in(rows, &mut people.collect::<Vec<_>>());
 }
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::*;
+
+    /// Writes a list into the folder.
+    fn list(folder: &tempfile::TempDir, name: &str, text: &str) -> Option<PathBuf> {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        Some(path)
+    }
+
+    fn entry(person: Person) -> EntryInfo {
+        EntryInfo {
+            people: vec![person],
+            ..EntryInfo::default()
+        }
+    }
+
+    /// Her address is in the last list, which has the student id of the second, which has the account
+    /// of the first, which has her extension.
+    #[test]
+    fn a_list_may_be_found_by_what_a_later_one_says() {
+        let folder = tempfile::tempdir().unwrap();
+        let canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
+            \"Lee, Ann\",7001,u1,ann,A,\n\"Kim, Bob\",7002,u2,bob,A,\n";
+        let gradescope = "First Name,Last Name,SID,Email,Total Score,Max Points\n\
+            Ann,Lee,u1,ann@x.edu,,100\nBob,Kim,u2,bob@x.edu,,100\n";
+        let lists = Lists {
+            roster: list(&folder, "roster.csv", "username,extension\nann,2\nbob,3\n"),
+            canvas: list(&folder, "canvas.csv", canvas),
+            gradescope: list(&folder, "gradescope.csv", gradescope),
+            ..Lists::default()
+        };
+        let mut ann = entry(Person {
+            email: "ann@x.edu".to_owned(),
+            ..Person::default()
+        });
+        let missing = complete_entries(&lists, &mut [&mut ann]).unwrap();
+        let known = |person: &Person| (person.login.clone(), person.extension.clone());
+        let known = [&ann.people[0], &missing[0]].map(known);
+        let wanted = [("ann", "2"), ("bob", "3")];
+        assert_eq!(known, wanted.map(|(a, b)| (a.to_owned(), b.to_owned())));
+        assert_eq!(missing.len(), 1, "{missing:?}");
+    }
+
+    #[test]
+    fn a_list_takes_no_late_flag_away() {
+        let folder = tempfile::tempdir().unwrap();
+        let roster = "name,datetime,late\nAnn,2026-11-20 12:00:00 +0000,false\n\
+            Bob,2026-11-20 12:00:00 +0000,true\nEve,2026-11-20 12:00:00 +0000,false\n";
+        let lists = Lists {
+            roster: list(&folder, "roster.csv", roster),
+            ..Lists::default()
+        };
+        let mut entries = ["Ann", "Bob", "Eve"].map(|name| entry(Person::named(name)));
+        entries[0].late = true;
+        complete_entries(&lists, &mut entries.iter_mut().collect::<Vec<_>>()).unwrap();
+        assert_eq!(entries.map(|info| info.is_late()), [true, true, false]);
+    }
 
     /// Ann's submission is found, and the roster knows only when her partner handed it in.
     #[test]
     fn the_time_of_any_member_of_the_group_counts() {
         let folder = tempfile::tempdir().unwrap();
-        let roster = folder.path().join("roster.csv");
         let rows = "name,username,sid,group,datetime\n\
             Ann,ann,u1,One,\n\
             Bob,bob,u2,One,2026-11-20 12:00:00 +0000\n\
             Eve,eve,u3,Two,2026-11-21 12:00:00 +0000\n";
-        std::fs::write(&roster, rows).unwrap();
         let lists = Lists {
-            roster: Some(roster),
+            roster: list(&folder, "roster.csv", rows),
             ..Lists::default()
         };
-        let mut entry = EntryInfo {
-            people: vec![Person {
-                login: "ann".to_owned(),
-                ..Person::default()
-            }],
-            ..EntryInfo::default()
-        };
+        let mut entry = entry(Person {
+            login: "ann".to_owned(),
+            ..Person::default()
+        });
         let missing = complete_entries(&lists, &mut [&mut entry]).unwrap();
         let sids: Vec<&str> = entry
             .people
@@ -52,10 +113,7 @@ mod tests {
             .map(|person| person.sid.as_str())
             .collect();
         assert_eq!(sids, ["u1", "u2"]);
-        assert_eq!(
-            entry.submitted.as_deref(),
-            Some("2026-11-20 12:00:00 +0000")
-        );
+        assert_eq!(entry.submitted(), Some("2026-11-20 12:00:00 +0000"));
         let missing: Vec<&str> = missing.iter().map(Person::display_name).collect();
         assert_eq!(missing, ["Eve"]);
     }

@@ -7,7 +7,7 @@ use grader::policy::read_time;
 use jiff::tz::TimeZone;
 
 use crate::cli::Lists;
-use crate::entry::{EntryInfo, Person};
+use crate::entry::{EntryInfo, ListedTime, Person, equals_ignoring_case};
 use crate::table::{Table, TableError};
 
 /// Column names that platforms and people use for a person's full name. The lists below contain
@@ -93,7 +93,8 @@ impl Member {
     }
 }
 
-/// Sets unknown submission times to those in the roster, Gradescope's list or Moodle's worksheet.
+/// Notes the submission times in the roster, Gradescope's list or Moodle's worksheet, where the
+/// platform's export says none.
 pub fn set_submission_times(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
@@ -117,15 +118,13 @@ pub fn set_submission_times(
             (time.is_none(), time)
         };
         if let Some(last) = theirs.max_by_key(is_unknown_or_time) {
-            info.submitted = Some(last.submitted.clone());
-            info.late = last.late;
+            info.listed = Some(ListedTime {
+                submitted: last.submitted.clone(),
+                late: last.late,
+            });
         }
     }
     Ok(())
-}
-
-fn equals_ignoring_case(one: &str, other: &str) -> bool {
-    one.to_lowercase() == other.to_lowercase()
 }
 
 /// Reads the people in a roster or in a platform's gradebook.
@@ -175,6 +174,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             group: cell(group),
             extension: cell(extension),
             is_named_by_file: false,
+            is_from_group: false,
         };
         Member {
             row: row_number,
@@ -249,34 +249,55 @@ pub fn read_roster(path: &Path) -> Result<Vec<Member>, TableError> {
     Ok(members)
 }
 
-/// Fills in unknown fields of `people` from the lists. Returns the people on the lists who match
-/// nobody in `people`.
-pub fn join(lists: &Lists, people: &mut [&mut Person]) -> Result<Vec<Person>, TableError> {
-    let files = [
-        &lists.roster,
-        &lists.canvas,
-        &lists.moodle,
-        &lists.gradescope,
-    ];
-    if let Some(roster) = &lists.roster {
-        read_roster(roster)?;
+/// Reads the people on all lists. A person has a row in each list that knows them.
+pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, TableError> {
+    let mut rows = match &lists.roster {
+        Some(path) => read_roster(path)?,
+        None => Vec::new(),
+    };
+    let gradebooks = [&lists.canvas, &lists.moodle, &lists.gradescope];
+    for path in gradebooks.into_iter().flatten() {
+        rows.extend(read_members(path)?);
     }
-    let mut missing: Vec<Person> = Vec::new();
-    for path in files.into_iter().flatten() {
-        for known in read_members(path)? {
-            let mut count = 0;
-            for person in people.iter_mut() {
-                if known.matches(person) {
-                    person.fill_missing_from(&known.person);
-                    count += 1;
+    Ok(rows)
+}
+
+/// Fills in unknown fields of `people` from the rows of lists. A row may add the identifier by which
+/// another row is found, in whatever order they come.
+pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
+    for person in people {
+        loop {
+            let known = person.clone();
+            for row in rows {
+                if row.matches(person) {
+                    person.fill_missing_from(&row.person);
                 }
             }
-            if count == 0 && !missing.iter().any(|other| other.matches(&known.person)) {
-                missing.push(known.person);
+            if **person == known {
+                break;
             }
         }
     }
-    Ok(missing)
+}
+
+/// Returns the people on the lists who match nobody in `people`, each once.
+pub fn missing(rows: &[Member], people: &[&Person]) -> Vec<Person> {
+    let is_there = |row: &&Member| {
+        let is_theirs =
+            |person: &&Person| row.matches(person) || is_repetition(&row.person, person);
+        people.iter().copied().any(|person| is_theirs(&person))
+    };
+    let absent: Vec<Member> = rows.iter().filter(|row| !is_there(row)).cloned().collect();
+    let mut missing: Vec<Person> = Vec::new();
+    for row in &absent {
+        let mut person = row.person.clone();
+        fill_in(&absent, &mut [&mut person]);
+        let is_same = |other: &Person| other.matches(&person) || *other == person;
+        if !missing.iter().any(is_same) {
+            missing.push(person);
+        }
+    }
+    missing
 }
 
 #[cfg(test)]

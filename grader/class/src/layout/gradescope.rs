@@ -107,10 +107,9 @@ fn entry_info(name: &str, metadata: Metadata) -> EntryInfo {
     }
     EntryInfo {
         people,
-        late: false,
         submitted: metadata.created_at.and_then(Scalar::text),
         from: name.to_owned(),
-        hand_back_as: None,
+        ..EntryInfo::default()
     }
 }
 

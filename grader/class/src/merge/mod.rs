@@ -73,11 +73,9 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let mut rows: Vec<EntryResult> = rows.collect();
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if arguments.lists.roster.is_some() {
-        // This roster counts, and not the one that the shard was graded with.
-        for person in infos.iter_mut().flat_map(|info| &mut info.people) {
-            person.group.clear();
-            person.extension.clear();
-        }
+        infos
+            .iter_mut()
+            .for_each(|info| info.forget_groups_and_extensions());
     }
     let missing = lists::complete_entries(&arguments.lists, &mut infos)?;
     let manual = read_manual_points(&arguments.lists, &GradeOptions::default())?;

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::cli::Lists;
+use crate::entry::ListedTime;
 use crate::model::tests::{graded, result};
 use crate::outcome::EntryOutcome;
 use crate::store::tests::run;
@@ -176,6 +177,33 @@ fn a_given_policy_counts_instead_of_those_of_the_shards() {
     fs::write(&path, "[points]\nout_of = 10\n").unwrap();
     arguments.policy = Some(path);
     assert_eq!(out_of(&arguments), Some(10));
+}
+
+/// The roster that the shards were graded with has Eve in Ann's group, and another time.
+#[test]
+fn the_groups_and_times_of_a_new_roster_count() {
+    let shards = Shards::new();
+    let mut ann = result("ann", &["ann", "eve"], graded(80));
+    ann.info.people[1].is_from_group = true;
+    ann.info.listed = Some(ListedTime {
+        submitted: "2026-11-25T12:00:00Z".to_owned(),
+        late: true,
+    });
+    shards.store(1).save_graded(&ann, "key", 1);
+    let merged = |roster: Option<&str>| {
+        let mut arguments = shards.arguments();
+        arguments.lists.roster = roster.map(|text| {
+            let path = shards.path("roster.csv");
+            fs::write(&path, text).unwrap();
+            path
+        });
+        merge_shards(&arguments).unwrap();
+        let grades = fs::read_to_string(shards.path("out/grades.csv")).unwrap();
+        ["eve", "dan", "11-25", "11-20"].map(|text| grades.contains(text))
+    };
+    assert_eq!(merged(None), [true, false, true, false]);
+    let roster = "name,group,datetime\nann,One,2026-11-20T12:00:00Z\ndan,One,\n";
+    assert_eq!(merged(Some(roster)), [false, true, false, true]);
 }
 
 #[test]

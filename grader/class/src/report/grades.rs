@@ -58,7 +58,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
         }
         None => row.extend(vec![String::new(); 2 + tasks]),
     }
-    let late = match (grade.counted, class_row.result.info.late) {
+    let late = match (grade.counted, class_row.result.info.is_late()) {
         (Some(counted), _) => counted.late_days.to_string(),
         (None, true) => "late".to_owned(),
         (None, false) => String::new(),
@@ -76,7 +76,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
             points => points.to_string(),
         },
         late,
-        safe_cell(info.submitted.as_deref().unwrap_or_default()),
+        safe_cell(info.submitted().unwrap_or_default()),
         safe_cell(&info.from),
         safe_cell(&class_row.why(grade)),
         safe_cell(&comments.join("; ")),

@@ -40,7 +40,7 @@ fn write_preview(
         let files = describe_files(entry, handed_out);
         gradable += usize::from(files.is_ok());
         let who = sanitized(&entry.info.display_names());
-        let late = if entry.info.late { ", late" } else { "" };
+        let late = if entry.info.is_late() { ", late" } else { "" };
         match files {
             Ok(files) => writeln!(out, "  {who}{late}: {}", sanitized(&files))?,
             Err(why) => writeln!(out, "  {who}{late}: nothing to grade: {}", sanitized(&why))?,

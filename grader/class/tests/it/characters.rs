@@ -2,7 +2,7 @@
 //! Nothing that a student chooses may bring them to the teacher's terminal, tables or pages.
 
 use class::drift::{Changes, Drift, ItemChange, RegradeChanges, RemovedEntry};
-use class::entry::{Entry, EntryInfo, Person, Source};
+use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::gradebook::{CellChange, FilledGradebook};
 use class::hand_back::HandBack;
 use class::layout::{Layout, RecognisedClass, UnmatchedPath};
@@ -40,9 +40,14 @@ fn info(text: &str) -> EntryInfo {
             group: text.to_owned(),
             extension: text.to_owned(),
             is_named_by_file: true,
+            is_from_group: true,
         }],
         late: true,
         submitted: Some(text.to_owned()),
+        listed: Some(ListedTime {
+            submitted: text.to_owned(),
+            late: true,
+        }),
         from: text.to_owned(),
         hand_back_as: Some(text.to_owned()),
     }

@@ -59,7 +59,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let exam_run = ExamRun::new(&launcher, item, options.budget)?;
     let position = match given {
         Some(position) => Some(position),
-        None => exam_run.first_wrong(&launcher, item)?,
+        None => exam_run.first_wrong(item),
     };
     match position {
         Some(position) => {
@@ -134,40 +134,65 @@ fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
 }
 
 /// The answers to all questions of an item, which are sent together as in an exam.
-struct ExamRun(Result<Vec<Answer>, Fault>);
+struct ExamRun {
+    answers: Result<Vec<Answer>, Fault>,
+    /// The question that crashes or hangs the program, and the element in it, if there are no answers
+    /// because of one alone.
+    culprit: Option<(usize, usize)>,
+}
 
 impl ExamRun {
     fn new(launcher: &Launcher, item: &Item, budget: Budget) -> Result<Self, Error> {
         let questions = item.questions.iter().map(|question| &question.question);
         let mut probe = launcher.start(budget.total_cpu())?;
-        Ok(ExamRun(probe.ask(questions, budget.single_item())))
+        let answers = probe.ask(questions, budget.single_item());
+        let culprit = match answers {
+            Ok(_) => None,
+            Err(_) => Culprit::find(launcher, item)?.position,
+        };
+        Ok(ExamRun { answers, culprit })
     }
 
     /// Returns the indices of the first question that is answered wrongly and of the element in it,
     /// or of those that crash or hang the program.
-    fn first_wrong(
-        &self,
-        launcher: &Launcher,
-        item: &Item,
-    ) -> Result<Option<(usize, usize)>, Error> {
-        let Ok(answers) = &self.0 else {
-            let culprit = Culprit::find(launcher, item)?;
-            return Ok(Some(culprit.position.unwrap_or((0, 0))));
+    fn first_wrong(&self, item: &Item) -> Option<(usize, usize)> {
+        let Ok(answers) = &self.answers else {
+            return Some(self.culprit.unwrap_or((0, 0)));
         };
         let judged = item.questions.iter().zip(answers).enumerate();
         let mut failures = judged.filter_map(|(index, (question, answer))| {
             Some((index, judge(question, answer).failure?.element))
         });
-        Ok(failures.next())
+        failures.next()
     }
 
-    /// Returns the error of an element, or `None` if it is right.
-    fn error(&self, item: &Item, (question, element): (usize, usize)) -> Option<String> {
-        match &self.0 {
-            Ok(answers) => {
-                element_error(&item.questions[question], answers.get(question)?, element)
+    /// Returns the verdict about an element that is right when it is asked alone.
+    fn verdict(&self, item: &Item, (question, element): (usize, usize)) -> String {
+        let answers = match (&self.answers, self.culprit) {
+            (Ok(answers), _) => answers,
+            (Err(fault), Some((question, element))) => {
+                let number = item.number(question, element);
+                return format!(
+                    "right, but because of {}#{number}, the item has no answers: {fault}",
+                    item.id
+                );
             }
-            Err(fault) => Some(fault.to_string()),
+            (Err(fault), None) => {
+                return format!(
+                    "right when asked alone, but the item's questions together have no answer: {fault}"
+                );
+            }
+        };
+        let answer = answers.get(question);
+        let error =
+            answer.and_then(|answer| element_error(&item.questions[question], answer, element));
+        match error {
+            None => "right".to_owned(),
+            Some(error) => format!(
+                "right when asked alone, but not together with the item's other questions: \
+                 {error}. {}",
+                clue::KEPT_STATE
+            ),
         }
     }
 }
@@ -262,14 +287,9 @@ impl Replayed {
             Ok(answer) => element_error(&single, answer, 0),
             Err(_) => Some("there is no answer".to_owned()),
         };
-        match (alone, exam_run.error(item, self.position)) {
-            (Some(error), _) => format!("wrong: {error}"),
-            (None, None) => "right".to_owned(),
-            (None, Some(error)) => format!(
-                "right when asked alone, but not together with the item's other questions: \
-                 {error}. {}",
-                clue::KEPT_STATE
-            ),
+        match alone {
+            Some(error) => format!("wrong: {error}"),
+            None => exam_run.verdict(item, self.position),
         }
     }
 }

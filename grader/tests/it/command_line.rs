@@ -277,6 +277,29 @@ fn replay_tells_an_answer_that_depends_on_earlier_calls() {
     assert!(replay.contains("distance; the error is"), "{replay}");
 }
 
+/// A question that ends the program takes the answers of the others with it, which are not to blame.
+#[test]
+fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
+    let submission = Submission::reference("exiting").with_replaced(
+        "sphere.rs",
+        "distance: t,",
+        "distance: if ray.origin.x.to_bits() % 16 == 3 { std::process::exit(0) } else { t },",
+    );
+    let text = replay(&submission, "sphere.from_inside");
+    let number = |text: &str| text.lines().next().unwrap_or_default().to_owned();
+    let culprit = number(&text);
+    assert!(
+        text.contains("verdict  wrong: there is no answer"),
+        "{text}"
+    );
+    let first = "sphere.from_inside#1";
+    assert_ne!(culprit, first, "{text}");
+    let text = replay(&submission, first);
+    let lost = format!("verdict  right, but because of {culprit}, the item has no answers: ");
+    assert!(text.contains(&lost), "{text}");
+    assert!(!text.contains("keeps something"), "{text}");
+}
+
 #[test]
 fn replay_names_the_fewest_primitives_that_overflow_the_stack() {
     let submission = Submission::reference("endless").with_replaced(

@@ -24,6 +24,9 @@ pub fn smallest_overflow(
 ) -> io::Result<Option<Vec<Shape>>> {
     let mut attempts = 0;
     let mut overflows = |shapes: &[Shape]| -> io::Result<bool> {
+        if attempts == MAX_ATTEMPTS {
+            return Ok(false);
+        }
         attempts += 1;
         let question = Question::Build {
             shapes: shapes.to_vec(),
@@ -31,8 +34,7 @@ pub fn smallest_overflow(
         };
         let mut probe = launcher.start(budget.total_cpu())?;
         let answer = probe.ask([&question], budget.single_item());
-        let overflowed = matches!(answer, Err(Fault::Crashed(Crash::StackOverflow)));
-        Ok(overflowed && attempts <= MAX_ATTEMPTS)
+        Ok(matches!(answer, Err(Fault::Crashed(Crash::StackOverflow))))
     };
     if !overflows(shapes)? {
         return Ok(None);

@@ -72,12 +72,34 @@ impl fmt::Display for SubmissionPanic {
         let Some(pixel) = self.pixel else {
             return Ok(());
         };
-        let arguments: Vec<String> = std::env::args().skip(1).collect();
-        let (UVec2 { x, y }, arguments) = (pixel, arguments.join(" "));
-        write!(
-            f,
-            "\n  at pixel {pixel}; rerun with: cargo render {arguments} --pixel {x},{y}"
-        )
+        let arguments = std::env::args_os().skip(1);
+        let arguments = arguments.map(|argument| argument.to_string_lossy().into_owned());
+        let command = pixel_command(&arguments.collect::<Vec<_>>(), pixel);
+        write!(f, "\n  at pixel {pixel}; rerun with: {command}")
+    }
+}
+
+/// Returns the command that examines a pixel, for a picture that these arguments render.
+fn pixel_command(arguments: &[String], UVec2 { x, y }: UVec2) -> String {
+    let mut words = vec![format!("cargo render --pixel {x},{y}")];
+    let mut arguments = arguments.iter();
+    while let Some(argument) = arguments.next() {
+        if argument == "--pixel" {
+            arguments.next();
+        } else if !argument.starts_with("--pixel=") {
+            words.push(shell_word(argument));
+        }
+    }
+    words.join(" ")
+}
+
+/// Quotes an argument for a command line, if necessary.
+fn shell_word(text: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-./:\\+,@%=".contains(c);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
     }
 }
 
@@ -119,6 +141,22 @@ mod tests {
             message("not yet implemented"),
             "this part: not written yet (student/src/camera.rs:47:9)"
         );
+    }
+
+    #[test]
+    fn the_command_for_a_pixel_can_be_copied_into_a_terminal() {
+        let command = |arguments: &[&str]| {
+            let arguments: Vec<String> = arguments.iter().map(ToString::to_string).collect();
+            pixel_command(&arguments, UVec2::new(6, 4))
+        };
+        assert_eq!(
+            command(&["cornell", "my picture.png", "--size", "8x8"]),
+            "cargo render --pixel 6,4 cornell 'my picture.png' --size 8x8"
+        );
+        for before in [["--pixel", "1,2"].as_slice(), &["--pixel=1,2"]] {
+            let again = command(&[before, &["it's"]].concat());
+            assert_eq!(again, r"cargo render --pixel 6,4 'it'\''s'");
+        }
     }
 
     #[test]

@@ -169,7 +169,7 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
         let integrator = Integrator::new(scene, world, options.settings(size));
         return render_light(job, &integrator, events);
     }
-    let progress = Progress::new(u64::from(size.y));
+    let progress = Progress::new(u64::from(size.y), "");
     let first = |pixel, stats: &mut RenderStats| first_hit(scene, world, pixel, stats);
     let (hits, stats) = job.pool.render(&progress, first)?;
     let raw = image_file::holds_numbers(job.out).then(|| view::raw_values(options.view, &hits));
@@ -189,7 +189,8 @@ fn render_light(
     let size = job.scene.camera.pinhole.film;
     let canvas = &Canvas::new(size);
     let samples = options.samples;
-    let progress = Progress::new(u64::from(size.y) * u64::from(samples));
+    let rows = u64::from(size.y) * u64::from(samples);
+    let progress = Progress::new(rows, ". The picture so far is in the file");
     thread::scope(|scope| {
         let Events {
             sender,

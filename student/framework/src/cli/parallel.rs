@@ -126,7 +126,7 @@ mod tests {
             stats.rays += u64::from(position.x);
             position
         };
-        pool.render(&Progress::new(7), pixel)
+        pool.render(&Progress::new(7, ""), pixel)
             .expect("the code does not panic")
     }
 
@@ -144,7 +144,7 @@ mod tests {
         let pool = RenderPool::new(uvec2(2, 1), Some(1)).expect("threads can be started");
         let pixel = |position: UVec2, _: &mut RenderStats| assert!(position.x == 0, "too far");
         let error = pool
-            .render(&Progress::new(1), pixel)
+            .render(&Progress::new(1, ""), pixel)
             .expect_err("the code panics");
         assert!(matches!(
             error,

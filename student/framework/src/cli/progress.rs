@@ -24,16 +24,15 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Creates a bar for this many rows of pixels, each counted once for each sample.
-    pub(super) fn new(rows: u64) -> Self {
+    /// Creates a bar for this many rows of pixels, each counted once for each sample. `note` is added
+    /// to what is said where there is no bar.
+    pub(super) fn new(rows: u64, note: &str) -> Self {
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {eta} left  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = ProgressBar::new(rows).with_style(style);
-        let message = "rendering: still running. The picture so far is in the file";
+        let message = format!("rendering: still running{note}");
         Progress {
-            _notice: bar
-                .is_hidden()
-                .then(|| Notice::after(LONG, message.to_owned())),
+            _notice: bar.is_hidden().then(|| Notice::after(LONG, message)),
             bar,
             rays: AtomicU64::new(0),
             started: Instant::now(),

@@ -27,12 +27,14 @@ const MAX_CANDIDATES: usize = 32;
 pub(super) struct Search {
     /// The folders and archives that have task files.
     pub(super) candidates: Vec<Candidate>,
-    /// The names at the top level.
+    /// The names at the top level, in which what is not UTF-8 is replaced.
     pub(super) names: Vec<String>,
     /// The paths of links below the folder, with `/`.
     pub(super) links: Vec<String>,
     /// Folders and archives that cannot be read, or are below too many others.
     pub(super) errors: Vec<SubmissionError>,
+    /// The names at the top level, as the system has them.
+    top_level: Vec<OsString>,
     /// The number of files and folders that were listed.
     entries: usize,
 }
@@ -57,15 +59,11 @@ pub(super) fn search_one(
     let folder = Folder::open(path).map_err(io)?;
     let names = list(&folder, path).map_err(io)?;
     let mut search = Search {
-        names: names
-            .into_iter()
-            .filter_map(|n| n.into_string().ok())
-            .collect(),
+        names: names.iter().map(|name| shown(name)).collect(),
         ..Search::default()
     };
-    let names = search.names.clone();
     let open = |name: &str| open(&folder, path, name);
-    search.add_candidate(path, "", &names, open, handed_out)?;
+    search.add_candidate(path, "", &utf8(&names), open, handed_out)?;
     Ok(search)
 }
 
@@ -88,7 +86,7 @@ pub(super) fn search_files(
             system::open_regular_file(path)
         })
     };
-    let names = search.names.clone();
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     search.add_candidate(path, "", &names, open, handed_out)?;
     for (name, path) in files {
         search.add_archive(name, path, handed_out);
@@ -112,9 +110,10 @@ impl Search {
 
     /// Adds the archives at the top level of the folder at `path`.
     pub(super) fn add_archives(&mut self, path: &Path, handed_out: &'static HandedOut) {
-        for name in self.names.clone() {
-            if !self.links.contains(&name) {
-                self.add_archive(&name, &path.join(&name), handed_out);
+        for name in std::mem::take(&mut self.top_level) {
+            let shown = shown(&name);
+            if !self.links.contains(&shown) {
+                self.add_archive(&shown, &path.join(&name), handed_out);
             }
         }
     }
@@ -143,31 +142,29 @@ impl Search {
         if self.entries > MAX_ENTRIES {
             return Err(SubmissionError::TooManyFiles(submission.to_owned()));
         }
-        // A name that is not UTF-8 is no task file's, nor on the way to one.
-        let names: Vec<String> = names
-            .into_iter()
-            .filter_map(|n| n.into_string().ok())
-            .collect();
         for name in &names {
-            let path = join(below, name);
-            match folder.kind(OsStr::new(name)).map_err(io)? {
+            let shown = shown(name);
+            let path = join(below, &shown);
+            match folder.kind(name).map_err(io)? {
                 EntryKind::Link => self.links.push(path),
-                EntryKind::Folder if !choice::is_skipped(name, handed_out) => {
-                    self.visit_subfolder(folder, submission, &path, handed_out)?;
+                EntryKind::Folder if !choice::is_skipped(&shown, handed_out) => {
+                    self.visit_subfolder(folder, name, submission, &path, handed_out)?;
                 }
                 EntryKind::Folder | EntryKind::File | EntryKind::Other => {}
             }
         }
         if below.is_empty() {
-            self.names.clone_from(&names);
+            self.names = names.iter().map(|name| shown(name)).collect();
+            self.top_level.clone_from(&names);
         }
         let open = |name: &str| open(folder, &submission.join(below), name);
-        self.add_candidate(submission, below, &names, open, handed_out)
+        self.add_candidate(submission, below, &utf8(&names), open, handed_out)
     }
 
     fn visit_subfolder(
         &mut self,
         folder: &Folder,
+        name: &OsStr,
         submission: &Path,
         path: &str,
         handed_out: &'static HandedOut,
@@ -177,8 +174,7 @@ impl Search {
             self.errors.push(too_deep);
             return Ok(());
         }
-        let name = path.rsplit('/').next().unwrap_or(path);
-        match folder.subfolder(OsStr::new(name)) {
+        match folder.subfolder(name) {
             Ok(Some(subfolder)) => self.visit(&subfolder, submission, path, handed_out),
             Ok(None) => Ok(()),
             Err(error) => {
@@ -193,12 +189,11 @@ impl Search {
         &mut self,
         submission: &Path,
         folder: &str,
-        names: &[String],
+        names: &[&str],
         open: impl Fn(&str) -> io::Result<Option<File>>,
         handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let found = choice::task_files(&names, handed_out);
+        let found = choice::task_files(names, handed_out);
         let found = found.map_err(|error| ambiguous(submission, error))?;
         if found.is_empty() {
             return Ok(());
@@ -209,7 +204,7 @@ impl Search {
             let read = read.map_err(|error| unreadable(&submission.join(folder), error))?;
             files.task_files.insert(*name, read);
         }
-        for name in names {
+        for &name in names {
             if name.ends_with(".rs") && !found.values().any(|used| *used == name) {
                 let is_compared = handed_out.given_file(name).is_some();
                 let bytes = is_compared.then(|| read_file(open(name), "a given file"));
@@ -228,6 +223,16 @@ impl Search {
         }
         Ok(())
     }
+}
+
+/// Returns a name with replacements for what is not UTF-8.
+fn shown(name: &OsStr) -> String {
+    name.to_string_lossy().into_owned()
+}
+
+/// Returns the names that are UTF-8, as all names of task files are.
+fn utf8(names: &[OsString]) -> Vec<&str> {
+    names.iter().filter_map(|name| name.to_str()).collect()
 }
 
 fn list(folder: &Folder, path: &Path) -> io::Result<Vec<OsString>> {

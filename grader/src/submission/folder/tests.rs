@@ -181,3 +181,36 @@ fn a_single_folder_is_searched_without_those_below() {
     assert_eq!(search.candidates.len(), 1);
     assert!(search.names.contains(&"bvh.rs".to_owned()));
 }
+
+/// Folders that an old program has unpacked have names in its encoding.
+#[cfg(target_os = "linux")]
+#[test]
+fn folders_and_archives_whose_names_are_not_utf8_are_searched() {
+    use std::os::unix::ffi::OsStrExt;
+
+    let folder = folder(&[("notes.txt", b"")]);
+    let named = |name: &[u8]| folder.path().join(OsStr::from_bytes(name));
+    fs::create_dir(named(b"L\xf6sung")).unwrap();
+    fs::write(named(b"L\xf6sung/bvh.rs"), b"new").unwrap();
+    fs::write(named(b"L\xf6sung.tar"), tar(&[("bvh.rs", b"newer")])).unwrap();
+    // It is no task file, and only named.
+    fs::write(named(b"b\xf6x.rs"), b"").unwrap();
+    let error = Submission::collect_with_archives(folder.path(), &RAYS).unwrap_err();
+    let SubmissionError::Ambiguous { copies, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!(copies, ["L\u{fffd}sung", "L\u{fffd}sung.tar"]);
+
+    let mut search = search(folder.path(), &RAYS).unwrap();
+    search.names.sort();
+    let names = [
+        "b\u{fffd}x.rs",
+        "L\u{fffd}sung",
+        "L\u{fffd}sung.tar",
+        "notes.txt",
+    ];
+    let mut names = names.map(str::to_owned);
+    names.sort();
+    assert_eq!(search.names, names);
+    assert_eq!(search.candidates[0].folder, "L\u{fffd}sung");
+}

@@ -187,7 +187,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             has_namesake: false,
         }
     };
-    let members = (2..).zip(&table.rows).map(member);
+    let members = table.numbered_rows().map(member);
     let is_person = |Member { person, .. }: &Member| {
         !person.display_name().is_empty() && !PLACEHOLDER_NAMES.contains(&person.name.as_str())
     };

@@ -13,6 +13,8 @@ pub struct Table {
     pub header: Vec<String>,
     /// The other rows.
     pub rows: Vec<Vec<String>>,
+    /// The numbers of the rows that were read, as spreadsheets show them: blank lines count too.
+    row_numbers: Vec<usize>,
     delimiter: u8,
     has_byte_order_mark: bool,
 }
@@ -74,10 +76,9 @@ impl Table {
     pub fn parse(bytes: &[u8]) -> Result<Self, String> {
         let has_mark = bytes.starts_with(BYTE_ORDER_MARK);
         let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-        let first = bytes
-            .split(|byte| *byte == b'\n')
-            .next()
-            .unwrap_or_default();
+        let mut lines = bytes.split(|byte| *byte == b'\n');
+        let first = lines.find(|line| !line.trim_ascii().is_empty());
+        let first = first.unwrap_or_default();
         let count = |sign: &u8| first.iter().filter(|byte| *byte == sign).count();
         let delimiter = DELIMITERS.into_iter().rev().max_by_key(count);
         let delimiter = delimiter.unwrap_or(b',');
@@ -86,21 +87,33 @@ impl Table {
             .has_headers(false)
             .flexible(true)
             .from_reader(bytes);
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|error| error.to_string())?;
+        let (mut rows, mut row_numbers) = (Vec::new(), Vec::new());
+        let mut record = csv::StringRecord::new();
+        let mut number = 0;
+        loop {
+            let read = usize::try_from(reader.position().byte()).unwrap_or(bytes.len());
+            if !reader
+                .read_record(&mut record)
+                .map_err(|error| error.to_string())?
+            {
+                break;
+            }
+            number += blank_lines(bytes, read) + 1;
+            row_numbers.push(number);
             rows.push(record.iter().map(str::to_owned).collect::<Vec<String>>());
         }
         if rows.is_empty() {
             return Err("the file is empty".to_owned());
         }
         let header = rows.remove(0);
+        row_numbers.remove(0);
         for row in &mut rows {
             row.resize(header.len().max(row.len()), String::new());
         }
         Ok(Table {
             header,
             rows,
+            row_numbers,
             delimiter,
             has_byte_order_mark: has_mark,
         })
@@ -111,6 +124,7 @@ impl Table {
         Table {
             header: header.iter().map(|name| (*name).to_owned()).collect(),
             rows: Vec::new(),
+            row_numbers: Vec::new(),
             delimiter: b',',
             has_byte_order_mark: false,
         }
@@ -131,8 +145,14 @@ impl Table {
         Table {
             header: pick(&self.header),
             rows: self.rows.iter().map(pick).collect(),
+            row_numbers: self.row_numbers.clone(),
             ..*self
         }
+    }
+
+    /// Returns the rows that were read, each with its number, as spreadsheets show it.
+    pub fn numbered_rows(&self) -> impl Iterator<Item = (usize, &Vec<String>)> {
+        self.row_numbers.iter().copied().zip(&self.rows)
     }
 
     /// Returns the table as CSV, with the delimiter and the byte order mark that it was read with.
@@ -154,6 +174,22 @@ impl Table {
             text
         }
     }
+}
+
+/// Returns the number of blank lines after a row, which the reader skips. `read` is the number of bytes
+/// up to the row's end.
+fn blank_lines(bytes: &[u8], read: usize) -> usize {
+    let (row, rest) = bytes.split_at(read);
+    let is_end = |byte: &&u8| [b'\r', b'\n'].contains(*byte);
+    let ends = &rest[..rest.iter().take_while(is_end).count()];
+    let end_of_row = match row {
+        // The reader stops between the two characters.
+        [.., b'\r'] => ends.strip_prefix(b"\n"),
+        _ => None,
+    };
+    let ends = end_of_row.unwrap_or(ends);
+    let pairs = ends.windows(2).filter(|pair| *pair == b"\r\n").count();
+    ends.len() - pairs
 }
 
 /// Returns untrusted text as a cell: without control characters, and so that no spreadsheet takes it
@@ -182,6 +218,21 @@ mod tests {
         let table = Table::parse(tabs.as_bytes()).unwrap();
         assert_eq!(table.rows, [["Ann, Lee", "87"]]);
         assert_eq!(table.to_csv(), tabs);
+    }
+
+    #[test]
+    fn rows_are_numbered_as_spreadsheets_number_them() {
+        for end in ["\n", "\r\n", "\r"] {
+            let text = "a,b\n\n1,\"x\n\ny\"\n2,\n\n\n3,\n".replace('\n', end);
+            let table = Table::parse(text.as_bytes()).unwrap();
+            let numbers = table.numbered_rows();
+            let numbers: Vec<(usize, &str)> =
+                numbers.map(|(n, row)| (n, row[0].as_str())).collect();
+            assert_eq!(numbers, [(3, "1"), (4, "2"), (7, "3")], "{end:?}");
+        }
+        let table = Table::parse(b"\n\na;b\n1;2").unwrap();
+        assert_eq!(table.numbered_rows().next().unwrap().0, 4);
+        assert_eq!(table.header, ["a", "b"]);
     }
 
     #[test]

@@ -7,7 +7,8 @@ use grader::policy::{AttemptRule, Extension, Lateness, Policy, TimeError, read_t
 use jiff::Timestamp;
 use judging::sanitize::sanitize;
 
-use crate::entry::{EntryInfo, Person};
+use crate::entry::{EntryInfo, Person, equals_ignoring_case};
+use crate::identity::person_ids;
 
 /// The reason why it is unclear how late a submission is. Nobody's points may depend on a guess, so
 /// the submission has no final points until a person corrects the time.
@@ -96,22 +97,24 @@ fn extensions(policy: &Policy, person: &Person) -> Result<Vec<Extension>, Unclea
     Ok(extensions)
 }
 
-/// Prints a warning for each of the policy's extensions that belongs to none of these people.
-pub fn warn_about_unmatched_extensions<'a>(
-    policy: &'a Policy,
-    people: impl Iterator<Item = &'a Person>,
-) {
+/// Prints a warning for each of the policy's extensions that belongs to none of these people, or to
+/// several who have the same name.
+pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     for name in unmatched_extensions(policy, people) {
         let name = sanitize(name, 200);
         anstream::eprintln!("the policy has an extension for {name:?}, who is not in this class");
     }
+    for name in extensions_of_namesakes(policy, people) {
+        let name = sanitize(name, 200);
+        anstream::eprintln!(
+            "the policy has an extension for {name:?}, and several people with this name get it: \
+             write an email address or student number in its place"
+        );
+    }
 }
 
 /// Returns the names in the policy's extensions that belong to none of these people.
-fn unmatched_extensions<'a>(
-    policy: &'a Policy,
-    people: impl Iterator<Item = &'a Person>,
-) -> Vec<&'a str> {
+fn unmatched_extensions<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a str> {
     let mut names: BTreeSet<String> = BTreeSet::new();
     for person in people {
         let all = person.identifiers().chain([person.group.as_str()]);
@@ -120,6 +123,21 @@ fn unmatched_extensions<'a>(
     let keys = policy.late.extensions.keys();
     let unmatched = keys.filter(|key| !names.contains(&key.to_lowercase()));
     unmatched.map(String::as_str).collect()
+}
+
+/// Returns the names in the policy's extensions that several of these people have.
+fn extensions_of_namesakes<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a str> {
+    let ids = person_ids(people);
+    let is_shared = |key: &&String| {
+        let named = people.iter().zip(&ids);
+        let named = named.filter(|(person, _)| equals_ignoring_case(&person.name, key));
+        // Everybody in a group is meant.
+        let named = named.filter(|(person, _)| !equals_ignoring_case(&person.group, key));
+        let ids: BTreeSet<usize> = named.map(|(_, id)| *id).collect();
+        ids.len() > 1
+    };
+    let keys = policy.late.extensions.keys();
+    keys.filter(is_shared).map(String::as_str).collect()
 }
 
 /// Returns whether the policy has a due time, but the submission has neither a time nor a late
@@ -165,9 +183,24 @@ mod tests {
         let unclear = lateness(&policy, &late_flag(), &ann);
         assert_eq!(unclear, Err(UnclearTime::OnlyAFlag));
         assert!(lateness(&policy, &late_flag(), &Person::named("Bob")).is_ok());
-        let people = [ann];
-        assert!(unmatched_extensions(&policy, people.iter()).is_empty());
-        assert_eq!(unmatched_extensions(&policy, [].iter()), ["ann"]);
+        assert!(unmatched_extensions(&policy, &[&ann]).is_empty());
+        assert_eq!(unmatched_extensions(&policy, &[]), ["ann"]);
+    }
+
+    #[test]
+    fn an_extension_by_name_should_be_for_one_person() {
+        let policy = policy("[late.extensions]\n'ann lee' = 2\nu1 = 2\n'team a' = 1");
+        let ann = |sid: &str, group: &str| Person {
+            sid: sid.to_owned(),
+            group: group.to_owned(),
+            ..Person::named("Ann Lee")
+        };
+        let shared = |people: &[&Person]| extensions_of_namesakes(&policy, people);
+        let (one, other) = (ann("u1", "team a"), ann("u2", "team a"));
+        assert_eq!(shared(&[&one, &other]), ["ann lee"]);
+        assert!(shared(&[&one, &one]).is_empty(), "two attempts of one");
+        let [one, other] = ["u1", "u2"].map(|sid| ann(sid, "Ann Lee"));
+        assert!(shared(&[&one, &other]).is_empty(), "it is their group's");
     }
 
     #[test]

@@ -12,7 +12,7 @@
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
 //! | results | [`drift`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`roster`], [`groups`], [`table`], [`entry`], [`shard`], [`paths`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`roster`], [`groups`], [`table`], [`entry`], [`identity`], [`shard`], [`paths`] |
 
 pub mod attempts;
 pub mod cli;
@@ -26,6 +26,7 @@ pub mod grade;
 pub mod gradebook;
 pub mod groups;
 pub mod hand_back;
+pub mod identity;
 pub mod input;
 pub mod input_error;
 pub mod late;

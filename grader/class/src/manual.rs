@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use grader::handed_out::HandedOut;
 use serde::Serialize;
 
-use crate::attempts::attempts_by_person;
 use crate::entry::Person;
+use crate::identity::person_ids;
 use crate::outcome::ScoreSummary;
 use crate::table::{Table, TableError};
 
@@ -78,7 +78,7 @@ impl ManualPointsList {
             path: path.to_owned(),
             all: Vec::new(),
         };
-        for (row, cells) in (2..).zip(&table.rows) {
+        for (row, cells) in table.numbered_rows() {
             let [student, task, delta, comment, author] =
                 columns.map(|index| cells[index].trim().to_owned());
             let points = parse_row(row, student, &task, &delta, comment, author, handed_out);
@@ -164,18 +164,6 @@ impl ManualPointsList {
             problem,
         }
     }
-}
-
-/// Returns a number for each person in the list, which is equal for all records of one person.
-fn person_ids(people: &[&Person]) -> Vec<usize> {
-    let mut ids = vec![0; people.len()];
-    let records = people.iter().map(|person| std::slice::from_ref(*person));
-    for (id, attempts) in attempts_by_person(records).into_iter().enumerate() {
-        for (index, _) in attempts {
-            ids[index] = id;
-        }
-    }
-    ids
 }
 
 impl ManualPoints {

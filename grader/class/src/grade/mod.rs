@@ -19,7 +19,7 @@ use crate::entry_grader::{EntryGrader, is_done};
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::input::Input;
-use crate::late::warn_about_unmatched_extensions;
+use crate::late::warn_about_extensions;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
 use crate::lists;
 use crate::manual::{ManualPointsError, ManualPointsList};
@@ -99,7 +99,8 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
     };
 
     let grader = prepare(options)?;
-    warn_about_unmatched_extensions(grader.policy(), people.into_iter().chain(&missing));
+    let known: Vec<&Person> = people.into_iter().chain(&missing).collect();
+    warn_about_extensions(grader.policy(), &known);
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
     let settings = grader.settings()?;

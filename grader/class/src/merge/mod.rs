@@ -11,7 +11,7 @@ use crate::drift::{Changes, RemovedEntry, find_removed, find_resubmitted};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::grade::{Completion, read_manual_points};
-use crate::late::warn_about_unmatched_extensions;
+use crate::late::warn_about_extensions;
 use crate::lists;
 use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
@@ -81,7 +81,8 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let manual = read_manual_points(&arguments.lists, &GradeOptions::default())?;
     let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
     manual.check_students(&people)?;
-    warn_about_unmatched_extensions(&policy, people.into_iter().chain(&missing));
+    let all: Vec<&Person> = people.into_iter().chain(&missing).collect();
+    warn_about_extensions(&policy, &all);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
     let mut removed = find_removed(&out, &ids)?;
     for (path, _) in &shards {

@@ -230,4 +230,35 @@ mod tests {
         one.email = "ann@x.edu".to_owned();
         assert!(one.matches(&other));
     }
+
+    #[test]
+    fn case_is_ignored_in_every_language() {
+        for (one, other) in [("Ann", "aNN"), ("ÖZIL", "özil"), ("\u{212a}im", "kim")] {
+            assert!(equals_ignoring_case(one, other), "{one} {other}");
+        }
+        for (one, other) in [("ann", "anne"), ("özil", "ozil"), ("ozil", "özil")] {
+            assert!(!equals_ignoring_case(one, other), "{one} {other}");
+        }
+    }
+
+    #[test]
+    fn a_name_in_a_list_replaces_only_that_of_a_file() {
+        let filled = |mut person: Person, name: &str| {
+            person.fill_missing_from(&Person::named(name));
+            (person.name, person.is_named_by_file)
+        };
+        let by_file = || Person::named_by_file("lee_ann");
+        assert_eq!(filled(by_file(), "Ann Lee"), ("Ann Lee".to_owned(), false));
+        assert_eq!(filled(by_file(), ""), ("lee_ann".to_owned(), true));
+        let named = Person::named("Ann");
+        assert_eq!(filled(named, "Ann Lee"), ("Ann".to_owned(), false));
+    }
+
+    #[test]
+    fn only_what_is_known_of_a_person_is_stored() {
+        let stored = serde_json::to_string(&Person::named("Ann")).unwrap();
+        assert_eq!(stored, r#"{"name":"Ann"}"#);
+        let stored = serde_json::to_string(&Person::named_by_file("Ann")).unwrap();
+        assert_eq!(stored, r#"{"name":"Ann","is_named_by_file":true}"#);
+    }
 }

@@ -168,6 +168,18 @@ fn a_result_is_valid_for_its_key_only_and_takes_the_entrys_new_people() {
     );
 }
 
+/// The run ends while the files of an earlier result are removed.
+#[test]
+fn a_stamp_is_never_left_without_its_score() {
+    let (_folder, store) = store();
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    fs::create_dir(store.entry_folder("a").join(REPORT)).unwrap();
+    let replaced = store.save_result(&result("a", &["Ann"], nothing()), "key", 1);
+    assert!(replaced.is_err(), "a folder is not removed like a file");
+    store.set_score_aside("a", 1).unwrap();
+    assert_eq!(store.result("a").unwrap(), None);
+}
+
 #[test]
 fn a_state_is_compared_with_its_reason() {
     let (_folder, store) = store();

@@ -33,7 +33,7 @@ const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
 /// and prints the new hash.
-const STYLE_HASH: &str = "sha256-6noRIBurOYaQKle3yRNI+vVFhkqa+BLVGuwqcriJ128=";
+const STYLE_HASH: &str = "sha256-+3DXv2f3kxwFj44iaSVHz40mI21YSqoTcd69bRznM2Q=";
 const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
 
 /// Whether an open page reloads itself to show a newer version.

@@ -71,6 +71,12 @@ mod tests {
         let mut entries: Vec<&mut EntryInfo> = entries.iter_mut().collect();
         assert!(add_group_members(&lists, &mut entries).unwrap());
         let names: Vec<String> = entries.iter().map(|info| info.display_names()).collect();
+        let added = entries.iter().flat_map(|info| &info.people);
+        let added = added.filter(|person| person.is_from_group);
+        assert_eq!(
+            added.map(Person::display_name).collect::<Vec<_>>(),
+            ["Bob", "Bob"]
+        );
         // Two members of Bob's group submitted, so Bob is in both entries. The preview reports
         // that.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);

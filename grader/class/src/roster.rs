@@ -285,7 +285,7 @@ pub fn missing(rows: &[Member], people: &[&Person]) -> Vec<Person> {
     let is_there = |row: &&Member| {
         let is_theirs =
             |person: &&Person| row.matches(person) || is_repetition(&row.person, person);
-        people.iter().copied().any(|person| is_theirs(&person))
+        people.iter().any(is_theirs)
     };
     let absent: Vec<Member> = rows.iter().filter(|row| !is_there(row)).cloned().collect();
     let mut missing: Vec<Person> = Vec::new();

@@ -122,4 +122,21 @@ mod tests {
         );
         assert_eq!(parse("Jane Doe_assignsubmission_file_"), None);
     }
+
+    /// So it stays the same when a namesake hands something in.
+    #[test]
+    fn the_id_has_the_participants_number() {
+        let name = "Jane Doe_123_assignsubmission_file_bvh.rs";
+        let node = Node {
+            name: name.to_owned(),
+            path: name.into(),
+            children: None,
+            is_link: false,
+        };
+        let entry = entry(
+            &(parse(name).unwrap(), &node),
+            Source::Missing(String::new()),
+        );
+        assert_eq!(entry.id, "Jane Doe_123");
+    }
 }

@@ -337,5 +337,7 @@ mod tests {
         };
         assert!(list[0].matches(&numbered("307")));
         assert!(!list[0].matches(&numbered("308")));
+        let without_numbers = parse_roster("name,email\nAnn Lee,a@x.edu\n");
+        assert!(without_numbers[0].matches(&numbered("308")));
     }
 }

@@ -340,4 +340,51 @@ mod tests {
         let without_numbers = parse_roster("name,email\nAnn Lee,a@x.edu\n");
         assert!(without_numbers[0].matches(&numbered("308")));
     }
+
+    #[test]
+    fn rows_without_a_person_are_left_out() {
+        let canvas = "Student,ID,SIS Login ID\n\"Points Possible\",,\n\"Student, Test\",9,test\n,,\n\
+            \"Lee, Ann\",1,ann\n";
+        let list = parse_roster(canvas);
+        let names: Vec<&str> = list.iter().map(|row| row.person.name.as_str()).collect();
+        assert_eq!(names, ["Lee, Ann"]);
+    }
+
+    #[test]
+    fn everybody_who_is_missing_is_named_once() {
+        let names = |table: &str, people: &[&Person]| {
+            let missing = missing(&parse_roster(table), people);
+            missing
+                .into_iter()
+                .map(|person| person.name)
+                .collect::<Vec<_>>()
+        };
+        let table = "name\nAnn\nBob\nEve\nBob\n";
+        assert_eq!(names(table, &[]), ["Ann", "Bob", "Eve"]);
+        assert_eq!(names(table, &[&Person::named("eve")]), ["Ann", "Bob"]);
+        // Two people with this name, who are told apart by nothing else.
+        let table = "name,group\nAnn,One\nAnn,Two\n";
+        let of_group = Person {
+            group: "Two".to_owned(),
+            is_from_group: true,
+            ..Person::named("Ann")
+        };
+        assert_eq!(names(table, &[&of_group]), ["Ann"]);
+        assert_eq!(names(table, &[]), ["Ann", "Ann"]);
+    }
+
+    #[test]
+    fn a_key_belongs_to_one_person() {
+        let check = |table: &str| check_keys(Path::new("roster.csv"), &parse_roster(table));
+        let sections = "name,email,section\nAnn,a@x.edu,1\nann,A@x.edu,2\n";
+        assert!(check(sections).is_ok());
+        for table in [
+            "name,email\nAnn,a@x.edu\n\nBob,A@x.edu\n",
+            "name,sid\nAnn,1\n\nBob,1\n",
+            "name,login,group\nAnn,a,One\n\nAnn,a,Two\n",
+        ] {
+            let error = check(table).unwrap_err().to_string();
+            assert!(error.contains("rows 2 and 4 both have"), "{error}");
+        }
+    }
 }

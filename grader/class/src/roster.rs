@@ -351,6 +351,13 @@ mod tests {
     }
 
     #[test]
+    fn a_name_may_be_in_two_columns() {
+        let list = parse_roster("First Name,Last Name,Name,SID\nAnn,Lee,,1\nAnn,Lee,A. Lee,2\n");
+        let names: Vec<&str> = list.iter().map(|row| row.person.name.as_str()).collect();
+        assert_eq!(names, ["Ann Lee", "A. Lee"]);
+    }
+
+    #[test]
     fn everybody_who_is_missing_is_named_once() {
         let names = |table: &str, people: &[&Person]| {
             let missing = missing(&parse_roster(table), people);

@@ -28,7 +28,7 @@ pub struct EntryInfo {
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
-    /// What a list says about the time, if the export does not say it.
+    /// The time in a list, if the export does not say it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
@@ -39,7 +39,7 @@ pub struct EntryInfo {
     pub hand_back_as: Option<String>,
 }
 
-/// What a roster or a platform's list says about the time of a submission.
+/// The time of a submission in a roster or in a platform's list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListedTime {
     /// The submission time, in the list's format.

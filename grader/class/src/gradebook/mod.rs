@@ -66,7 +66,7 @@ struct MatchKey<'a> {
     person_texts: fn(&Person) -> Vec<String>,
 }
 
-/// What a key says about a person.
+/// A key's relation to people.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum KeyKind {
     /// A person has only one, such as a student id: a row with another one is somebody else's.

@@ -1,5 +1,7 @@
 //! Code that hits nothing, in each task of the practice exam.
 
+use std::collections::BTreeMap;
+
 use protocol::{Answer, ElementOutcome, Question};
 
 use super::EXAM;
@@ -65,11 +67,14 @@ fn a_task_has_a_clue_for_code_that_hits_nothing_if_its_rays_can_hit_something() 
         if has_clue {
             with_clue.push(task.id);
         }
-        for item in &items {
+        // One item of each kind is enough.
+        let kind = |item: &Item| (right(item) != missed(item), is_picture(item));
+        let kinds: BTreeMap<(bool, bool), &Item> =
+            items.iter().map(|&item| (kind(item), item)).collect();
+        for ((has_hits, _), item) in kinds {
             let missed = missed(item);
             let misses = |answers| misses_everything(&items, item, answers);
             assert_eq!(misses(Ok(missed.clone())), has_clue, "{}", item.id);
-            let has_hits = right(item) != missed;
             assert_eq!(misses(Ok(right(item))), has_clue && !has_hits);
             // What is not answered may be a hit. But a picture may lack an answer because of another task.
             let unanswered = misses(Err(NoAnswerReason::Other));

@@ -7,19 +7,30 @@ use std::sync::Mutex;
 
 use grader::disk::{self, Disk, Operation};
 
-/// A fault of the disk. The numbers count the operations of a step, from 1.
+/// A fault of the disk. The numbers count the operations of a step, from 1: those that change something
+/// or, for `ReadErrorAt`, those that read. To be killed while reading leaves the same files as to be killed
+/// before the next change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
     /// Nothing.
     None,
-    /// The process is killed during an operation: this one may be half done, and no later one happens.
+    /// The process is killed during a change: this one may be half done, and no later one happens.
     KilledAt(u64),
-    /// From this operation on, nothing can be written.
+    /// From this change on, nothing can be written.
     FullFrom(u64),
-    /// The first file written from this operation on cannot be written.
+    /// This change fails.
     WriteErrorAt(u64),
-    /// The first file or folder read from this operation on cannot be read.
+    /// This file or folder cannot be read.
     ReadErrorAt(u64),
+}
+
+/// Numbers of operations.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Operations {
+    /// Those that change something.
+    pub changes: u64,
+    /// Those that read a file or list a folder.
+    pub reads: u64,
 }
 
 #[derive(Debug)]
@@ -27,8 +38,8 @@ struct State {
     /// Only operations in this folder are counted and fail.
     root: PathBuf,
     fault: DiskFault,
-    count: u64,
-    is_done: bool,
+    done: Operations,
+    had_fault: bool,
 }
 
 /// The disk of this process.
@@ -38,8 +49,11 @@ pub struct FaultyDisk(Mutex<State>);
 static DISK: FaultyDisk = FaultyDisk(Mutex::new(State {
     root: PathBuf::new(),
     fault: DiskFault::None,
-    count: 0,
-    is_done: false,
+    done: Operations {
+        changes: 0,
+        reads: 0,
+    },
+    had_fault: false,
 }));
 
 const NO_SPACE: i32 = 28;
@@ -55,16 +69,16 @@ pub fn start(root: &Path, fault: DiskFault) {
     *DISK.0.lock().unwrap() = State {
         root: root.to_owned(),
         fault,
-        count: 0,
-        is_done: false,
+        done: Operations::default(),
+        had_fault: false,
     };
 }
 
-/// Ends the faults. Returns the number of operations of the step, and whether a fault occurred.
-pub fn stop() -> (u64, bool) {
+/// Ends the faults. Returns the numbers of operations of the step, and whether a fault occurred.
+pub fn stop() -> (Operations, bool) {
     let mut state = DISK.0.lock().unwrap();
     state.fault = DiskFault::None;
-    (state.count, state.is_done)
+    (state.done, state.had_fault)
 }
 
 impl Disk for FaultyDisk {
@@ -81,31 +95,33 @@ impl Disk for FaultyDisk {
         if !path.starts_with(&state.root) {
             return Ok(());
         }
-        state.count += 1;
         let needs_space = matches!(
             operation,
             Operation::CreateFolder(_) | Operation::CreateTemporary(_) | Operation::Write(..)
         );
-        let (count, is_first) = (state.count, !state.is_done);
+        if is_read {
+            state.done.reads += 1;
+        } else {
+            state.done.changes += 1;
+        }
+        let Operations { changes, reads } = state.done;
         let error = match state.fault {
-            DiskFault::KilledAt(at) if count >= at => {
-                if is_first {
+            DiskFault::KilledAt(at) if changes >= at => {
+                if !state.had_fault {
                     leave_half(operation);
                 }
                 Some(INPUT_OUTPUT)
             }
-            DiskFault::FullFrom(at) if count >= at && needs_space => Some(NO_SPACE),
-            DiskFault::WriteErrorAt(at) if count >= at && !is_read && is_first => {
-                Some(INPUT_OUTPUT)
-            }
-            DiskFault::ReadErrorAt(at) if count >= at && is_read && is_first => Some(INPUT_OUTPUT),
+            DiskFault::FullFrom(at) if changes >= at && needs_space => Some(NO_SPACE),
+            DiskFault::WriteErrorAt(at) if changes == at && !is_read => Some(INPUT_OUTPUT),
+            DiskFault::ReadErrorAt(at) if reads == at && is_read => Some(INPUT_OUTPUT),
             DiskFault::None
             | DiskFault::KilledAt(_)
             | DiskFault::FullFrom(_)
             | DiskFault::WriteErrorAt(_)
             | DiskFault::ReadErrorAt(_) => None,
         };
-        state.is_done |= error.is_some();
+        state.had_fault |= error.is_some();
         error.map_or(Ok(()), |code| Err(io::Error::from_raw_os_error(code)))
     }
 }

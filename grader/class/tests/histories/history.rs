@@ -10,7 +10,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::comparison::{EXPORT, FreshRuns};
-use crate::faulty_disk::DiskFault;
+use crate::faulty_disk::{DiskFault, Operations};
 use crate::model::Model;
 use crate::observed::{Keys, ScoreId, all_files, observe};
 use crate::recorded_grader::{EXAMS, ProcessFault, score};
@@ -26,8 +26,8 @@ struct History {
     models: BTreeMap<Target, Model>,
     fresh: FreshRuns,
     next_version: u32,
-    /// The number of operations that the last run without a fault made, for each target.
-    operations: BTreeMap<Target, u64>,
+    /// The numbers of operations that the last run without a fault made, for each target.
+    operations: BTreeMap<Target, Operations>,
     log: Vec<String>,
 }
 
@@ -112,20 +112,25 @@ impl History {
 
     fn submit(&mut self) {
         let student = *self.rng.choice(&STUDENTS).unwrap();
-        let version = (self.rng.u32(0..6) > 0).then_some(self.next_version);
+        let version = (self.rng.u32(0..3) > 0).then_some(self.next_version);
         self.next_version += 1;
         self.log.push(format!("{student} submits {version:?}"));
         self.world.submit(student, version);
     }
 
     fn disk_fault(&mut self, target: Target) -> DiskFault {
-        let most = self.operations.get(&target).copied().unwrap_or(60);
-        let at = self.rng.u64(1..=most);
+        let most = self.operations.get(&target).copied();
+        let most = most.unwrap_or(Operations {
+            changes: 30,
+            reads: 30,
+        });
+        let change = self.rng.u64(1..=most.changes.max(1));
+        let read = self.rng.u64(1..=most.reads.max(1));
         match self.rng.u32(0..12) {
-            0..=3 => DiskFault::KilledAt(at),
-            4 => DiskFault::FullFrom(at),
-            5 => DiskFault::WriteErrorAt(at),
-            6 => DiskFault::ReadErrorAt(at),
+            0..=3 => DiskFault::KilledAt(change),
+            4 => DiskFault::FullFrom(change),
+            5 => DiskFault::WriteErrorAt(change),
+            6 => DiskFault::ReadErrorAt(read),
             _ => DiskFault::None,
         }
     }

@@ -12,7 +12,7 @@ use class::grade::{Completion, grade_class_with};
 use class::merge::merge_shards;
 use grader::handed_out::RAYS;
 
-use crate::faulty_disk::{self, DiskFault};
+use crate::faulty_disk::{self, DiskFault, Operations};
 use crate::observed::all_files;
 use crate::recorded_grader::{ProcessFault, RecordedGrader, source};
 
@@ -58,8 +58,8 @@ pub struct World {
 pub struct Ended {
     /// The result of the command.
     pub result: Result<Completion, Error>,
-    /// The number of operations on files.
-    pub operations: u64,
+    /// The numbers of operations on files.
+    pub operations: Operations,
     /// Whether the disk's fault occurred.
     pub had_disk_fault: bool,
 }

@@ -56,11 +56,13 @@ fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<At
             let time =
                 |(row, _): &Attempt| submission_time(policy, &rows[*row].result.info).ok()?;
             let times: Option<Vec<_>> = candidates.iter().map(time).collect();
-            let latest = times?
-                .into_iter()
-                .zip(candidates)
-                .max_by_key(|(time, _)| *time)?;
-            Some(latest.1)
+            let times = times?;
+            let latest = times.iter().max()?;
+            let mut of_latest = times.iter().zip(&candidates);
+            let (_, chosen) = of_latest.find(|(time, _)| *time == latest)?;
+            // Of two at the same time, neither is the latest.
+            let is_only = of_latest.all(|(time, _)| time != latest);
+            is_only.then_some(*chosen)
         }
         AttemptRule::Best => {
             let points =
@@ -134,6 +136,21 @@ mod tests {
             counted("latest", &undated),
             ["or b, c", "or a, c", "or a, b"]
         );
+    }
+
+    #[test]
+    fn of_two_attempts_at_the_latest_time_a_person_chooses() {
+        let [a, b, c] = three();
+        let at = |attempt: &(&'static str, EntryOutcome, _), time| {
+            (attempt.0, attempt.1.clone(), Some(time))
+        };
+        let latest = [a.clone(), b.clone(), at(&c, "2026-11-22T11:00:00+01:00")];
+        assert_eq!(
+            counted("latest", &latest),
+            ["or b, c", "or a, c", "or a, b"]
+        );
+        let earliest = [a, b, at(&c, "2026-11-20T10:00:00Z")];
+        assert_eq!(counted("latest", &earliest), ["see b", "60", "see b"]);
     }
 
     #[test]

@@ -253,6 +253,20 @@ mod tests {
         );
     }
 
+    /// It may repeat the questions of any of them.
+    #[test]
+    fn printed_text_is_shown_only_if_all_items_of_its_task_are_open() {
+        let printed = |policy: &str| -> Vec<String> {
+            let view = sample::view(&sample::score(), policy, 0);
+            let tasks = view.visible.tasks.iter();
+            tasks.filter_map(|task| task.printed.clone()).collect()
+        };
+        let (camera, sphere) = ("camera \\u{7}printed this", "sphere printed this");
+        assert_eq!(printed(""), [camera, sphere]);
+        let one_hidden = "[visibility.items]\n'sphere.near_side' = 'feedback'";
+        assert_eq!(printed(one_hidden), [camera]);
+    }
+
     #[test]
     fn a_verdict_follows_from_points() {
         let verdicts = [0, 1, 2, 3].map(|points| verdict_from_points(points, 3));

@@ -186,6 +186,17 @@ mod tests {
         frames
     }
 
+    #[test]
+    fn answers_before_an_invalid_one_are_received() {
+        let append = |bytes, nonce| wire::append(bytes, nonce, &answer(1)).unwrap();
+        let mut bytes = (0..3).fold(Vec::new(), append);
+        bytes.extend([0xff; 64]);
+        let (limits, all) = ([1000; 4], vec![bytes.len()]);
+        let frames = received(bytes, &limits, &[4], all);
+        let nonces: Vec<u64> = frames.iter().map(|frame| frame.nonce).collect();
+        assert_eq!(nonces, [0, 1, 2]);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 

@@ -169,6 +169,19 @@ fn groups_canvas_files_by_user_and_takes_the_newest() {
 }
 
 #[test]
+fn canvas_attachments_are_in_the_order_of_their_numbers() {
+    let class = TestClass::named("submissions")
+        .with("doejane_7001_999_hw.zip", archive())
+        .with("doejane_7001_1000_hw-1.zip", archive())
+        .with("leeann_7002_9001_hw.zip", archive());
+    let preview = class.preview();
+    assert!(
+        preview.contains("doejane_7001_1000_hw-1.zip and 1 more"),
+        "{preview}"
+    );
+}
+
+#[test]
 fn a_canvas_group_submission_counts_for_all_its_members() {
     let class = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", archive())

@@ -7,9 +7,8 @@ use std::sync::Mutex;
 
 use grader::disk::{self, Disk, Operation};
 
-/// A fault of the disk. The numbers count the operations of a step, from 1: those that change something
-/// or, for `ReadErrorAt`, those that read. To be killed while reading leaves the same files as to be killed
-/// before the next change.
+/// A fault of the disk. The numbers count the changes of a step, from 1, or its reads for `ReadErrorAt`. A
+/// process is never killed during a read: that leaves the same files as a kill before the next change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
     /// Nothing.
@@ -20,17 +19,24 @@ pub enum DiskFault {
     FullFrom(u64),
     /// This change fails.
     WriteErrorAt(u64),
-    /// This file or folder cannot be read.
+    /// This read fails.
     ReadErrorAt(u64),
 }
 
 /// Numbers of operations.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Operations {
-    /// Those that change something.
+    /// Operations that change something.
     pub changes: u64,
-    /// Those that read a file or list a folder.
+    /// Operations that read a file or list a folder.
     pub reads: u64,
+}
+
+impl Operations {
+    const NONE: Self = Operations {
+        changes: 0,
+        reads: 0,
+    };
 }
 
 #[derive(Debug)]
@@ -49,10 +55,7 @@ pub struct FaultyDisk(Mutex<State>);
 static DISK: FaultyDisk = FaultyDisk(Mutex::new(State {
     root: PathBuf::new(),
     fault: DiskFault::None,
-    done: Operations {
-        changes: 0,
-        reads: 0,
-    },
+    done: Operations::NONE,
     had_fault: false,
 }));
 
@@ -69,7 +72,7 @@ pub fn start(root: &Path, fault: DiskFault) {
     *DISK.0.lock().unwrap() = State {
         root: root.to_owned(),
         fault,
-        done: Operations::default(),
+        done: Operations::NONE,
         had_fault: false,
     };
 }

@@ -2,7 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde_json::Value;
+
 use crate::observed::{Files, Keys, Observed, ScoreId};
+use crate::recorded_grader::score;
 
 /// The model of a folder in which a class is graded.
 #[derive(Debug, Default)]
@@ -121,8 +124,39 @@ impl Model {
         Ok(())
     }
 
+    /// Compares the list of changes after a regrade with the scores that have changed. `now` has the
+    /// scores of the class.
+    pub fn check_drifts(
+        &self,
+        file: &str,
+        now: &BTreeMap<&str, Option<ScoreId>>,
+    ) -> Result<(), String> {
+        let list: Vec<Value> = serde_json::from_str(file).map_err(|error| error.to_string())?;
+        let found: BTreeSet<&str> = list
+            .iter()
+            .filter_map(|drift| drift["id"].as_str())
+            .collect();
+        let points = |id: &str, known: ScoreId| -> Vec<u32> {
+            let score = score(id, known.version, known.exam);
+            score.items().map(|item| item.points).collect()
+        };
+        let drifts = self.drifts(now);
+        let is_changed = |(id, was): &&(String, ScoreId)| {
+            now[id.as_str()].is_none_or(|now| points(id, now) != points(id, *was))
+        };
+        let expected = drifts.iter().filter(is_changed).map(|(id, _)| id.as_str());
+        let expected: BTreeSet<&str> = expected.collect();
+        if found == expected {
+            Ok(())
+        } else {
+            Err(format!(
+                "drift.json lists {found:?} instead of {expected:?}"
+            ))
+        }
+    }
+
     /// Returns the ids of the entries whose score a regrade has changed, among those of the class.
-    pub fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
+    fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
         let entries = &self.observed.entries;
         let before = ids.filter_map(|id| Some((id.to_owned(), entries.get(id)?.previous?)));

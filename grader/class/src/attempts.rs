@@ -58,11 +58,11 @@ fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<At
             let times: Option<Vec<_>> = candidates.iter().map(time).collect();
             let times = times?;
             let latest = times.iter().max()?;
-            let mut of_latest = times.iter().zip(&candidates);
-            let (_, chosen) = of_latest.find(|(time, _)| *time == latest)?;
+            let dated = candidates.iter().zip(&times);
+            let mut last = dated.filter(|(_, time)| *time == latest);
+            let (chosen, _) = last.next()?;
             // Of two at the same time, neither is the latest.
-            let is_only = of_latest.all(|(time, _)| time != latest);
-            is_only.then_some(*chosen)
+            last.next().is_none().then_some(*chosen)
         }
         AttemptRule::Best => {
             let points =

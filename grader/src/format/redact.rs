@@ -253,7 +253,7 @@ mod tests {
         );
     }
 
-    /// It may repeat the questions of any of them.
+    /// Printed text may repeat the questions of any item.
     #[test]
     fn printed_text_is_shown_only_if_all_items_of_its_task_are_open() {
         let printed = |policy: &str| -> Vec<String> {

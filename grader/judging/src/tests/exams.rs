@@ -100,6 +100,7 @@ fn an_exam_is_read_as_it_was_written() {
 #[test]
 fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
     let ids = ["camera.corners", "camera.picture", "sphere.near_side"];
+    // The picture has all of its rays: as many as a film of the largest width and a height of 1.
     let items = EXAM.items.iter();
     let items = items.filter(|item| ids.contains(&item.id.as_str()));
     let exam = Exam {

@@ -47,7 +47,7 @@ pub static PART: LazyLock<Exam> = LazyLock::new(|| {
     exam
 });
 
-/// Keeps a few of the thousands of rays in a picture: half of the exam's text.
+/// Reduces a picture of camera rays to a few pixels: its thousands of rays are half of the exam's text.
 fn make_picture_of_rays_small(question: &mut ExamQuestion) {
     if let (
         Question::Camera {

@@ -221,6 +221,20 @@ mod tests {
     }
 
     #[test]
+    fn of_equally_frequent_delimiters_a_comma_comes_first_and_a_tab_last() {
+        for (text, row) in [
+            ("name,e;mail\nAnn,a\n", ["Ann", "a"]),
+            ("name\te;mail\nAnn\ta\n", ["Ann\ta", ""]),
+        ] {
+            let table = Table::parse(text.as_bytes());
+            assert_eq!(
+                table.map(|table| table.rows),
+                Ok(vec![row.map(str::to_owned).to_vec()])
+            );
+        }
+    }
+
+    #[test]
     fn rows_are_numbered_as_spreadsheets_number_them() {
         for end in ["\n", "\r\n", "\r"] {
             let text = "a,b\n\n1,\"x\n\ny\"\n2,\n\n\n3,\n".replace('\n', end);

@@ -19,9 +19,9 @@ use crate::kept_state::is_right_alone;
 use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe};
 
 /// Number of time-outs after which a task is stopped.
-const MAX_TIMEOUTS: usize = 1;
+pub const MAX_TIMEOUTS: usize = 1;
 /// Number of other faults after which a task is stopped.
-const MAX_CRASHES: usize = 2;
+pub const MAX_CRASHES: usize = 2;
 /// Maximum length of the stored output of a submission, in characters.
 const MAX_PRINTED_CHARS: usize = 1_000;
 

@@ -4,9 +4,6 @@ use std::time::Duration;
 
 use super::limits::{ItemLimits, TimeUsed};
 
-/// An item may take this many times as long as the slowest item that has passed.
-const SLOWER_THAN_PASSED: u32 = 50;
-
 /// The time that a submission may wait in all items together: enough for all of its methods to wait
 /// until they are stopped.
 const TOTAL_WAITING: Duration = Duration::from_secs(40);
@@ -34,6 +31,8 @@ impl Default for Budget {
 impl Budget {
     /// The largest limit of CPU time for an item that can be chosen, in seconds.
     pub const MAX_SECONDS: u64 = 600;
+    /// An item may take this many times as long as the slowest item that has passed.
+    pub const SLOWER_THAN_PASSED: u32 = 50;
 
     /// Returns a budget with a fixed limit of CPU time for each item, in seconds.
     pub fn from_seconds(seconds: u64) -> Self {
@@ -93,7 +92,7 @@ impl Allowance {
         if used.cpu >= budget.total_cpu() || used.waiting >= TOTAL_WAITING {
             return None;
         }
-        let own_speed = SLOWER_THAN_PASSED * slowest_passed;
+        let own_speed = Budget::SLOWER_THAN_PASSED * slowest_passed;
         let cpu = own_speed.clamp(budget.least, budget.most);
         Some(ItemLimits {
             cpu_if_printing: budget.most,

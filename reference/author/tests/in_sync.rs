@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use grader::handed_out::RAYS;
+use grader::probe::Budget;
+use grader::task_session::{MAX_CRASHES, MAX_TIMEOUTS};
 
 fn author(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_author"))
@@ -74,6 +76,30 @@ fn the_readme_has_the_numbers_of_the_exam() {
         format!("the answers that {} known mistakes give", count("mistakes")),
     ] {
         assert!(readme.contains(&sentence), "the README lacks: {sentence}");
+    }
+}
+
+#[test]
+fn the_handout_has_the_limits_of_the_grader() {
+    let page = fs::read_to_string(root().join("handout/src/grading.md")).unwrap();
+    let page: Vec<&str> = page.split_whitespace().collect();
+    let page = page.join(" ");
+    let limits = Budget::default().single_item();
+    // The second sentence has these as words.
+    assert_eq!((MAX_TIMEOUTS, MAX_CRASHES), (1, 2));
+    for sentence in [
+        format!(
+            "An item may use {} seconds of processor time, or {} times as much as your slowest item \
+             that passed, but at most {} seconds.",
+            limits.cpu.as_secs(),
+            Budget::SLOWER_THAN_PASSED,
+            limits.cpu_if_printing.as_secs()
+        ),
+        "once one item of a task has run out of time, or two have crashed or run out of memory, the \
+         rest of the task is not run"
+            .to_owned(),
+    ] {
+        assert!(page.contains(&sentence), "the handout lacks: {sentence}");
     }
 }
 

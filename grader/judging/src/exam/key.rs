@@ -51,7 +51,7 @@ pub enum Key {
         #[serde(with = "packed")]
         hits: Vec<Option<Surface>>,
         /// Additional correct answers, each with the index of its position. They exist where a ray
-        /// less than 1/1000 of a pixel away hits a different surface or none.
+        /// up to 1/2000 of a pixel away, along each axis, hits a different surface or none.
         #[serde(with = "packed")]
         #[serde(alias = "also")]
         alternatives: Vec<(u32, Option<Surface>)>,

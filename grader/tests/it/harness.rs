@@ -197,6 +197,7 @@ impl GradeRun {
 }
 
 /// The positions of tasks in lecture order.
+pub const TRIANGLE: usize = 1;
 pub const SPHERE: usize = 2;
 pub const BBOX: usize = 3;
 pub const BUILD: usize = 4;

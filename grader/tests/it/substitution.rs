@@ -3,11 +3,8 @@
 
 use insta::assert_snapshot;
 
-use crate::harness::{FULL_POINTS, Submission};
+use crate::harness::{BBOX, BUILD, FULL_POINTS, Submission, TRAVERSE, TRIANGLE};
 
-const BBOX: usize = 3;
-const BUILD: usize = 4;
-const TRAVERSE: usize = 5;
 /// An interval that begins and ends at the origin of a ray.
 const NEVER: &str = "protocol::Interval::new(0.0, 0.0)";
 
@@ -95,6 +92,25 @@ fn a_tree_without_end_does_not_cost_traversal_points() {
     // Without the reference, the items that build a tree cannot be judged: two with three points.
     let points = endless.grade().points();
     assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE] - 3);
+}
+
+/// A triangle without area lets the triangles' task hang, and its last items are not run. An item of
+/// another task that depends on one of them is not run either, even if it would not hang itself.
+#[test]
+fn what_depends_on_a_stopped_task_is_not_run() {
+    let hanging = Submission::reference("hanging").with_replaced(
+        "triangle.rs",
+        "let e1_x_d = e1.cross(ray.dir);",
+        "while e1.cross(e2) == glam::Vec3::ZERO { std::hint::spin_loop(); }\n\
+         let e1_x_d = e1.cross(ray.dir);",
+    );
+    let points = hanging.grade_with_reference().points();
+    assert!(points[TRIANGLE] < FULL_POINTS[TRIANGLE], "{points:?}");
+    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
+    // Without the reference, the picture and the radiance cannot be judged: two items with two points.
+    let graded = hanging.grade();
+    assert_eq!(graded.points()[TRAVERSE], FULL_POINTS[TRAVERSE] - 4);
+    assert_eq!(graded.verdicts("traverse"), ["blocked", "pass"]);
 }
 
 #[test]

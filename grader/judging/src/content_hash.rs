@@ -47,6 +47,7 @@ mod tests {
         assert_eq!(hash(&[b"ab", b"c"]).len(), DIGITS);
         assert_ne!(hash(&[b"ab", b"c"]), hash(&[b"a", b"bc"]));
         assert_ne!(hash(&[b""]), hash(&[]));
+        assert_ne!(hash(&[b"ab"]), hash(&[b"cd"]));
     }
 
     #[test]

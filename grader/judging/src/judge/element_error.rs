@@ -112,21 +112,34 @@ mod tests {
         assert_eq!(error.as_deref(), Some("there is no answer"));
     }
 
-    #[test]
-    fn one_wrong_position_of_a_picture_is_an_error() {
+    /// Returns the picture of a wall behind both rays, at whose position `alternative` nothing is right,
+    /// too.
+    fn picture_of_a_wall(alternative: u32) -> ExamQuestion {
         let wall = Surface {
             depth: 2.0,
             normal: Vec3::Z,
             uv: Vec2::ZERO,
         };
-        let question = question(Key::FirstHits {
+        question(Key::FirstHits {
             hits: vec![Some(wall), Some(wall)],
-            alternatives: vec![(0, None)],
-        });
+            alternatives: vec![(alternative, None)],
+        })
+    }
+
+    #[test]
+    fn one_wrong_position_of_a_picture_is_an_error() {
+        let question = picture_of_a_wall(0);
         assert_eq!(element_error(&question, &answer(2.0), 0), None);
         assert_eq!(element_error(&question, &answer(2.0), 1), None);
         let error = element_error(&question, &answer(4.0), 1).expect("this is wrong");
         assert!(error.starts_with("depth; the error is "), "{error}");
+    }
+
+    #[test]
+    fn an_alternative_is_one_only_at_its_position() {
+        let question = picture_of_a_wall(1);
+        let error = element_error(&question, &answer(2.0), 0);
+        assert_eq!(error.as_deref(), Some("hit or miss"));
     }
 
     #[test]

@@ -75,6 +75,7 @@ mod tests {
     #[test]
     fn lengths_are_compared_relative_to_the_scale() {
         assert!(length_error(1000.05, 1000.0, 1.0, LENGTH) <= 1.0);
+        assert!(length_error(-1000.05, -1000.0, 1.0, LENGTH) <= 1.0);
         assert!(length_error(0.05, 0.0, 1000.0, LENGTH) <= 1.0);
         assert!(length_error(0.0005, 0.0, 1.0, LENGTH) > 1.0);
         assert!(length_error(0.00105, 0.001, 0.01, LENGTH) > 1.0);
@@ -89,6 +90,7 @@ mod tests {
         assert!(close(length_error(10.003, 10.0, 1.0, LENGTH), 3.0));
         assert!(close(point_error(Vec3::X * 0.0002, Vec3::ZERO, 1.0), 2.0));
         assert!(close(unit_error(Vec3::X * 1.5), 500.0));
+        assert!(close(unit_error(Vec3::X * 0.5), 500.0));
         assert!(close(uv_error(vec2(0.5, 0.5), vec2(0.501, 0.5)), 0.5));
     }
 

@@ -142,4 +142,13 @@ mod tests {
         assert_eq!(credit(Vec3::new(1.0, 1.0, f32::NAN)), Credit::NONE);
         assert_eq!(credit(Vec3::splat(f32::INFINITY)), Credit::NONE);
     }
+
+    #[test]
+    fn the_least_brightness_is_tolerated_in_the_dark() {
+        let key = vec![Vec3::ZERO; 100];
+        let credit = |wrong| judge(&key, 2, &picture_with(100, Vec3::splat(wrong))).credit;
+        let limit = RELATIVE_TOLERANCE * MIN_BRIGHTNESS;
+        assert_eq!(credit(0.9 * limit), Credit::FULL);
+        assert_eq!(credit(1.1 * limit), Credit::NONE);
+    }
 }

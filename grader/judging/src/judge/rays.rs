@@ -149,3 +149,48 @@ fn deviation(part: RayCheck, ray: &Ray, wanted: Vec3) -> Deviation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ray with an error in its origin, its direction and its range, of these multiples of their
+    /// tolerances.
+    fn ray(origin: f32, direction: f32, range: f32) -> ElementOutcome<Ray> {
+        ElementOutcome::Value(Ray {
+            origin: Vec3::X * (origin * LENGTH * SCALE),
+            dir: Vec3::NEG_Z + Vec3::X * (direction * DIRECTION),
+            range: Interval::new(range * LENGTH, f32::INFINITY),
+        })
+    }
+
+    fn compare(rays: &[ElementOutcome<Ray>], is_picture: bool) -> CameraRays<'_> {
+        CameraRays {
+            checks: &[RayCheck::Origin, RayCheck::Direction, RayCheck::Range],
+            directions: &[Vec3::NEG_Z],
+            rays,
+            is_picture,
+        }
+    }
+
+    #[test]
+    fn the_first_check_that_fails_is_named() {
+        let what = |ray| match compare(&[ray], false).judge().failure.unwrap().kind {
+            FailureKind::Wrong { what, .. } => what,
+            other @ (FailureKind::Panicked(_) | FailureKind::Protocol(_)) => panic!("{other:?}"),
+        };
+        assert_eq!(what(ray(2.0, 9.0, 9.0)), "origin");
+        assert_eq!(what(ray(0.5, 2.0, 9.0)), "direction");
+        assert_eq!(what(ray(0.5, 0.5, 2.0)), "range");
+        assert_eq!(compare(&[ray(0.5, 0.5, 0.5)], false).judge().failure, None);
+    }
+
+    #[test]
+    fn the_largest_error_of_a_pixel_counts() {
+        for ray in [ray(3.0, 7.0, 2.0), ray(7.0, 3.0, 2.0), ray(2.0, 3.0, 7.0)] {
+            let mismatches = compare(&[ray], true).mismatches().unwrap();
+            let deviation = mismatches[0].unwrap().deviation;
+            assert!((deviation - 7.0).abs() < 0.01, "{deviation}");
+        }
+    }
+}

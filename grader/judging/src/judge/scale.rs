@@ -77,7 +77,9 @@ mod tests {
         assert_eq!(of_hit(&[], &ray, None), 3.0);
         assert_eq!(of_hit(&[sphere], &ray, None), 4.5);
         assert_eq!(of_hit(&[sphere], &ray, Some(7.0)), 7.0);
+        assert_eq!(of_hit(&[sphere], &ray, Some(-7.0)), 7.0);
         assert_eq!(of_box(Vec3::splat(-8.0), Vec3::ONE, &ray), 8.0);
+        assert_eq!(of_box(Vec3::ONE, Vec3::splat(8.0), &ray), 8.0);
         let far = Ray {
             origin: Vec3::splat(-20.0),
             range: Interval::AHEAD,

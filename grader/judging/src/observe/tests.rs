@@ -172,3 +172,8 @@ fn what_follows_from_a_wrong_distance_is_not_observed() {
     let [one, other] = [Vec3::Y * 1.5, Vec3::Y].map(at_right_distance);
     assert!(!of(&one, Some(&expected)).matches(&of(&other, Some(&expected))));
 }
+
+#[test]
+fn a_question_whose_numbers_are_all_0_has_a_tolerance() {
+    assert_eq!(lengths(&[0.0, -0.0], 0.0), [0.0, 0.0]);
+}

@@ -80,6 +80,8 @@ impl Bounds {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     #[test]
@@ -93,21 +95,49 @@ mod tests {
     }
 
     #[test]
+    fn the_box_of_a_shape_touches_it_on_every_side() {
+        // Each corner is the farthest one on two sides.
+        let corners = [
+            Vec3::new(-4.0, 7.0, 1.0),
+            Vec3::new(2.0, -5.0, 3.0),
+            Vec3::new(0.0, 6.0, -8.0),
+        ];
+        let material = 0;
+        for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+            let bounds = Bounds::of_shape(&Shape::FlatTriangle {
+                corners: order.map(|corner| corners[corner]),
+                material,
+            });
+            assert_eq!(bounds.min, DVec3::new(-4.0, -5.0, -8.0));
+            assert_eq!(bounds.max, DVec3::new(2.0, 7.0, 3.0));
+        }
+        let bounds = Bounds::of_shape(&Shape::Sphere {
+            center: Vec3::new(1.0, 2.0, 3.0),
+            radius: 0.5,
+            material,
+        });
+        assert_eq!(bounds.min, DVec3::new(0.5, 1.5, 2.5));
+        assert_eq!(bounds.max, DVec3::new(1.5, 2.5, 3.5));
+    }
+
+    #[test]
     fn an_excess_of_the_last_bits_is_rounding() {
-        let outer = Bounds {
-            min: DVec3::splat(-1000.0),
-            max: DVec3::splat(1000.0),
-        };
         let bit = 1000.0 * f64::from(f32::EPSILON);
-        for side in [DVec3::X, DVec3::Y, DVec3::Z] {
-            let excess = |by: f64| {
-                let (mut above, mut below) = (outer, outer);
-                above.max += by * side;
-                below.min -= by * side;
-                [above.excess_over(outer), below.excess_over(outer)]
-            };
-            assert_eq!(excess(bit), [0.0, 0.0]);
-            assert!(excess(1.0).iter().all(|excess| (excess - 1.0).abs() < 1e-3));
+        // The coordinate farther from 0 decides, whichever it is.
+        for (min, max) in [(-1000.0, 1000.0), (-1000.0, -1.0), (1.0, 1000.0)] {
+            let (min, max) = (DVec3::splat(min), DVec3::splat(max));
+            let outer = Bounds { min, max };
+            for side in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let excess = |by: f64| {
+                    let (mut above, mut below) = (outer, outer);
+                    above.max += by * side;
+                    below.min -= by * side;
+                    [above.excess_over(outer), below.excess_over(outer)]
+                };
+                assert_eq!(excess(bit), [0.0, 0.0]);
+                assert!(excess(3.0 * bit).iter().all(|&excess| excess > 0.0));
+                assert!(excess(1.0).iter().all(|excess| (excess - 1.0).abs() < 1e-3));
+            }
         }
     }
 }

@@ -120,6 +120,33 @@ fn each_check_finds_its_defect() {
 }
 
 #[test]
+fn a_tree_may_be_deep_on_either_side() {
+    let leaf = |i: u32| node(i, i, 1, 0, 0);
+    for mirrored in [false, true] {
+        let fork = |first: u32, l: u32, r: u32| {
+            let (l, r) = if mirrored { (r, l) } else { (l, r) };
+            node(first, 3, 0, l, r)
+        };
+        let tree = Tree {
+            nodes: vec![
+                fork(0, 1, 2),
+                leaf(0),
+                fork(1, 3, 4),
+                leaf(1),
+                fork(2, 5, 6),
+                leaf(2),
+                leaf(3),
+            ],
+            root: 0,
+            order: vec![0, 1, 2, 3],
+        };
+        let answer = ElementOutcome::Value(tree);
+        let judgement = judge(&ALL_CHECKS, None, &row(4), 1, &answer);
+        assert_eq!(judgement.credit, Credit::FULL, "{judgement:?}");
+    }
+}
+
+#[test]
 fn counting_stops_when_leaves_list_too_many_primitives() {
     // A chain of nodes, each with a leaf that lists all of a long `order`.
     let (links, listed) = (2_000, 200_000);

@@ -230,6 +230,20 @@ mod tests {
             let r = tree.nodes[2];
             (tree.nodes[0].min, tree.nodes[0].max) = (r.min + off, r.max + off);
         });
+        // A box is empty if its corners are in the wrong order on one axis.
+        assert_name("box too small: interior nodes, empty", |tree| {
+            (tree.nodes[1].min.y, tree.nodes[1].max.y) = (0.5, -0.5);
+        });
+        // Only what all wrong boxes have in common is named.
+        assert_name("box too small: leaves", |tree| {
+            (tree.nodes[0].min, tree.nodes[0].max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+            tree.nodes[2].max.x = 5.0;
+        });
+        assert_name("box too small: leaves", |tree| {
+            let r = tree.nodes[2];
+            (tree.nodes[0].min, tree.nodes[0].max) = (r.min, r.max);
+            tree.nodes[2].max.x = 5.0;
+        });
         assert_name("box too large: leaves", |tree| {
             tree.nodes[2].min = tree.nodes[0].min;
         });

@@ -65,7 +65,7 @@ impl Outputs {
         let mut outputs = Outputs {
             files: Vec::new(),
             context: FormatContext {
-                folder: folder_in_checkout(submitted, submission.handed_out),
+                folder: folder_in_checkout(submitted, &checkout(), submission.handed_out),
                 methods: find_methods(submission),
                 variables: BTreeMap::new(),
                 hints,
@@ -155,12 +155,15 @@ fn read_variables(
     Ok(())
 }
 
-/// Returns the folder of the task files relative to the checkout, which is `GITHUB_WORKSPACE` or
-/// the current folder. The result is empty if the files are not below the checkout.
-fn folder_in_checkout(submitted: &Path, handed_out: &HandedOut) -> String {
-    let current = env::current_dir().unwrap_or_default();
-    let submitted = current.join(submitted);
-    let checkout = env::var_os("GITHUB_WORKSPACE").map_or(current, PathBuf::from);
+/// Returns the checkout's folder, which is `GITHUB_WORKSPACE` or the current folder.
+fn checkout() -> PathBuf {
+    let named = env::var_os("GITHUB_WORKSPACE").map(PathBuf::from);
+    named.unwrap_or_else(|| env::current_dir().unwrap_or_default())
+}
+
+/// Returns the folder of the task files relative to the checkout. The result is empty if the files are
+/// not below the checkout.
+fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut) -> String {
     let folders = handed_out.assignment.folders.iter();
     let mut folders = folders.map(|folder| submitted.join(folder));
     let has_task_files = |folder: &PathBuf| {
@@ -316,17 +319,21 @@ mod tests {
 
     #[test]
     fn the_folder_of_the_files_is_relative_to_the_checkout() {
-        let folder = folder_in_checkout(STARTER.as_ref(), &RAYS);
-        // On GitHub, the checkout is the whole workspace, if that is where the tests run.
-        let current = env::current_dir().unwrap().canonicalize().unwrap();
-        let checkout = env::var_os("GITHUB_WORKSPACE").map_or(current.clone(), PathBuf::from);
-        let checkout = checkout.canonicalize();
-        let is_inside = checkout.is_ok_and(|checkout| current.starts_with(checkout));
-        assert_eq!(folder.ends_with(STARTER), is_inside, "{folder}");
-        let elsewhere = tempfile::tempdir().unwrap();
-        fs::write(elsewhere.path().join("bvh.rs"), "").unwrap();
-        assert_eq!(folder_in_checkout(elsewhere.path(), &RAYS), "");
-        assert_eq!(folder_in_checkout("tests".as_ref(), &RAYS), "");
+        let checkout = tempfile::tempdir().unwrap();
+        let folder_of = |submitted: &str| {
+            folder_in_checkout(&checkout.path().join(submitted), checkout.path(), &RAYS)
+        };
+        // Not all files have to be there.
+        fs::create_dir_all(checkout.path().join("a3/src")).unwrap();
+        fs::write(checkout.path().join("a3/src/bvh.rs"), "").unwrap();
+        assert_eq!(folder_of("a3/src"), "a3/src");
+        assert_eq!(folder_of("a3"), "a3/src");
+        fs::write(checkout.path().join("bbox.rs"), "").unwrap();
+        assert_eq!(folder_of(""), "");
+        assert_eq!(folder_of("none"), "");
+        let elsewhere = checkout.path().join("a3");
+        let outside = folder_in_checkout(checkout.path(), &elsewhere, &RAYS);
+        assert_eq!(outside, "");
     }
 
     #[test]

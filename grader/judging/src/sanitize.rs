@@ -74,7 +74,7 @@ pub fn safe_folder_name(text: &str) -> String {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{affects_surroundings, safe_folder_name, sanitize, sanitize_line};
+    use super::*;
 
     #[test]
     fn characters_of_each_kind_affect_their_surroundings() {
@@ -127,6 +127,8 @@ mod tests {
         assert_eq!(safe_folder_name("Con.txt"), "_Con.txt");
         assert_eq!(safe_folder_name("LPT1"), "_LPT1");
         assert_eq!(safe_folder_name("Connor"), "Connor");
+        let longest = "é".repeat(MAX_FOLDER_NAME_CHARS);
+        assert_eq!(safe_folder_name(&format!("{longest}é")), longest);
     }
 
     proptest! {

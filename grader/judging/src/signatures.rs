@@ -255,6 +255,7 @@ mod tests {
     fn numbers_match_up_to_rounding() {
         let numbers = |numbers: &[f32]| ObservedAnswer::Numbers(numbers.to_vec());
         assert!(numbers(&[2e4, f32::NAN]).matches(&numbers(&[2.001e4, f32::NAN])));
+        assert!(numbers(&[-2e4]).matches(&numbers(&[-2.001e4])));
         assert!(numbers(&[0.0]).matches(&numbers(&[1.9])));
         assert!(numbers(&[f32::INFINITY]).matches(&numbers(&[f32::INFINITY])));
         assert!(!numbers(&[2e4]).matches(&numbers(&[2.01e4])));
@@ -320,6 +321,15 @@ mod tests {
         assert!(one.is_made_of(&correct, &[&one]));
         assert!(!other.is_made_of(&correct, &[&one]));
         assert!(correct.is_made_of(&correct, &[]));
+    }
+
+    #[test]
+    fn numbers_of_other_quantities_are_not_compared() {
+        let numbers = |count: usize| ObservedAnswer::Numbers(vec![0.0; count]);
+        let (one, two, three) = (numbers(1), numbers(2), numbers(3));
+        assert!(two.is_made_of(&two, &[&two, &one]));
+        assert!(two.is_made_of(&three, &[&two, &two]));
+        assert!(three.is_made_of(&two, &[&two, &two]));
     }
 
     #[test]

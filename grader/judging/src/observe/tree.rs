@@ -230,6 +230,14 @@ mod tests {
             let r = tree.nodes[2];
             (tree.nodes[0].min, tree.nodes[0].max) = (r.min + off, r.max + off);
         });
+        // One end is the sibling's, and the other is not.
+        assert_name("box too large: leaves", |tree| {
+            tree.nodes[0].max = tree.nodes[2].max;
+        });
+        assert_name("box too small: leaves", |tree| {
+            let r = tree.nodes[2];
+            (tree.nodes[0].min, tree.nodes[0].max) = (r.min, r.max - Vec3::X);
+        });
         // A box is empty if its corners are in the wrong order on one axis.
         assert_name("box too small: interior nodes, empty", |tree| {
             (tree.nodes[1].min.y, tree.nodes[1].max.y) = (0.5, -0.5);
@@ -258,6 +266,12 @@ mod tests {
     fn the_amount_is_that_of_the_root_and_does_not_depend_on_other_nodes() {
         let amount = |change: fn(&mut Tree)| defect_after(change).map(|(_, amount)| amount);
         assert_eq!(amount(|tree| tree.nodes[2].max.x += 1.0), Some(0.0));
+        // Half of what is tolerated at the root is rounding.
+        let with_rounding = amount(|tree| {
+            tree.nodes[2].max.x += 1.0;
+            tree.nodes[1].max.x += 3.5e-4;
+        });
+        assert_eq!(with_rounding, Some(0.0));
         let diagonal = Vec3::new(7.0, 1.0, 1.0).length();
         let root = amount(|tree| tree.nodes[1].max.x += 1.0).unwrap();
         assert!((root * 1e-4 * diagonal - 1.0).abs() < 1e-3, "{root}");
@@ -289,6 +303,11 @@ mod tests {
         assert_name("leaves: one past the end", |tree| tree.nodes[2].start = 3);
         assert_name("leaves: far past the end", |tree| tree.nodes[2].size = 4);
         assert_name("leaves: unknown primitives", |tree| tree.order[0] = 77);
+        // Neither a longer list nor the range of an interior node makes a leaf end past the list.
+        assert_name("leaves: unknown primitives", |tree| {
+            (tree.order[0], tree.nodes[1].start) = (77, 9);
+            tree.order.push(0);
+        });
     }
 
     #[test]

@@ -46,6 +46,14 @@ fn code_that_hits_nothing_is_not_taken_for_a_known_mistake() {
         explained(&exam_of(("all", &nothing)), &answers),
         [NOTHING, NOTHING]
     );
+    // A ray that misses in each item is not all of them.
+    let correct = [vec![number(1), miss()], vec![number(3), miss()]];
+    let wrong = [Some(vec![number(7), miss()]), None];
+    let answers = [vec![number(7), miss()], correct[1].clone()];
+    assert_eq!(
+        explained(&exam(&correct, &[("hits", &wrong)]), &answers),
+        [vec!["hits"], vec![]]
+    );
     // If something is hit, it tells more.
     let answers = [all(miss(), 2), numbers(&[3])];
     assert_eq!(
@@ -73,5 +81,6 @@ fn a_mistake_that_gives_no_answers_needs_several_items() {
     let index = || panic(PanicKind::Index);
     assert!(named([index(), index(), None, None]));
     assert!(!named([index(), None, None, None]));
+    assert!(named([index(), stack(), None, None]));
     assert!(named([Some(numbers(&[9])), None, None, None]));
 }

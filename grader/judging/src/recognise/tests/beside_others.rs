@@ -23,14 +23,6 @@ fn a_mistake_is_named_beside_an_unknown_one_if_it_explains_most_wrong_items() {
         !named(&alone, [7, 9, 3, 4]),
         "one of two items that it affects"
     );
-    // Another mistake that explains the same items, and all that it affects, may be the one.
-    let rival = [
-        Some(numbers(&[7])),
-        Some(numbers(&[7])),
-        Some(numbers(&[9])),
-        None,
-    ];
-    assert!(!named(&exam_of(&[("rival", &rival)]), [7, 7, 9, 5]));
     let refuted = [
         Some(numbers(&[7])),
         Some(numbers(&[7])),
@@ -40,23 +32,34 @@ fn a_mistake_is_named_beside_an_unknown_one_if_it_explains_most_wrong_items() {
     assert!(named(&exam_of(&[("refuted", &refuted)]), [7, 7, 9, 4]));
 }
 
+/// Another mistake that explains the same items, and all that it affects, may be the one.
+#[test]
+fn a_mistake_with_a_rival_is_not_named_beside_an_unknown_one() {
+    let correct = [1, 2, 3, 4, 5].map(|index| numbers(&[index]));
+    let wrong = |count: usize| [0, 1, 2, 3, 4].map(|item| (item < count).then(|| numbers(&[7])));
+    let (known, rival) = (wrong(3), wrong(4));
+    let answers = [7, 7, 7, 7, 9].map(|answer| numbers(&[answer]));
+    let named = |mistakes: &[Mistake]| explained(&exam(&correct, mistakes), &answers)[0].clone();
+    assert_eq!(named(&[("known", &known)]), ["known"]);
+    assert_eq!(named(&[("known", &known), ("rival", &rival)]), ["rival"]);
+}
+
 #[test]
 fn the_same_defect_in_items_that_a_mistake_leaves_correct_has_another_cause() {
     let tree = |defect: &str| vec![ObservedAnswer::Tree(Some((defect.to_owned(), 0.0)))];
     let correct = [(); 4].map(|()| vec![ObservedAnswer::Tree(None)]);
-    let known = [Some(tree("boxes")), Some(tree("boxes")), None, None];
-    let exam = exam(&correct, &[("known", &known)]);
-    let named = |third: &str| {
-        let answers = [
-            tree("boxes"),
-            tree("boxes"),
-            tree(third),
-            correct[3].clone(),
-        ];
+    let named = |known: [&str; 2], third: &str| {
+        let [first, second] = known.map(tree);
+        let known = [Some(first.clone()), Some(second.clone()), None, None];
+        let exam = exam(&correct, &[("known", &known)]);
+        let answers = [first, second, tree(third), correct[3].clone()];
         !explained(&exam, &answers).concat().is_empty()
     };
-    assert!(named("leaves"));
-    assert!(!named("boxes"));
+    assert!(named(["boxes", "boxes"], "leaves"));
+    assert!(!named(["boxes", "boxes"], "boxes"));
+    assert!(named(["boxes", "leaves"], "splits"));
+    assert!(!named(["boxes", "leaves"], "boxes"));
+    assert!(!named(["boxes", "leaves"], "leaves"));
 }
 
 #[test]
@@ -121,6 +124,18 @@ fn a_dominant_mistake_explains_most_answers() {
 }
 
 #[test]
+fn correct_items_do_not_count_against_a_dominant_mistake() {
+    let correct = [vec![numbers(&[1, 1, 1]); 4], vec![numbers(&[2]); 5]].concat();
+    let wrong = |item: usize| (item < 4).then(|| numbers(&[7, 7, 7]));
+    let known: Vec<_> = (0..9).map(wrong).collect();
+    let mut answers = correct.clone();
+    answers[..3].fill(numbers(&[7, 7, 7]));
+    answers[3] = numbers(&[7, 7, 9]);
+    let named = explained(&exam(&correct, &[("known", &known)]), &answers);
+    assert_eq!(named[0], ["known"]);
+}
+
+#[test]
 fn correct_answers_are_no_evidence_for_a_dominant_mistake() {
     let correct = [(); 4].map(|()| numbers(&[1, 2, 3, 4]));
     let known = [(); 4].map(|()| Some(numbers(&[7, 2, 3, 4])));
@@ -164,6 +179,36 @@ fn a_mistake_that_misses_is_named_if_most_wrong_items_are_its_own() {
         named(stack),
         "it has no such answers, so they are another mistake's"
     );
+}
+
+/// A miss beside another wrong answer tells more than a miss.
+#[test]
+fn a_mistake_that_also_misses_is_named_beside_an_unknown_one() {
+    let wrong = || vec![ObservedAnswer::NoHit, number(7)];
+    let correct = [(); 3].map(|()| numbers(&[1, 1]));
+    let exam = exam(
+        &correct,
+        &[("known", &[Some(wrong()), Some(wrong()), None])],
+    );
+    let answers = [wrong(), wrong(), numbers(&[9, 9])];
+    assert_eq!(explained(&exam, &answers)[0], ["known"]);
+}
+
+#[test]
+fn several_items_without_an_answer_have_another_cause_than_one_that_is_known_to_give_none() {
+    let missed = || vec![number(1), ObservedAnswer::NoHit];
+    let panicked = || vec![number(1), ObservedAnswer::Panicked];
+    let correct = [(); 5].map(|()| numbers(&[1, 1]));
+    let known = [Some(missed()), Some(missed()), Some(panicked()), None, None];
+    let exam = exam(&correct, &[("known", &known)]);
+    let named = |last: [Vec<ObservedAnswer>; 2]| {
+        let [fourth, fifth] = last;
+        let answers = [missed(), missed(), panicked(), fourth, fifth];
+        !explained(&exam, &answers).concat().is_empty()
+    };
+    assert!(named([numbers(&[1, 9]), numbers(&[1, 9])]));
+    assert!(named([panicked(), numbers(&[1, 9])]));
+    assert!(!named([panicked(), panicked()]));
 }
 
 #[test]

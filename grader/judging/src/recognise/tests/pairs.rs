@@ -80,6 +80,21 @@ fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
     assert!(!of_one.concat().contains(&"other".to_owned()), "{of_one:?}");
 }
 
+/// Both change the first number, and all answers to that item are those of `one`.
+#[test]
+fn a_pair_answers_like_one_of_them_only_where_both_answer_alike() {
+    let named = |first: i32| {
+        let correct = [numbers(&[1, 2]), numbers(&[3, 4]), numbers(&[5, 6])];
+        let one = [Some(numbers(&[7, 7])), Some(numbers(&[7, 7])), None];
+        let other = [Some(numbers(&[first, 2])), None, Some(numbers(&[8, 8]))];
+        let exam = exam(&correct, &[("one", &one), ("other", &other)]);
+        let answers = [numbers(&[7, 7]), numbers(&[7, 7]), numbers(&[8, 8])];
+        explained(&exam, &answers)
+    };
+    assert_eq!(named(7), [vec!["one", "other"], vec!["one"], vec!["other"]]);
+    assert!(!named(8).concat().contains(&"other".to_owned()));
+}
+
 #[test]
 fn a_pair_that_leaves_most_answers_open_explains_nothing() {
     let correct = [1, 2].map(|index| numbers(&[index, index, index]));

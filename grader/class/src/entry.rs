@@ -235,10 +235,40 @@ mod tests {
     fn case_is_ignored_in_every_language() {
         for (one, other) in [("Ann", "aNN"), ("ÖZIL", "özil"), ("\u{212a}im", "kim")] {
             assert!(equals_ignoring_case(one, other), "{one} {other}");
+            assert!(equals_ignoring_case(other, one), "{one} {other}");
         }
         for (one, other) in [("ann", "anne"), ("özil", "ozil"), ("ozil", "özil")] {
             assert!(!equals_ignoring_case(one, other), "{one} {other}");
         }
+    }
+
+    #[test]
+    fn what_is_not_known_identifies_nobody() {
+        let ann = Person {
+            sid: "17".to_owned(),
+            ..Person::named("Ann")
+        };
+        assert_eq!(ann.identifiers().collect::<Vec<_>>(), ["17", "Ann"]);
+        assert_eq!(Person::default().identifiers().next(), None);
+    }
+
+    #[test]
+    fn another_roster_counts_for_groups_and_extensions() {
+        let listed = Person {
+            group: "Team A".to_owned(),
+            extension: "2".to_owned(),
+            ..Person::named("Ann")
+        };
+        let of_group = Person {
+            is_from_group: true,
+            ..Person::named("Bob")
+        };
+        let mut info = EntryInfo {
+            people: vec![listed, of_group],
+            ..EntryInfo::default()
+        };
+        info.forget_groups_and_extensions();
+        assert_eq!(info.people, [Person::named("Ann")]);
     }
 
     #[test]

@@ -60,7 +60,18 @@ impl<'de> Deserialize<'de> for Extension {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::policy::{Lateness, Policy};
+
+    #[test]
+    fn a_cell_of_a_roster_is_a_number_of_days_or_a_time() {
+        let read = |text| Extension::parse(text, None);
+        assert_eq!(read(" 2 "), Ok(Extension::Days(2)));
+        let until = Extension::Until("2026-11-24T11:00:00Z".parse().unwrap());
+        assert_eq!(read(" 2026-11-24 12:00:00 +0100 "), Ok(until));
+        assert_eq!(read("2026-11-24 12:00"), Err(TimeError::NoTimeZone));
+        assert_eq!(read("two"), Err(TimeError::UnknownForm));
+    }
 
     #[test]
     fn the_latest_extension_that_names_a_person_counts() {

@@ -236,6 +236,19 @@ mod tests {
     }
 
     #[test]
+    fn points_given_by_hand_count_up_to_the_maximum() {
+        let sum = |points, manual| {
+            let counted =
+                Policy::default().counted_points_with(points, 100, manual, Lateness::NONE);
+            assert_eq!((counted.earned, counted.manual), (points, manual));
+            counted.points
+        };
+        assert_eq!(sum(90, 7), 97);
+        assert_eq!(sum(90, 30), 100);
+        assert_eq!(sum(5, -7), 0);
+    }
+
+    #[test]
     fn an_exam_without_points_counts_for_nothing() {
         assert_eq!(
             Policy::default()

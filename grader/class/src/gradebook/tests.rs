@@ -124,6 +124,14 @@ fn a_namesake_with_another_id_gets_no_points() {
 }
 
 #[test]
+fn white_space_around_names_does_not_matter() {
+    let table = CANVAS.replace("Doe, Jane", " Doe ,  Jane ");
+    let class = class(&[("x", person("jane doe", "", "", ""))]);
+    let filled = fill_canvas(list(&table).path(), Some("7"), &class).unwrap();
+    assert_eq!(cells(&filled), ["100", "80", "", ""]);
+}
+
+#[test]
 fn a_namesake_with_several_submissions_takes_no_points_away() {
     let file = list(CANVAS);
     let people = [

@@ -81,6 +81,12 @@ fn a_file_that_only_the_smaller_folder_has_is_ambiguous() {
         candidate("", &[(2, "c")]),
     ]);
     assert_eq!(found, Err(vec!["src".to_owned(), String::new()]));
+    // The smaller folder also has another one, which both have.
+    let found = choice(vec![
+        candidate("src", &[(0, "a"), (1, "b"), (2, "c")]),
+        candidate("", &[(0, "x"), (3, "d")]),
+    ]);
+    assert_eq!(found, Err(vec!["src".to_owned(), String::new()]));
 }
 
 #[test]
@@ -189,4 +195,12 @@ fn a_choice_is_complete_if_every_file_was_written() {
 #[test]
 fn without_task_files_there_is_no_choice() {
     assert!(choose(Vec::new(), &RAYS).unwrap().is_none());
+}
+
+#[test]
+fn many_stray_copies_are_noted_up_to_a_limit() {
+    let stray = (0..MAX_NOTES + 1).map(|index| candidate(&format!("old{index}"), &[(0, "old")]));
+    let found = choice(stray.chain([candidate("src", &all("new"))]).collect());
+    let (folder, notes) = found.unwrap();
+    assert_eq!((folder.as_str(), notes.len()), ("src", MAX_NOTES));
 }

@@ -127,6 +127,14 @@ fn reads_zip_tar_and_tar_gz_alike() {
 }
 
 #[test]
+fn a_given_file_in_an_archive_is_noted_only_if_it_was_changed() {
+    let library = RAYS.given_file("lib.rs").unwrap().text.as_bytes();
+    let archive = zip(&[("src/bvh.rs", b"tree"), ("src/lib.rs", library)]);
+    let submission = collect("a.zip", &archive).unwrap();
+    assert_eq!(submission.notes, [""; 0]);
+}
+
+#[test]
 fn accepts_windows_path_separators() {
     let submission = collect("a.zip", &zip(&[(r"alice\src\bvh.rs", b"tree")])).unwrap();
     assert_eq!(*text(&submission, "bvh.rs"), Ok("tree".to_owned()));

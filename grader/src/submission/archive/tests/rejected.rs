@@ -200,4 +200,7 @@ fn names_the_kind_of_each_archive_that_it_does_not_read() {
         assert_eq!(collect_error(head), ArchiveError::UnsupportedKind(kind));
     }
     assert_eq!(collect_error(&[b'x'; 1024]), ArchiveError::NotAnArchive);
+    let mut with_zeros = [0; 1024];
+    with_zeros[0] = b'x';
+    assert_eq!(collect_error(&with_zeros), ArchiveError::NotAnArchive);
 }

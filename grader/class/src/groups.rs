@@ -81,5 +81,10 @@ mod tests {
         // that.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
         assert!(!add_group_members(&lists, &mut entries).unwrap());
+        // It is enough that one of those who submitted together is in the list.
+        let mut pair = submitted_by("ann");
+        pair.people.extend(submitted_by("guest").people);
+        assert!(add_group_members(&lists, &mut [&mut pair]).unwrap());
+        assert_eq!(pair.display_names(), "ann + guest + Bob + Carl");
     }
 }

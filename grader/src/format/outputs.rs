@@ -337,6 +337,19 @@ mod tests {
     }
 
     #[test]
+    fn the_checkout_is_the_current_folder_if_no_platform_names_another() {
+        let folder = outputs(&[], "out".as_ref()).context.folder;
+        // On GitHub, the checkout is the whole workspace, if that is where the tests run.
+        let current = env::current_dir().unwrap().canonicalize().unwrap();
+        let named = env::var_os("GITHUB_WORKSPACE").map(PathBuf::from);
+        let is_elsewhere = named.is_some_and(|named| {
+            let named = named.canonicalize();
+            !named.is_ok_and(|checkout| current.starts_with(checkout))
+        });
+        assert_eq!(folder.ends_with(STARTER), !is_elsewhere, "{folder}");
+    }
+
+    #[test]
     fn each_method_is_found_in_its_own_file() {
         let methods = outputs(&[], "out".as_ref()).context.methods;
         for task in RAYS.assignment.tasks {

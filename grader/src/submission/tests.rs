@@ -23,6 +23,10 @@ fn copies_in_other_folders_do_not_stop_students_at_their_own_work() {
             .iter()
             .all(|(_, text)| text.as_deref() == Ok("new"))
     );
+    fs::remove_file(package.path().join("src/camera.rs")).unwrap();
+    let own = Submission::collect_package(package.path(), &RAYS).unwrap();
+    assert_eq!(texts(&own).len(), RAYS.files.len() - 1, "one is missing");
+    write_files(&package.path().join("src"), "new");
     // Of what is handed in, nobody knows which copy is meant.
     let handed_in = Submission::collect(package.path(), &RAYS);
     assert!(matches!(
@@ -69,6 +73,15 @@ fn only_the_starters_files_are_as_handed_out() {
     assert!(!is_as_handed_out());
     fs::remove_file(folder.path().join("bvh.rs")).unwrap();
     assert!(!is_as_handed_out(), "a file is missing");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_named_if_there_is_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    crate::system::symlink("elsewhere".as_ref(), &folder.path().join("work")).unwrap();
+    let refused = Submission::collect(folder.path(), &RAYS);
+    assert!(matches!(refused, Err(SubmissionError::Link { link, .. }) if link == "work"));
 }
 
 #[cfg(unix)]

@@ -178,9 +178,9 @@ fn an_equal_grade_in_another_format_is_not_a_change() {
 fn a_cell_is_filled_in_only_if_points_count_and_it_may_change() {
     let moodles = "Identifier,Full name,Grade,Maximum Grade,Grade can be changed
 Participant 1,Ann,,100.00,Yes
-Participant 2,Bob,12.50,100.00,no
-Participant 3,Carl,EX,100.00,Yes
-Participant 4,Dora,80.00,100.00,Yes
+Participant 2,Bob,12.50,100.00, no 
+Participant 3,Carl, EX ,100.00,Yes
+Participant 4,Dora, 80.00 ,100.00,Yes
 Participant 5,Eve,,100.00,Yes
 Participant 6,Finn,,100.00,Yes
 ";
@@ -202,9 +202,9 @@ Participant 6,Finn,,100.00,Yes
     insta::assert_snapshot!(filled.table.to_csv(), @"
     Identifier,Full name,Grade,Maximum Grade,Grade can be changed
     Participant 1,Ann,80,100.00,Yes
-    Participant 2,Bob,12.50,100.00,no
-    Participant 3,Carl,EX,100.00,Yes
-    Participant 4,Dora,80.00,100.00,Yes
+    Participant 2,Bob,12.50,100.00, no 
+    Participant 3,Carl, EX ,100.00,Yes
+    Participant 4,Dora, 80.00 ,100.00,Yes
     Participant 5,Eve,,100.00,Yes
     Participant 6,Finn,,100.00,Yes
     ");

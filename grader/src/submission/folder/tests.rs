@@ -147,6 +147,21 @@ fn archives_in_a_platforms_folder_are_read_like_folders() {
 }
 
 #[test]
+fn archives_among_single_files_are_read_like_folders() {
+    let folder = folder(&[("17.bin", &tar(&[("src/bvh.rs", b"new")]))]);
+    let files = [("work.tar".to_owned(), folder.path().join("17.bin"))];
+    let submission = Submission::from_files("ann", &files, &RAYS).unwrap();
+    assert_eq!(texts(&submission), ["new"]);
+}
+
+#[test]
+fn nothing_is_noted_of_task_files() {
+    let folder = folder(&[("bvh.rs", b"new"), ("sphere.rs", b"new")]);
+    let submission = Submission::collect(folder.path(), &RAYS).unwrap();
+    assert_eq!(submission.notes, [""; 0]);
+}
+
+#[test]
 fn an_archive_that_cannot_be_read_could_have_what_is_missing() {
     let folder = folder(&[("bvh.rs", b"new"), ("rest.zip", b"PK\x03\x04")]);
     let refused = Submission::collect_with_archives(folder.path(), &RAYS);

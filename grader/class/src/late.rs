@@ -188,6 +188,16 @@ mod tests {
     }
 
     #[test]
+    fn an_extension_for_a_group_or_in_other_letters_belongs_to_somebody() {
+        let policy = policy("[late.extensions]\n'Ann LEE' = 2\n'Team A' = 1\n'Team B' = 1");
+        let ann = Person {
+            group: "team a".to_owned(),
+            ..Person::named("ann lee")
+        };
+        assert_eq!(unmatched_extensions(&policy, &[&ann]), ["Team B"]);
+    }
+
+    #[test]
     fn an_extension_by_name_should_be_for_one_person() {
         let policy = policy("[late.extensions]\n'ann lee' = 2\nu1 = 2\n'team a' = 1");
         let ann = |sid: &str, group: &str| Person {

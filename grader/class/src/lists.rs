@@ -76,6 +76,26 @@ mod tests {
     }
 
     #[test]
+    fn other_lists_know_more_of_the_members_of_a_group() {
+        let folder = tempfile::tempdir().unwrap();
+        let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\
+            \"Lee, Ann\",7001,ann,A,\n\"Kim, Bob\",7002,bob,A,\n";
+        let lists = Lists {
+            roster: list(&folder, "roster.csv", "username,group\nann,One\nbob,One\n"),
+            canvas: list(&folder, "canvas.csv", canvas),
+            ..Lists::default()
+        };
+        let mut entry = entry(Person {
+            login: "ann".to_owned(),
+            ..Person::default()
+        });
+        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap();
+        let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
+        assert_eq!(numbers, ["7001", "7002"]);
+        assert_eq!(missing, []);
+    }
+
+    #[test]
     fn a_list_takes_no_late_flag_away() {
         let folder = tempfile::tempdir().unwrap();
         let roster = "name,datetime,late\nAnn,2026-11-20 12:00:00 +0000,false\n\

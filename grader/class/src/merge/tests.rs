@@ -222,3 +222,16 @@ fn the_merged_class_may_not_be_in_a_shard() {
         assert!(matches!(error, Error::MergeIntoShard { .. }), "{error}");
     }
 }
+
+#[test]
+fn manual_points_for_nobody_stop_the_merge() {
+    let shards = Shards::new();
+    let path = shards.path("manual.csv");
+    let rows = "student,task,delta,comment,author\nanne,build,-2,copied,TA\n";
+    fs::write(&path, rows).unwrap();
+    let mut arguments = shards.arguments();
+    arguments.lists.manual_points = Some(path);
+    let error = merge_shards(&arguments).unwrap_err().to_string();
+    assert!(error.contains("nobody with the name"), "{error}");
+    assert!(!shards.path("out/grades.csv").exists());
+}

@@ -342,6 +342,29 @@ mod tests {
     }
 
     #[test]
+    fn a_name_does_not_count_beside_another_identifier() {
+        let rows = parse_roster("name,email,sid,login\nAnn Lee,a@x.edu,u1,ann\n");
+        let named = || Person::named("Ann Lee");
+        assert!(rows[0].matches(&named()));
+        let other = || "other".to_owned();
+        let with_email = Person {
+            email: other(),
+            ..named()
+        };
+        let with_sid = Person {
+            sid: other(),
+            ..named()
+        };
+        let with_login = Person {
+            login: other(),
+            ..named()
+        };
+        for person in [with_email, with_sid, with_login] {
+            assert!(!rows[0].matches(&person), "{person:?}");
+        }
+    }
+
+    #[test]
     fn rows_without_a_person_are_left_out() {
         let canvas = "Student,ID,SIS Login ID\n\"Points Possible\",,\n\"Student, Test\",9,test\n,,\n\
             \"Lee, Ann\",1,ann\n";

@@ -75,6 +75,35 @@ mod tests {
         assert_eq!(missing.len(), 1, "{missing:?}");
     }
 
+    /// Bob is in Ann's group, and each of them has a time.
+    #[test]
+    fn the_last_time_counts_unless_one_cannot_be_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let submitted = |times: [&str; 2], by_platform: Option<&str>| {
+            let [ann, bob] = times;
+            let rows = format!("name,group,datetime\nAnn,One,{ann}\nBob,One,{bob}\n");
+            let lists = Lists {
+                roster: list(&folder, "roster.csv", &rows),
+                ..Lists::default()
+            };
+            let mut entry = EntryInfo {
+                submitted: by_platform.map(str::to_owned),
+                ..entry(Person::named("Ann"))
+            };
+            complete_entries(&lists, &mut [&mut entry]).unwrap();
+            assert_eq!(entry.listed.is_some(), by_platform.is_none());
+            entry.submitted().unwrap().to_owned()
+        };
+        let (early, late) = ("2026-11-20 12:00:00 +0000", "2026-11-20 23:00:00 +0000");
+        assert_eq!(submitted([early, late], None), late);
+        assert_eq!(submitted([late, early], None), late);
+        assert_eq!(submitted(["", early], None), early);
+        // Which one is last is unknown, and a person decides.
+        assert_eq!(submitted([late, "yesterday"], None), "yesterday");
+        assert_eq!(submitted(["yesterday", late], None), "yesterday");
+        assert_eq!(submitted([late, late], Some(early)), early);
+    }
+
     #[test]
     fn other_lists_know_more_of_the_members_of_a_group() {
         let folder = tempfile::tempdir().unwrap();

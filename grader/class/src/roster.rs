@@ -342,6 +342,27 @@ mod tests {
     }
 
     #[test]
+    fn one_column_that_identifies_people_is_enough() {
+        let with_column = |name: &str| parse_roster(&format!("{name},late\n x ,true\n"));
+        for name in ["name", "email", "sid", "username"] {
+            let rows = with_column(name);
+            assert_eq!(rows[0].person.display_name(), "x", "{name}");
+            assert!(rows[0].late);
+        }
+        assert!(parse_members(&Table::parse(b"group,late\nx,true\n").unwrap()).is_none());
+        // The number that Canvas writes into a list of a group's members.
+        let rows = parse_roster("name,canvas_user_id\nAnn,7001\n");
+        assert_eq!(rows[0].person.number, "7001");
+    }
+
+    #[test]
+    fn a_dash_is_no_time() {
+        let rows = parse_roster("name,datetime\nAnn,-\nBob,2026-11-20 12:00\n");
+        let times: Vec<&str> = rows.iter().map(|row| row.submitted.as_str()).collect();
+        assert_eq!(times, ["", "2026-11-20 12:00"]);
+    }
+
+    #[test]
     fn a_name_does_not_count_beside_another_identifier() {
         let rows = parse_roster("name,email,sid,login\nAnn Lee,a@x.edu,u1,ann\n");
         let named = || Person::named("Ann Lee");

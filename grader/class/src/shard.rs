@@ -65,11 +65,13 @@ mod tests {
         let mut joined: Vec<usize> = shards.iter().flat_map(|s| s.select(all.clone())).collect();
         joined.sort_unstable();
         assert_eq!(joined, all);
-        let missing = Shard::missing(&[shards[2], shards[0]]);
-        assert_eq!(
-            missing.iter().map(Shard::to_string).collect::<Vec<_>>(),
-            ["2/3"]
-        );
+        let missing = |these: &[Shard]| -> Vec<String> {
+            let missing = Shard::missing(these).into_iter();
+            missing.map(|shard| shard.to_string()).collect()
+        };
+        assert_eq!(missing(&[shards[2], shards[0]]), ["2/3"]);
+        let half = "1/2".parse().unwrap();
+        assert_eq!(missing(&[half, shards[0], shards[2]]), ["2/3"]);
         assert!(Shard::missing(&shards).is_empty());
         assert!(Shard::missing(&[]).is_empty());
         for bad in ["0/3", "4/3", "1/0", "1", "a/b", "-1/3"] {

@@ -1,0 +1,143 @@
+//! Tests of reading rosters, and of matching their rows with people.
+
+use super::*;
+
+fn parse_roster(table: &str) -> Vec<Member> {
+    parse_members(&Table::parse(table.as_bytes()).unwrap()).unwrap()
+}
+
+#[test]
+fn an_ambiguous_name_matches_nobody() {
+    let ann = Person::named("Ann Lee");
+    let list = parse_roster("name,email\nAnn Lee,a@x.edu\nann lee,b@x.edu\nBob,c@x.edu\n");
+    assert!(!list[0].matches(&ann) && !list[1].matches(&ann));
+    assert!(list[2].matches(&Person::named("bob")));
+    // A person may be listed in two sections.
+    let list = parse_roster("name,email\nAnn Lee,a@x.edu\nAnn Lee,A@x.edu\n");
+    assert!(list[0].matches(&ann));
+    // An account belongs to one person, even if names are equal.
+    let list = parse_roster("name,username\nAnn Lee,ann1\nAnn Lee,ann2\n");
+    let named = |name| {
+        list.iter()
+            .filter(|m| m.matches(&Person::named(name)))
+            .count()
+    };
+    assert_eq!((named("ann2"), named("Ann Lee")), (1, 0));
+}
+
+#[test]
+fn the_same_name_with_another_number_does_not_match() {
+    let worksheet = "Identifier,Full name,Email address\nParticipant 307,Ann Lee,a@x.edu\n";
+    let list = parse_roster(worksheet);
+    let numbered = |number: &str| Person {
+        number: number.to_owned(),
+        ..Person::named("Ann Lee")
+    };
+    assert!(list[0].matches(&numbered("307")));
+    assert!(!list[0].matches(&numbered("308")));
+    let without_numbers = parse_roster("name,email\nAnn Lee,a@x.edu\n");
+    assert!(without_numbers[0].matches(&numbered("308")));
+}
+
+#[test]
+fn one_column_that_identifies_people_is_enough() {
+    let with_column = |name: &str| parse_roster(&format!("{name},late\n x ,true\n"));
+    for name in ["name", "email", "sid", "username"] {
+        let rows = with_column(name);
+        assert_eq!(rows[0].person.display_name(), "x", "{name}");
+        assert!(rows[0].late);
+    }
+    assert!(parse_members(&Table::parse(b"group,late\nx,true\n").unwrap()).is_none());
+    // The number that Canvas writes into a list of a group's members.
+    let rows = parse_roster("name,canvas_user_id\nAnn,7001\n");
+    assert_eq!(rows[0].person.number, "7001");
+}
+
+#[test]
+fn a_dash_is_no_time() {
+    let rows = parse_roster("name,datetime\nAnn,-\nBob,2026-11-20 12:00\n");
+    let times: Vec<&str> = rows.iter().map(|row| row.submitted.as_str()).collect();
+    assert_eq!(times, ["", "2026-11-20 12:00"]);
+}
+
+#[test]
+fn a_name_does_not_count_beside_another_identifier() {
+    let rows = parse_roster("name,email,sid,login\nAnn Lee,a@x.edu,u1,ann\n");
+    let named = || Person::named("Ann Lee");
+    assert!(rows[0].matches(&named()));
+    let other = || "other".to_owned();
+    let with_email = Person {
+        email: other(),
+        ..named()
+    };
+    let with_sid = Person {
+        sid: other(),
+        ..named()
+    };
+    let with_login = Person {
+        login: other(),
+        ..named()
+    };
+    for person in [with_email, with_sid, with_login] {
+        assert!(!rows[0].matches(&person), "{person:?}");
+    }
+}
+
+#[test]
+fn rows_without_a_person_are_left_out() {
+    let canvas = "Student,ID,SIS Login ID\n\"Points Possible\",,\n\"Student, Test\",9,test\n,,\n\
+        \"Lee, Ann\",1,ann\n";
+    let list = parse_roster(canvas);
+    let names: Vec<&str> = list.iter().map(|row| row.person.name.as_str()).collect();
+    assert_eq!(names, ["Lee, Ann"]);
+}
+
+#[test]
+fn a_name_may_be_in_two_columns() {
+    let list = parse_roster("First Name,Last Name,Name,SID\nAnn,Lee,,1\nAnn,Lee,A. Lee,2\n");
+    let names: Vec<&str> = list.iter().map(|row| row.person.name.as_str()).collect();
+    assert_eq!(names, ["Ann Lee", "A. Lee"]);
+}
+
+#[test]
+fn everybody_who_is_missing_is_named_once() {
+    let names = |table: &str, people: &[&Person]| {
+        let missing = missing(&parse_roster(table), people);
+        missing
+            .into_iter()
+            .map(|person| person.name)
+            .collect::<Vec<_>>()
+    };
+    let table = "name\nAnn\nBob\nEve\nBob\n";
+    assert_eq!(names(table, &[]), ["Ann", "Bob", "Eve"]);
+    assert_eq!(names(table, &[&Person::named("eve")]), ["Ann", "Bob"]);
+    // Two people with this name, who are told apart by nothing else.
+    let table = "name,group\nAnn,One\nAnn,Two\n";
+    let of_group = Person {
+        group: "Two".to_owned(),
+        is_from_group: true,
+        ..Person::named("Ann")
+    };
+    assert_eq!(names(table, &[&of_group]), ["Ann"]);
+    assert_eq!(names(table, &[]), ["Ann", "Ann"]);
+}
+
+#[test]
+fn a_key_belongs_to_one_person() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("roster.csv");
+    let check = |table: &str| {
+        std::fs::write(&path, table).unwrap();
+        read_roster(&path).map(drop)
+    };
+    let sections = "name,email,section\nAnn,a@x.edu,1\nann,A@x.edu,2\n";
+    assert!(check(sections).is_ok());
+    for table in [
+        "name,email\nAnn,a@x.edu\n\nBob,A@x.edu\n",
+        "name,sid\nAnn,1\n\nBob,1\n",
+        "name,login,group\nAnn,a,One\n\nAnn,a,Two\n",
+    ] {
+        let error = check(table).unwrap_err().to_string();
+        assert!(error.contains("rows 2 and 4 both have"), "{error}");
+    }
+}

@@ -41,6 +41,13 @@ mod tests {
         Some(path)
     }
 
+    fn with_login(login: &str) -> Person {
+        Person {
+            login: login.to_owned(),
+            ..Person::default()
+        }
+    }
+
     fn entry(person: Person) -> EntryInfo {
         EntryInfo {
             people: vec![person],
@@ -114,10 +121,7 @@ mod tests {
             canvas: list(&folder, "canvas.csv", canvas),
             ..Lists::default()
         };
-        let mut entry = entry(Person {
-            login: "ann".to_owned(),
-            ..Person::default()
-        });
+        let mut entry = entry(with_login("ann"));
         let missing = complete_entries(&lists, &mut [&mut entry]).unwrap();
         let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
         assert_eq!(numbers, ["7001", "7002"]);
@@ -151,10 +155,7 @@ mod tests {
             roster: list(&folder, "roster.csv", rows),
             ..Lists::default()
         };
-        let mut entry = entry(Person {
-            login: "ann".to_owned(),
-            ..Person::default()
-        });
+        let mut entry = entry(with_login("ann"));
         let missing = complete_entries(&lists, &mut [&mut entry]).unwrap();
         let sids: Vec<&str> = entry
             .people

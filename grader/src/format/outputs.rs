@@ -347,6 +347,8 @@ mod tests {
             !named.is_ok_and(|checkout| current.starts_with(checkout))
         });
         assert_eq!(folder.ends_with(STARTER), !is_elsewhere, "{folder}");
+        let without_files = folder_in_checkout("tests".as_ref(), &checkout(), &RAYS);
+        assert_eq!(without_files, "");
     }
 
     #[test]

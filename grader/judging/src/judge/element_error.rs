@@ -112,8 +112,8 @@ mod tests {
         assert_eq!(error.as_deref(), Some("there is no answer"));
     }
 
-    /// Returns the picture of a wall behind both rays, at whose position `alternative` nothing is right,
-    /// too.
+    /// Returns a picture of which both rays hit a wall. At the position `alternative`, a miss is correct
+    /// as well.
     fn picture_of_a_wall(alternative: u32) -> ExamQuestion {
         let wall = Surface {
             depth: 2.0,

@@ -6,8 +6,10 @@ use crate::handed_out::tokens::{tokens, without_comments};
 impl TaskFile {
     /// Returns the lines of `text` that are not the starter's, without comments and empty lines. Two
     /// lines are equal if their tokens are. Only lines in the same order as in the starter count as
-    /// handed out, so that the braces of a student's own code are kept.
+    /// handed out, so that the braces of a student's own code are kept. A byte order mark, which some
+    /// editors write, is ignored.
     pub fn own_lines(&self, text: &str) -> String {
+        let text = text.trim_start_matches('\u{feff}');
         let (text, starter) = (without_comments(text), without_comments(self.starter));
         let (lines, given) = (code_lines(&text), code_lines(&starter));
         let is_given = longest_common(&lines, &given);

@@ -97,6 +97,12 @@ impl TestClass {
         self.with(path, text.replace(from, to))
     }
 
+    /// Writes a byte order mark at the beginning of a file.
+    pub fn with_byte_order_mark(self, path: &str) -> Self {
+        let text = fs::read_to_string(self.input().join(path)).unwrap();
+        self.with(path, format!("\u{feff}{text}"))
+    }
+
     /// Writes a file next to the class's folder, and returns its path.
     pub fn write_beside(&self, name: &str, text: &str) -> String {
         let path = self.path_beside(name);
@@ -166,6 +172,17 @@ impl TestClass {
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.out().join(name)).unwrap()
     }
+}
+
+/// Returns a cell of `grades.csv`, by submission, name and column.
+pub fn cell(class: &TestClass, submission: &str, name: &str, column: &str) -> String {
+    let grades = class.read("grades.csv");
+    let mut reader = csv::Reader::from_reader(grades.as_bytes());
+    let header = reader.headers().unwrap().clone();
+    let column = header.iter().position(|title| title == column).unwrap();
+    let mut rows = reader.records().map(Result::unwrap);
+    let row = rows.find(|row| &row[0] == submission && &row[1] == name);
+    row.unwrap_or_else(|| panic!("{submission}, {name}: {grades}"))[column].to_owned()
 }
 
 /// Returns a command for the binary, run in the root folder of the repository.

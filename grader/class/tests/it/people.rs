@@ -2,22 +2,11 @@
 
 use std::fs;
 
-use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
+use crate::harness::{TestClass, cell, class_command, exit_code_and_stderr, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const DUE: &str =
     "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T23:59:59Z\npercent_per_day = 10\n";
-
-/// Returns a cell of `grades.csv`, by submission, name and column.
-fn cell(class: &TestClass, submission: &str, name: &str, column: &str) -> String {
-    let grades = class.read("grades.csv");
-    let mut reader = csv::Reader::from_reader(grades.as_bytes());
-    let header = reader.headers().unwrap().clone();
-    let column = header.iter().position(|title| title == column).unwrap();
-    let mut rows = reader.records().map(Result::unwrap);
-    let row = rows.find(|row| &row[0] == submission && &row[1] == name);
-    row.unwrap_or_else(|| panic!("{submission}, {name}: {grades}"))[column].to_owned()
-}
 
 #[test]
 fn extensions_move_the_due_time_of_a_person_or_a_group() {

@@ -40,6 +40,8 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
         .with_reference("bob")
         // Comments and spaces are no difference.
         .with_replaced("bob/sphere.rs", "use glam", "// Bob O'Hara\n\nuse glam")
+        // An editor's byte order mark is no difference either.
+        .with_byte_order_mark("bob/camera.rs")
         .with_reference("carl")
         .with_replaced(
             "carl/sphere.rs",

@@ -192,16 +192,29 @@ fn blank_lines(bytes: &[u8], read: usize) -> usize {
     ends.len() - pairs
 }
 
+/// Characters with which spreadsheets begin a formula, also in their wide and small forms.
+const FORMULA_SIGNS: &str = "=+-@|＝＋－＠｜﹦﹢﹣﹫−";
+/// Characters at which spreadsheets of some languages split lines, whatever the table's delimiter.
+const SPLITTING_SIGNS: [char; 2] = [';', '|'];
+
 /// Returns untrusted text as a cell: without control characters, and so that no spreadsheet takes it
 /// for a formula. Otherwise, a student's name could run a formula on the teacher's machine (OWASP,
 /// "CSV Injection").
 pub fn safe_cell(text: &str) -> String {
     let text = sanitize_line(text, usize::MAX);
-    // A formula may begin after spaces, and a tab has become spaces.
-    match text.trim_start().chars().next() {
-        Some('=' | '+' | '-' | '@') => format!("'{text}"),
-        Some(_) | None => text,
-    }
+    let escape = |part: &str| {
+        // A formula may begin after spaces and quotation marks, and a tab has become spaces.
+        let is_before = |sign: char| sign.is_whitespace() || sign == '"';
+        let begins = part
+            .trim_start_matches(is_before)
+            .starts_with(|sign| FORMULA_SIGNS.contains(sign));
+        if begins {
+            format!("'{part}")
+        } else {
+            part.to_owned()
+        }
+    };
+    text.split_inclusive(SPLITTING_SIGNS).map(escape).collect()
 }
 
 #[cfg(test)]
@@ -254,6 +267,14 @@ mod tests {
         assert_eq!(safe_cell("=1+1"), "'=1+1");
         assert_eq!(safe_cell("@SUM(A1)"), "'@SUM(A1)");
         assert_eq!(safe_cell("\t=1+1"), "'    =1+1");
+        assert_eq!(safe_cell("\u{3000}＝1+1"), "'\u{3000}＝1+1");
+        for sign in FORMULA_SIGNS.chars() {
+            assert_eq!(safe_cell(&format!("{sign}A1")), format!("'{sign}A1"));
+        }
+        // Where the comma is a decimal separator, spreadsheets split lines at semicolons.
+        assert_eq!(safe_cell("Ann;=1+1; \"@A1"), "Ann;'=1+1;' \"@A1");
+        assert_eq!(safe_cell("Ann|=1+1"), "Ann|'=1+1");
+        assert_eq!(safe_cell("Ann; Bob-Lee, a=b"), "Ann; Bob-Lee, a=b");
         assert_eq!(safe_cell("O'Hara"), "O'Hara");
         assert_eq!(safe_cell("a\r\n\u{202e}b"), "a\\r\\n\\u{202e}b");
     }

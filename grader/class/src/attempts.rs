@@ -1,6 +1,6 @@
 //! Several submissions of one person: which of them counts, by the policy's rule.
 
-use grader::policy::{AttemptRule, Policy};
+use grader::policy::{AttemptRule, Policy, are_far_apart};
 
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
@@ -57,7 +57,10 @@ fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<At
                 |(row, _): &Attempt| submission_time(policy, &rows[*row].result.info).ok()?;
             let times: Option<Vec<_>> = candidates.iter().map(time).collect();
             let times = times?;
-            let latest = times.iter().max()?;
+            let (earliest, latest) = (times.iter().min()?, times.iter().max()?);
+            if are_far_apart(*earliest, *latest) {
+                return None;
+            }
             let dated = candidates.iter().zip(&times);
             let mut last = dated.filter(|(_, time)| *time == latest);
             let (chosen, _) = last.next()?;
@@ -190,6 +193,16 @@ mod tests {
             ("b", graded(60), None),
         ];
         assert_eq!(counted("best", &attempts), ["or b", "or a"]);
+    }
+
+    /// One of the years must be wrong.
+    #[test]
+    fn none_is_the_latest_of_times_that_are_far_apart() {
+        let attempts = [
+            ("a", graded(80), Some("2026-11-20T10:00:00Z")),
+            ("b", graded(60), Some("2062-11-20T10:00:00Z")),
+        ];
+        assert_eq!(counted("latest", &attempts), ["or b", "or a"]);
     }
 
     #[test]

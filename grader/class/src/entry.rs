@@ -25,6 +25,10 @@ pub struct EntryInfo {
     pub people: Vec<Person>,
     /// Whether the platform's export marks the submission as late.
     pub late: bool,
+    /// Whether the platform's export marks every late submission, so that one without a mark is on
+    /// time.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub marks_late: bool,
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
@@ -74,6 +78,9 @@ pub struct Person {
     /// The extension in the roster: a number of days, or a time.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub extension: String,
+    /// The status in Moodle's worksheet, which can have an extension.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub status: String,
     /// Whether `name` comes from the name of a file or folder, so that a name in a list is better.
     #[serde(skip_serializing_if = "is_false")]
     pub is_named_by_file: bool,
@@ -162,6 +169,7 @@ impl Person {
             (&mut self.number, &other.number),
             (&mut self.group, &other.group),
             (&mut self.extension, &other.extension),
+            (&mut self.status, &other.status),
         ];
         for (mine, theirs) in pairs {
             if mine.is_empty() {

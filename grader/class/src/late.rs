@@ -3,12 +3,15 @@
 
 use std::collections::BTreeSet;
 
-use grader::policy::{AttemptRule, Extension, Lateness, Policy, TimeError, read_time};
+use grader::policy::{
+    AttemptRule, Extension, Lateness, Policy, TimeError, are_far_apart, read_time,
+};
 use jiff::Timestamp;
 use judging::sanitize::sanitize;
 
 use crate::entry::{EntryInfo, Person, equals_ignoring_case};
 use crate::identity::person_ids;
+use crate::moodle_status::MoodleStatus;
 
 /// The reason why it is unclear how late a submission is. Nobody's points may depend on a guess, so
 /// the submission has no final points until a person corrects the time.
@@ -22,12 +25,12 @@ pub enum UnclearTime {
         /// The reason why it cannot be used.
         why: TimeError,
     },
-    /// An extension in the roster that cannot be read.
+    /// An extension in a list that cannot be read.
     #[error(
         "the extension {text:?} is neither a number of days nor a time that can be used: {why}"
     )]
     Extension {
-        /// The extension as the roster writes it.
+        /// The extension as the list writes it.
         text: String,
         /// The reason why it cannot be used.
         why: TimeError,
@@ -39,6 +42,31 @@ pub enum UnclearTime {
          policy"
     )]
     OnlyAFlag,
+    /// A list has a time that is on time, but the platform says that the submission is late.
+    #[error(
+        "a list has the submission time {0:?}, which is on time, but the platform marks the \
+         submission as late: write the time of the last attempt into the list, or leave it empty"
+    )]
+    LateByFlag(String),
+    /// A list has a late time, but the platform says that the submission is on time.
+    #[error(
+        "a list has the submission time {0:?}, which is late, but the platform does not mark the \
+         submission as late: correct the time, or add the extension that the platform granted to \
+         the roster or the policy"
+    )]
+    LateByList(String),
+    /// Moodle says that the student has not submitted the files.
+    #[error(
+        "the status in Moodle's worksheet is {0:?}: if the files count, change it to \"Submitted \
+         for grading\" there, or else remove them from the input"
+    )]
+    Unsubmitted(String),
+    /// A status in Moodle's worksheet that cannot be read.
+    #[error(
+        "the status {0:?} in Moodle's worksheet is unknown, and could be a draft or an extension: \
+         set Moodle's language to English, and download the worksheet again"
+    )]
+    UnknownStatus(String),
 }
 
 /// Returns how late a submission is for one of its people. If its submission time is known and the
@@ -48,9 +76,13 @@ pub fn lateness(
     info: &EntryInfo,
     person: &Person,
 ) -> Result<Lateness, UnclearTime> {
-    let extensions = extensions(policy, person)?;
-    let exact = match (policy.late.due, submission_time(policy, info)?) {
-        (Some(_), Some(time)) => policy.lateness(time, &extensions),
+    let extensions = extensions(policy, info, person)?;
+    let due = policy.extended_due(&extensions);
+    let exact = match (due, submission_time(policy, info)?) {
+        (Some(due), Some(time)) => {
+            check_plausible(policy, info, time, due)?;
+            policy.lateness(time, &extensions)
+        }
         (_, None) | (None, _) => None,
     };
     match exact {
@@ -58,10 +90,44 @@ pub fn lateness(
         None if info.is_late() && !extensions.is_empty() => Err(UnclearTime::OnlyAFlag),
         // Without both times, a submission with a late flag counts as one second past the grace
         // period.
-        None if info.is_late() => Ok(Lateness {
-            seconds: u64::from(policy.late.grace_minutes) * 60 + 1,
-        }),
+        None if info.is_late() => {
+            let grace = u64::from(policy.late.grace_minutes) * 60;
+            Ok(Lateness::of_seconds(grace + 1))
+        }
         None => Ok(Lateness::NONE),
+    }
+}
+
+/// Rejects a time that is far from the person's due time, and a time in a list that contradicts the
+/// platform's late flags. The list may be of an earlier attempt.
+fn check_plausible(
+    policy: &Policy,
+    info: &EntryInfo,
+    time: Timestamp,
+    due: Timestamp,
+) -> Result<(), UnclearTime> {
+    let text = || info.submitted().unwrap_or_default().to_owned();
+    if are_far_apart(time, due) {
+        return Err(UnclearTime::Submitted {
+            text: text(),
+            why: TimeError::FarFromDue,
+        });
+    }
+    if info.submitted.is_some() {
+        return Ok(());
+    }
+    // The platform need not know the extension, but it may.
+    let without_extension = policy
+        .late
+        .due
+        .map(|due| time.duration_since(due).as_secs());
+    let grace = i64::from(policy.late.grace_minutes) * 60;
+    if info.late && without_extension.is_some_and(|seconds| seconds <= 0) {
+        Err(UnclearTime::LateByFlag(text()))
+    } else if info.marks_late && !info.late && time.duration_since(due).as_secs() > grace {
+        Err(UnclearTime::LateByList(text()))
+    } else {
+        Ok(())
     }
 }
 
@@ -83,14 +149,39 @@ pub fn submission_time(
     needed.map(read).transpose()
 }
 
-/// Returns the extensions of a person, in the policy and in the roster.
-fn extensions(policy: &Policy, person: &Person) -> Result<Vec<Extension>, UnclearTime> {
+/// Returns the extensions of a person, in the policy, in the roster and in Moodle's worksheet.
+fn extensions(
+    policy: &Policy,
+    info: &EntryInfo,
+    person: &Person,
+) -> Result<Vec<Extension>, UnclearTime> {
+    let status = MoodleStatus::parse(&person.status);
+    if let Some(unknown) = status.unknown {
+        return Err(UnclearTime::UnknownStatus(unknown.to_owned()));
+    }
+    // A partner's draft is another submission.
+    if let Some(unsubmitted) = status.unsubmitted.filter(|_| !person.is_from_group) {
+        return Err(UnclearTime::Unsubmitted(unsubmitted.to_owned()));
+    }
     let names = person.identifiers().chain([person.group.as_str()]);
     let mut extensions: Vec<Extension> = policy.extensions_of(names).collect();
-    if !person.extension.is_empty() {
-        let own = Extension::parse(&person.extension, policy.late.timezone.as_ref());
+    let due = policy.late.due;
+    let needed = |_: &&str| due.is_some() || info.is_late();
+    let by_moodle = status.extension.filter(needed).unwrap_or_default();
+    for text in [&person.extension, by_moodle] {
+        if text.is_empty() {
+            continue;
+        }
+        let own = Extension::parse(text, policy.late.timezone.as_ref());
+        let own = own.and_then(|own| {
+            if own.is_far_from(due) {
+                Err(TimeError::FarFromDue)
+            } else {
+                Ok(own)
+            }
+        });
         extensions.push(own.map_err(|why| UnclearTime::Extension {
-            text: person.extension.clone(),
+            text: text.to_owned(),
             why,
         })?);
     }
@@ -217,7 +308,7 @@ mod tests {
     fn a_late_flag_counts_as_the_first_second_after_the_grace_period() {
         let policy = policy("[late]\ngrace_minutes = 5");
         let late = lateness(&policy, &late_flag(), &Person::default());
-        assert_eq!(late, Ok(Lateness { seconds: 301 }));
+        assert_eq!(late, Ok(Lateness::of_seconds(301)));
     }
 
     fn submitted(time: &str, late: bool) -> EntryInfo {
@@ -249,7 +340,7 @@ mod tests {
         let info = submitted("yesterday", true);
         assert_eq!(submission_time(&Policy::default(), &info), Ok(None));
         let late = lateness(&Policy::default(), &info, &Person::default());
-        assert_eq!(late, Ok(Lateness { seconds: 1 }));
+        assert_eq!(late, Ok(Lateness::of_seconds(1)));
         // The latest attempt is chosen by its time, even without a due time.
         let latest = policy("[attempts]\ncounts = 'latest'");
         assert!(submission_time(&latest, &info).is_err());

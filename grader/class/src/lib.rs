@@ -12,7 +12,7 @@
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
 //! | results | [`drift`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`roster`], [`groups`], [`table`], [`entry`], [`identity`], [`shard`], [`paths`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`shard`], [`paths`] |
 
 pub mod attempts;
 pub mod cli;
@@ -36,6 +36,7 @@ pub mod lists;
 pub mod manual;
 pub mod merge;
 pub mod model;
+pub mod moodle_status;
 pub mod outcome;
 pub mod output;
 pub mod paths;

@@ -14,6 +14,11 @@ pub fn complete_entries(
     entries: &mut [&mut EntryInfo],
 ) -> Result<Vec<Person>, TableError> {
     let rows = roster::read_lists(lists)?;
+    if lists.moodle.is_some() {
+        // Only this worksheet's status counts, not that of an earlier one.
+        let people = entries.iter_mut().flat_map(|info| &mut info.people);
+        people.for_each(|person| person.status.clear());
+    }
     fill_in(&rows, entries);
     if groups::add_group_members(lists, entries)? {
         fill_in(&rows, entries);

@@ -111,9 +111,7 @@ pub fn of_final_exam(mut score: Score) -> Score {
 /// Returns what students see of a score under this policy, if it was handed in this late.
 pub fn view(score: &Score, policy: &str, late_days: u64) -> StudentView {
     let policy = Policy::from_text("policy.toml".as_ref(), policy).unwrap();
-    let lateness = Lateness {
-        seconds: late_days * 24 * 60 * 60,
-    };
+    let lateness = Lateness::of_seconds(late_days * 24 * 60 * 60);
     StudentView::new(score, &policy, lateness)
 }
 

@@ -177,9 +177,7 @@ mod tests {
     /// `manual`, and which was handed in this many hours late.
     fn counted(policy: &str, earned: u32, manual: i32, hours: u64) -> super::CountedPoints {
         let policy: Policy = toml::from_str(policy).unwrap();
-        let late = Lateness {
-            seconds: hours * 60 * 60,
-        };
+        let late = Lateness::of_seconds(hours * 60 * 60);
         policy.counted_points_with(earned, 100, manual, late)
     }
 

@@ -1,11 +1,14 @@
 //! Extensions: later due times for single people or groups.
 
+use jiff::Timestamp;
 use jiff::tz::TimeZone;
-use jiff::{SignedDuration, Timestamp};
 use serde::{Deserialize, Deserializer};
 use toml::Value;
 
-use crate::policy::written_time::{TimeError, read_time};
+use crate::policy::lateness::after_days;
+use crate::policy::written_time::{
+    MOST_DAYS, TimeError, are_far_apart, has_plausible_year, read_time,
+};
 
 /// A later due time for a person or a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,14 +29,21 @@ impl Extension {
         }
     }
 
-    /// Returns the due time with this extension. It is never before everybody's due time.
-    pub fn apply(self, due: Timestamp) -> Timestamp {
+    /// Returns the due time with this extension. It is never before everybody's due time. With a time
+    /// zone, days are those of its calendar.
+    pub fn apply(self, due: Timestamp, zone: Option<&TimeZone>) -> Timestamp {
         match self {
-            Extension::Days(days) => {
-                let days = SignedDuration::from_hours(24 * i64::from(days));
-                due.checked_add(days).unwrap_or(Timestamp::MAX)
-            }
+            Extension::Days(days) => after_days(due, days.into(), zone),
             Extension::Until(own) => own.max(due),
+        }
+    }
+
+    /// Returns whether the extension is so long, or so long before the due time, that it must be a
+    /// mistake.
+    pub fn is_far_from(self, due: Option<Timestamp>) -> bool {
+        match self {
+            Extension::Days(days) => i64::from(days) > MOST_DAYS,
+            Extension::Until(own) => due.is_some_and(|due| are_far_apart(own, due)),
         }
     }
 }
@@ -42,7 +52,11 @@ impl<'de> Deserialize<'de> for Extension {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let extension = match Value::deserialize(deserializer)? {
             Value::Integer(days) => u16::try_from(days).ok().map(Extension::Days),
-            Value::Datetime(time) => time.to_string().parse().ok().map(Extension::Until),
+            Value::Datetime(time) => {
+                let time = time.to_string().parse().ok();
+                time.filter(|time| has_plausible_year(*time))
+                    .map(Extension::Until)
+            }
             Value::String(_)
             | Value::Float(_)
             | Value::Boolean(_)
@@ -83,14 +97,18 @@ mod tests {
             let submitted = "2026-11-23T12:00:00Z".parse().unwrap();
             policy.lateness(submitted, &extensions).unwrap()
         };
-        let days = |days: u64| Lateness {
-            seconds: days * 24 * 60 * 60,
-        };
+        let days = |days: u64| Lateness::of_seconds(days * 24 * 60 * 60);
         assert_eq!(late(&["bob"]), days(3));
         assert_eq!(late(&["early"]), days(3));
         assert_eq!(late(&["ann", "ann@X.edu"]), days(1));
         assert_eq!(late(&["ann@x.edu", "team a"]), Lateness::NONE);
-        for bad in ["-1", "'2 days'", "1.5", "2026-11-24"] {
+        for bad in [
+            "-1",
+            "'2 days'",
+            "1.5",
+            "2026-11-24",
+            "0026-11-24T12:00:00Z",
+        ] {
             let text = format!("[late.extensions]\nann = {bad}");
             let error = toml::from_str::<Policy>(&text).unwrap_err();
             assert!(
@@ -98,5 +116,27 @@ mod tests {
                 "{error}"
             );
         }
+    }
+    #[test]
+    fn an_extension_of_days_ends_at_the_same_time_of_day() {
+        let text = "[late]\ndue = 2026-10-23T23:59:00+02:00\ntimezone = 'Europe/Berlin'";
+        let policy: Policy = toml::from_str(text).unwrap();
+        // Clocks are set back on 25 October.
+        let end = policy.extended_due(&[Extension::Days(2)]);
+        assert_eq!(end, "2026-10-25T23:59:00+01:00".parse().ok());
+        assert_eq!(policy.extended_due(&[Extension::Days(0)]), policy.late.due);
+    }
+
+    #[test]
+    fn an_extension_is_at_most_half_a_year_from_the_due_time() {
+        let due = "2026-10-23T23:59:00Z".parse().ok();
+        let until = |text: &str| Extension::Until(text.parse().unwrap());
+        assert!(!Extension::Days(183).is_far_from(None));
+        // Spreadsheets write a date as the number of days since 1899.
+        assert!(Extension::Days(46318).is_far_from(None));
+        assert!(until("2025-10-25T23:59:00Z").is_far_from(due));
+        assert!(until("2027-10-25T23:59:00Z").is_far_from(due));
+        assert!(!until("2026-10-01T23:59:00Z").is_far_from(due));
+        assert!(!until("2025-10-25T23:59:00Z").is_far_from(None));
     }
 }

@@ -3,29 +3,7 @@
 use jiff::Timestamp;
 
 use crate::policy::counted::{CountedPoints, Deduction};
-use crate::policy::{Extension, LatePolicy, PercentBase, Policy, Rounding};
-
-/// One day, in seconds.
-const DAY: u64 = 24 * 60 * 60;
-
-/// The time between the due time and the submission.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Lateness {
-    /// Seconds after the due time, or 0 if on time.
-    pub seconds: u64,
-}
-
-impl Lateness {
-    /// The lateness of a submission that is on time.
-    pub const NONE: Lateness = Lateness { seconds: 0 };
-
-    /// Returns how long after `due` a submission was made. The started second does not count.
-    pub(super) fn since(due: Timestamp, submitted: Timestamp) -> Self {
-        Lateness {
-            seconds: u64::try_from(submitted.duration_since(due).as_secs()).unwrap_or(0),
-        }
-    }
-}
+use crate::policy::{Extension, LatePolicy, Lateness, PercentBase, Policy, Rounding};
 
 impl Policy {
     /// Returns the final points for `points` of `max_points`: scaled, reduced for lateness, capped
@@ -67,8 +45,13 @@ impl Policy {
     /// Returns how late a submission is that was made at `submitted`, if these extensions apply.
     /// `None` if the policy has no due time.
     pub fn lateness(&self, submitted: Timestamp, extensions: &[Extension]) -> Option<Lateness> {
-        let due = extended_due(self.late.due?, extensions);
-        Some(Lateness::since(due, submitted))
+        let due = self.extended_due(extensions)?;
+        Some(Lateness::since(due, submitted, self.late.timezone.as_ref()))
+    }
+
+    /// Returns the due time with these extensions, or `None` if the policy has no due time.
+    pub fn extended_due(&self, extensions: &[Extension]) -> Option<Timestamp> {
+        Some(self.late.extended(self.late.due?, extensions))
     }
 
     /// Returns the extensions for somebody with these names and identifiers.
@@ -85,20 +68,20 @@ impl Policy {
     }
 }
 
-/// Returns the due time with all of these extensions: the latest counts.
-pub(super) fn extended_due(due: Timestamp, extensions: &[Extension]) -> Timestamp {
-    let extensions = extensions.iter();
-    let extended = extensions.map(|extension| extension.apply(due));
-    extended.max().unwrap_or(due)
-}
-
 impl LatePolicy {
+    /// Returns a due time with all of these extensions: the latest counts.
+    pub(super) fn extended(&self, due: Timestamp, extensions: &[Extension]) -> Timestamp {
+        let extensions = extensions.iter();
+        let extended = extensions.map(|extension| extension.apply(due, self.timezone.as_ref()));
+        extended.max().unwrap_or(due)
+    }
+
     /// Returns the number of started days since the due time, or 0 within the grace period.
     fn late_days(&self, lateness: Lateness) -> u32 {
         if lateness.seconds <= u64::from(self.grace_minutes) * 60 {
             0
         } else {
-            u32::try_from(lateness.seconds.div_ceil(DAY)).unwrap_or(u32::MAX)
+            lateness.days
         }
     }
 
@@ -172,9 +155,7 @@ mod tests {
     }
 
     fn hours(hours: u64) -> Lateness {
-        Lateness {
-            seconds: hours * 60 * 60,
-        }
+        Lateness::of_seconds(hours * 60 * 60)
     }
 
     fn counts(text: &str, points: u32, late: Lateness) -> u32 {
@@ -274,7 +255,7 @@ mod tests {
             );
             assert_eq!(
                 due.lateness(at(time + 9), &[]),
-                Some(Lateness { seconds: 9 })
+                Some(Lateness::of_seconds(9))
             );
         }
         assert_eq!(Policy::default().lateness(at(time), &[]), None);

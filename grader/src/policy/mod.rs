@@ -6,6 +6,7 @@
 mod counted;
 mod extension;
 mod late;
+mod lateness;
 mod read;
 mod submission_time;
 mod visibility;
@@ -19,11 +20,11 @@ use serde::Deserialize;
 
 pub use counted::{CountedPoints, Deduction};
 pub use extension::Extension;
-pub use late::Lateness;
+pub use lateness::Lateness;
 pub use read::PolicyError;
 pub use submission_time::{SubmissionTime, SubmissionTimeError};
 pub use visibility::Visibility;
-pub use written_time::{TimeError, read_time};
+pub use written_time::{TimeError, are_far_apart, read_time};
 
 /// The default policy, as a file with comments on every key.
 pub const DEFAULT: &str = include_str!("default.toml");
@@ -72,7 +73,7 @@ pub struct LatePolicy {
     /// The due time. If there is none, the platform's due time is used.
     #[serde(deserialize_with = "read::due_time")]
     pub due: Option<Timestamp>,
-    /// The time zone of submission times without an offset from UTC.
+    /// The time zone of days, and of times without an offset from UTC.
     #[serde(deserialize_with = "read::time_zone")]
     pub timezone: Option<TimeZone>,
     /// Grace period after the due time, in minutes.

@@ -12,6 +12,7 @@ use toml::value::Datetime;
 
 use crate::files::{self, PathError};
 use crate::policy::Policy;
+use crate::policy::written_time::has_plausible_year;
 
 /// Reasons why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -99,8 +100,13 @@ impl Policy {
     }
 
     /// Returns the key with an invalid value, and the problem with it.
-    fn problem(&self) -> Option<(&'static str, &'static str)> {
+    fn problem(&self) -> Option<(&str, &'static str)> {
         let late = &self.late;
+        let mut extensions = late.extensions.iter();
+        let far = extensions.find(|(_, extension)| extension.is_far_from(late.due));
+        if let Some((name, _)) = far {
+            return Some((name, "must be at most half a year from the due time"));
+        }
         [
             (self.points.out_of == Some(0), "out_of", "must not be 0"),
             (
@@ -123,8 +129,12 @@ impl Policy {
 pub(super) fn due_time<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Timestamp>, D::Error> {
-    let time = Datetime::deserialize(deserializer)?.to_string().parse();
-    time.map(Some).map_err(|_| {
+    let time = Datetime::deserialize(deserializer)?
+        .to_string()
+        .parse()
+        .ok();
+    let time = time.filter(|time| has_plausible_year(*time));
+    time.map(Some).ok_or_else(|| {
         D::Error::custom(
             "must be a date and time with an offset, such as 2026-11-20T23:59:59+01:00",
         )
@@ -164,7 +174,10 @@ impl Problem {
 fn line_offset(text: &str, key: &str) -> usize {
     let mut begin = 0;
     for line in text.split_inclusive('\n') {
-        if line.trim_start().starts_with(key) {
+        if line
+            .trim_start_matches([' ', '\t', '"', '\''])
+            .starts_with(key)
+        {
             return begin;
         }
         begin += line.len();
@@ -213,6 +226,8 @@ mod tests {
             "[late]\nmost_percent = 101",
             "[late]\nmost_percent = 1\nsurprise = 2",
             "[late]\ndue = 2026-11-20T23:59:59",
+            "[late]\ndue = 0026-11-20T23:59:59Z",
+            "[late]\ndue = 2026-11-20T23:59:59Z\n[late.extensions]\n'ann@x' = 2025-11-25T23:59:59Z",
             "[late]\ntimezone = 'Europe/Atlantis'",
             "late",
         ];

@@ -8,9 +8,8 @@ use jiff::Timestamp;
 use serde::Deserialize;
 
 use crate::files::{self, PathError};
-use crate::policy::late::{Lateness, extended_due};
 use crate::policy::written_time::read_time;
-use crate::policy::{Extension, Policy};
+use crate::policy::{Extension, Lateness, Policy};
 
 /// The times at which a submission was made and due.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -98,8 +97,9 @@ impl Policy {
         let people = submission.people.iter().map(String::as_str);
         let extensions: Vec<Extension> = self.extensions_of(people).collect();
         let by_platform = || {
-            let due = extended_due(submission.due?, &extensions);
-            Some(Lateness::since(due, submission.submitted))
+            let due = self.late.extended(submission.due?, &extensions);
+            let zone = self.late.timezone.as_ref();
+            Some(Lateness::since(due, submission.submitted, zone))
         };
         let lateness = self.lateness(submission.submitted, &extensions);
         lateness.or_else(by_platform).unwrap_or(Lateness::NONE)
@@ -121,9 +121,9 @@ mod tests {
     fn platform_due_date_applies_without_a_policy_due_date() {
         let submission = parse_with_due(r#""2026-11-20T23:00:00.000000-08:00""#).unwrap();
         let silent = Policy::default();
-        assert_eq!(silent.lateness_of(&submission), Lateness { seconds: 10 });
+        assert_eq!(silent.lateness_of(&submission), Lateness::of_seconds(10));
         let own: Policy = toml::from_str("[late]\ndue = 2026-11-21T07:00:05Z").unwrap();
-        assert_eq!(own.lateness_of(&submission), Lateness { seconds: 5 });
+        assert_eq!(own.lateness_of(&submission), Lateness::of_seconds(5));
         let without = parse_with_due("null").unwrap();
         assert_eq!(silent.lateness_of(&without), Lateness::NONE);
         let early = parse_with_due(r#""2026-11-22T00:00:00.000000-08:00""#).unwrap();

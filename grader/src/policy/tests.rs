@@ -65,11 +65,13 @@ proptest! {
         due in moment(),
         times in (moment(), moment()),
         zones in (zone(), zone()),
+        own_zone in prop::option::of(zone()),
         points in 0u32..=100,
         manual in -20i32..20,
     ) {
         let mut policy = policy;
         policy.late.due = Some(due);
+        policy.late.timezone = own_zone;
         let (early, late) = (times.0.min(times.1), times.0.max(times.1));
         // Platforms write each time with the offset of some zone.
         let [early, late] = [(early, zones.0), (late, zones.1)].map(|(time, zone)| {
@@ -103,7 +105,7 @@ proptest! {
         points in (0u32..=100, 0u32..=100),
         seconds in 0u64..1_000_000,
     ) {
-        let lateness = super::Lateness { seconds };
+        let lateness = super::Lateness::of_seconds(seconds);
         let counts = |points| policy.counted_points(points, 100, lateness).points;
         let (few, many) = (points.0.min(points.1), points.0.max(points.1));
         prop_assert!(counts(few) <= counts(many));

@@ -76,6 +76,8 @@ fn is_number(text: &str) -> bool {
 fn split_late(parts: &[&str]) -> (String, bool) {
     let (late, names) = match parts {
         [names @ .., "LATE"] if !names.is_empty() => (true, names),
+        // Canvas writes `LATE` before `anon`, but after a name.
+        ["LATE", names @ ..] if names == ["anon"] => (true, names),
         names => (false, names),
     };
     (names.join("_"), late)
@@ -157,6 +159,7 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
                 ..Person::default()
             }],
             late,
+            marks_late: true,
             from,
             ..EntryInfo::default()
         },
@@ -193,7 +196,16 @@ mod tests {
             (name.attachment, name.file.as_str()),
             (9001, "my_work-1.zip")
         );
-        assert_eq!(parse("anon_xK3f9_9001_hw.zip").unwrap().user, "xK3f9");
+        for (anonymous, late) in [
+            ("anon_xK3f9_9001_hw.zip", false),
+            ("LATE_anon_xK3f9_9001_hw.zip", true),
+        ] {
+            let name = parse(anonymous).unwrap();
+            assert_eq!(
+                (name.who.as_str(), name.user, name.late),
+                ("anon", "xK3f9", late)
+            );
+        }
         assert_eq!(parse("doejane_7001_text.html"), None);
         assert_eq!(parse("7001_9001_hw.zip"), None);
     }

@@ -171,6 +171,10 @@ impl ClassRow {
     pub fn status(&self, grade: &PersonGrade) -> &'static str {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => "graded",
+            (
+                EntryOutcome::Graded(_),
+                Some(GradeProblem::UnclearTime(UnclearTime::Unsubmitted(_))),
+            ) => "draft",
             (EntryOutcome::Graded(_), Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
             (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",

@@ -15,7 +15,7 @@ const COLUMNS_BEFORE_TASKS: [&str; 9] = [
     "points",
     "max_points",
 ];
-const COLUMNS_AFTER_TASKS: [&str; 7] = [
+const COLUMNS_AFTER_TASKS: [&str; 8] = [
     "manual",
     "late_days",
     "submitted",
@@ -23,7 +23,11 @@ const COLUMNS_AFTER_TASKS: [&str; 7] = [
     "why",
     "comments",
     "report",
+    "late_flag",
 ];
+
+/// The mark of a submission that the platform marks as late.
+pub const LATE: &str = "LATE";
 
 /// Returns the table of the class. If a submission has no score, its points are left empty: the
 /// teacher decides how many it gets.
@@ -81,6 +85,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
         safe_cell(&class_row.why(grade)),
         safe_cell(&comments.join("; ")),
         safe_cell(&report.unwrap_or_default()),
+        if info.is_late() { LATE } else { "" }.to_owned(),
     ]);
     row
 }

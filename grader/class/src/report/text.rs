@@ -42,7 +42,7 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
         (summary.missing, "on a roster, but submitted nothing"),
         (
             summary.unclear_times,
-            "without final points, since their submission time cannot be read: see class.html",
+            "without final points, since it is unclear when they were submitted: see class.html",
         ),
         (
             summary.undecided,

@@ -1,14 +1,16 @@
 //! Reads the people of a class from a roster or gradebook. Columns are recognised by their names.
 
+mod times;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use grader::policy::read_time;
-use jiff::tz::TimeZone;
-
 use crate::cli::Lists;
-use crate::entry::{EntryInfo, ListedTime, Person, equals_ignoring_case};
+use crate::entry::{Person, equals_ignoring_case};
+use crate::moodle_status::MoodleStatus;
 use crate::table::{Table, TableError};
+
+pub use times::set_submission_times;
 
 /// Column names that platforms and people use for a person's full name. The lists below contain
 /// the column names of the other fields.
@@ -93,40 +95,6 @@ impl Member {
     }
 }
 
-/// Notes the submission times in the roster, Gradescope's list or Moodle's worksheet, where the
-/// platform's export says none.
-pub fn set_submission_times(
-    lists: &Lists,
-    entries: &mut [&mut EntryInfo],
-) -> Result<(), TableError> {
-    let mut members = Vec::new();
-    for path in [&lists.roster, &lists.gradescope, &lists.moodle]
-        .into_iter()
-        .flatten()
-    {
-        members.extend(read_members(path)?);
-    }
-    for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
-        let theirs = members.iter().filter(|member| {
-            let mut people = info.people.iter();
-            !member.submitted.is_empty() && people.any(|person| member.matches(person))
-        });
-        // If there are several submissions, the last one was cloned. A time that cannot be read is
-        // taken before all others, so that it is reported; which one is last is then unknown.
-        let is_unknown_or_time = |member: &&Member| {
-            let time = read_time(&member.submitted, Some(&TimeZone::UTC)).ok();
-            (time.is_none(), time)
-        };
-        if let Some(last) = theirs.max_by_key(is_unknown_or_time) {
-            info.listed = Some(ListedTime {
-                submitted: last.submitted.clone(),
-                late: last.late,
-            });
-        }
-    }
-    Ok(())
-}
-
 /// Reads the people in a roster or in a platform's gradebook.
 pub fn read_members(path: &Path) -> Result<Vec<Member>, TableError> {
     parse_members(&Table::read(path)?).ok_or_else(|| TableError::MissingColumn {
@@ -151,6 +119,8 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             .column("Identifier")
             .or_else(|| table.column("canvas_user_id")),
     };
+    // In other lists, a status is something else.
+    let status = table.column("Identifier").and(table.column("Status"));
     let member = |(row_number, row): (usize, &Vec<String>)| {
         let cell = |column: Option<usize>| {
             let cell = column.and_then(|column| row.get(column));
@@ -173,6 +143,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
                 .to_owned(),
             group: cell(group),
             extension: cell(extension),
+            status: cell(status),
             is_named_by_file: false,
             is_from_group: false,
         };
@@ -183,7 +154,8 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             submitted: Some(cell(submitted))
                 .filter(|time| time != "-")
                 .unwrap_or_default(),
-            late: cell(late).eq_ignore_ascii_case("true"),
+            late: cell(late).eq_ignore_ascii_case("true")
+                || MoodleStatus::parse(&cell(status)).is_late,
             has_namesake: false,
         }
     };

@@ -39,11 +39,13 @@ fn info(text: &str) -> EntryInfo {
             number: text.to_owned(),
             group: text.to_owned(),
             extension: text.to_owned(),
+            status: text.to_owned(),
             is_named_by_file: true,
             is_from_group: true,
         }],
         late: true,
         submitted: Some(text.to_owned()),
+        marks_late: true,
         listed: Some(ListedTime {
             submitted: text.to_owned(),
             late: true,

@@ -20,3 +20,4 @@ mod score_files;
 mod shards;
 mod similarity;
 mod stored_class;
+mod times;

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::sanitized;
 use crate::model::{ClassRow, GradedClass};
 use crate::outcome::ScoreSummary;
+use crate::report::grades::LATE;
 
 pub(super) fn section(class: &GradedClass) -> Markup {
     let first = class.scores().next();
@@ -77,10 +78,13 @@ fn score_cells(row: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
     }
 }
 
-/// Renders the reason why people have no final points, or else what counts, and the comments of
-/// staff.
+/// Renders the platform's late flag, the reason why people have no final points, or else what counts,
+/// and the comments of staff.
 fn notes(row: &ClassRow) -> Markup {
-    html! { @for text in &row.notes() { p { (sanitized(text)) } } }
+    html! {
+        @if row.result.info.is_late() { p { "marked " (LATE) " by the platform" } }
+        @for text in &row.notes() { p { (sanitized(text)) } }
+    }
 }
 
 /// Returns the link to a report. An id may have letters of any language, which are percent-encoded.

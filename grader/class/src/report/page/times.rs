@@ -43,7 +43,7 @@ pub(super) fn section(class: &GradedClass) -> Markup {
                 p { "Counted as on time, since the time is unknown: " (sanitized(&undated)) "." }
             }
             @if !unclear.is_empty() {
-                p { "Without final points until somebody has corrected the time:" }
+                p { "Without final points until somebody has cleared up the following:" }
                 ul {
                     @for (person, grade) in &unclear {
                         li {

@@ -84,7 +84,11 @@ impl Platform {
         } = student;
         let prefix = match self {
             Platform::Gradescope => format!("submission_{number}/"),
-            Platform::Canvas => format!("zoe_{}_{}_", 7000 + number, 9000 + number),
+            Platform::Canvas => {
+                let is_late = student.case.is_some_and(|case| case.title == "late");
+                let late = if is_late { "LATE_" } else { "" };
+                format!("zoe_{late}{}_{}_", 7000 + number, 9000 + number)
+            }
             Platform::Moodle => format!("{name}_{number}_assignsubmission_file_/"),
             Platform::GitHub => format!("pathtracing-{login}/"),
             Platform::Plain => format!("{login}/"),

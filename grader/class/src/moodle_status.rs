@@ -1,0 +1,93 @@
+//! The column `Status` of Moodle's grading worksheet: sentences in the language of the person who
+//! downloaded it, joined with ` - ` (`col_status` in Moodle's `mod/assign/gradingtable.php`).
+
+use crate::entry::equals_ignoring_case;
+
+/// Sentences that change no grade, from Moodle's `mod/assign/lang/en/assign.php`.
+const KNOWN: [&str; 14] = [
+    "Submitted for grading",
+    "Submitted",
+    "No submission",
+    "Submission changes not allowed",
+    "Graded",
+    "Not graded",
+    // It follows `Graded - `.
+    "follow up submission received",
+    "Not marked",
+    "In marking",
+    "Marking completed",
+    "In review",
+    "Ready for release",
+    "Released",
+    "No attempt",
+];
+/// Sentences about files that the student has not submitted.
+const UNSUBMITTED: [&str; 2] = ["Draft (not submitted)", "Reopened"];
+const EXTENSION: &str = "Extension granted until:";
+const LATE: &str = " late";
+const OVERDUE: &str = "Assignment is overdue by:";
+
+/// What a status says about a submission.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MoodleStatus<'a> {
+    /// Whether the submission is late.
+    pub is_late: bool,
+    /// The sentence that says that the files are only a draft.
+    pub unsubmitted: Option<&'a str>,
+    /// The end of an extension, in Moodle's format.
+    pub extension: Option<&'a str>,
+    /// A sentence that is unknown.
+    pub unknown: Option<&'a str>,
+}
+
+impl<'a> MoodleStatus<'a> {
+    /// Parses a cell of the column.
+    pub fn parse(cell: &'a str) -> Self {
+        let mut status = MoodleStatus::default();
+        let sentences = cell.split(" - ").map(str::trim);
+        for sentence in sentences.filter(|sentence| !sentence.is_empty()) {
+            let is_one_of = |known: &[&str]| {
+                known
+                    .iter()
+                    .any(|known| equals_ignoring_case(known, sentence))
+            };
+            if let Some(until) = sentence.strip_prefix(EXTENSION) {
+                status.extension = Some(until.trim());
+            } else if is_one_of(&UNSUBMITTED) {
+                status.unsubmitted = Some(sentence);
+            } else if sentence.ends_with(LATE) {
+                status.is_late = true;
+            } else if !is_one_of(&KNOWN) && !sentence.starts_with(OVERDUE) {
+                status.unknown = Some(sentence);
+            }
+        }
+        status
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_sentence_of_a_status_is_read() {
+        let late =
+            "Submitted for grading - 3 days 2 hours late - Graded - follow up submission received";
+        let expected = MoodleStatus {
+            is_late: true,
+            ..MoodleStatus::default()
+        };
+        assert_eq!(MoodleStatus::parse(late), expected);
+        let draft = "Draft (not submitted) - Assignment is overdue by: 5 days - Not marked - \
+                     Extension granted until: Thursday, 26 November 2026, 11:59 PM";
+        let expected = MoodleStatus {
+            unsubmitted: Some("Draft (not submitted)"),
+            extension: Some("Thursday, 26 November 2026, 11:59 PM"),
+            ..MoodleStatus::default()
+        };
+        assert_eq!(MoodleStatus::parse(draft), expected);
+        let german = MoodleStatus::parse("Entwurf (nicht abgegeben)");
+        assert_eq!(german.unknown, Some("Entwurf (nicht abgegeben)"));
+        assert_eq!(MoodleStatus::parse(""), MoodleStatus::default());
+    }
+}

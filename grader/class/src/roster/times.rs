@@ -1,0 +1,59 @@
+//! The submission times in lists.
+
+use grader::policy::{are_far_apart, read_time};
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
+
+use super::{Member, read_members};
+use crate::cli::Lists;
+use crate::entry::{EntryInfo, ListedTime};
+use crate::table::TableError;
+
+/// Notes the submission times in the roster, Gradescope's list or Moodle's worksheet, where the
+/// platform's export says none.
+pub fn set_submission_times(
+    lists: &Lists,
+    entries: &mut [&mut EntryInfo],
+) -> Result<(), TableError> {
+    let mut members = Vec::new();
+    for path in [&lists.roster, &lists.gradescope, &lists.moodle]
+        .into_iter()
+        .flatten()
+    {
+        members.extend(read_members(path)?);
+    }
+    for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
+        let theirs = members.iter().filter(|member| {
+            let mut people = info.people.iter();
+            !member.submitted.is_empty() && people.any(|person| member.matches(person))
+        });
+        let theirs: Vec<&Member> = theirs.collect();
+        // If there are several submissions, the last one was cloned. A time that cannot be read is
+        // taken before all others, so that it is reported; which one is last is then unknown.
+        let Some(last) = theirs.iter().max_by_key(|member| {
+            let time = time(member);
+            (time.is_none(), time)
+        }) else {
+            continue;
+        };
+        let is_far = |other: &&&Member| {
+            let both = time(last).zip(time(other));
+            both.is_some_and(|(last, other)| are_far_apart(last, other))
+        };
+        let submitted = match theirs.iter().find(is_far) {
+            // One of them must be wrong, so neither is used.
+            Some(other) => format!("{} or {}", other.submitted, last.submitted),
+            None => last.submitted.clone(),
+        };
+        info.listed = Some(ListedTime {
+            submitted,
+            late: last.late,
+        });
+    }
+    Ok(())
+}
+
+/// Returns the time for comparisons within a list, whose local times are in one time zone.
+fn time(member: &Member) -> Option<Timestamp> {
+    read_time(&member.submitted, Some(&TimeZone::UTC)).ok()
+}

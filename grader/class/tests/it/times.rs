@@ -1,0 +1,158 @@
+//! Submission times, extensions and late flags, as rosters and platforms write them.
+
+use std::fs;
+
+use crate::harness::{TestClass, cell, successful_stdout, workspace};
+
+const POLICY: &str = "[late]\ndue = 2026-10-20T23:59:00+02:00\ntimezone = 'Europe/Berlin'\n\
+                      percent_per_day = 10\n";
+
+/// Grades a class whose submissions are one file each, with this policy and these lists.
+fn grade(class: &TestClass, policy: &str, lists: &[&str]) -> String {
+    let exam = class.small_exam(&["camera.offset"]);
+    let policy = class.write_beside("policy.toml", policy);
+    let arguments = [&["--policy", &policy], lists].concat();
+    successful_stdout(&class.grade(&exam, &arguments))
+}
+
+fn camera() -> Vec<u8> {
+    fs::read(workspace().join("reference/src/camera.rs")).unwrap()
+}
+
+/// Returns the status, the late days and the reason for one person.
+fn lateness(class: &TestClass, submission: &str, name: &str) -> [String; 3] {
+    ["status", "late_days", "why"].map(|column| cell(class, submission, name, column))
+}
+
+fn assert_late_days(class: &TestClass, submission: &str, name: &str, days: &str) {
+    let expected = ["graded", days, ""];
+    assert_eq!(lateness(class, submission, name), expected, "{submission}");
+}
+
+fn assert_open(class: &TestClass, submission: &str, name: &str, status: &str, reason: &str) {
+    let [actual, _, why] = lateness(class, submission, name);
+    assert_eq!(actual, status, "{submission}: {why}");
+    assert!(why.contains(reason), "{submission}: {why}");
+    assert_eq!(cell(class, submission, name, "counts"), "");
+}
+
+#[test]
+fn a_wrong_year_is_never_on_time_or_late() {
+    let rows = [
+        ("excel", "25.10.26 23:30", ""),
+        ("extended", "2026-10-25 20:00", "26.10.26 23:59"),
+        ("ancient", "25.10.0026 23:30", ""),
+        ("last", "2025-10-20 12:00", ""),
+        ("typo", "20.10.62 12:00", ""),
+        ("serial", "2026-10-25 20:00", "46318"),
+        ("slashes", "25/10/26 23:30", ""),
+    ];
+    let mut class = TestClass::named("class");
+    let mut roster = "username,name,datetime,extension\n".to_owned();
+    for (name, time, extension) in rows {
+        class = class.with(&format!("{name}/camera.rs"), camera());
+        roster += &format!("{name},{name},{time},{extension}\n");
+    }
+    let roster = class.write_beside("roster.csv", &roster);
+    grade(&class, POLICY, &["--roster", &roster]);
+    let is_open = |name, reason| assert_open(&class, name, name, "time unclear", reason);
+    assert_late_days(&class, "excel", "excel", "5");
+    assert_late_days(&class, "extended", "extended", "0");
+    is_open("ancient", "its year is not between 2000 and 2099");
+    is_open("last", "more than half a year from the due time");
+    is_open("typo", "more than half a year from the due time");
+    is_open("serial", "more than half a year from the due time");
+    is_open("slashes", "two different dates");
+}
+
+/// Winter time begins on 25 October.
+#[test]
+fn days_end_at_the_same_time_of_day_when_clocks_are_set() {
+    let class = TestClass::named("class")
+        .with("extended/camera.rs", camera())
+        .with("late/camera.rs", camera());
+    let time = "2026-10-27 23:58";
+    let rows = format!("extended,{time},7\nlate,{time},\n");
+    let roster = class.write_beside("roster.csv", &format!("name,datetime,extension\n{rows}"));
+    grade(&class, POLICY, &["--roster", &roster]);
+    assert_late_days(&class, "extended", "extended", "0");
+    assert_late_days(&class, "late", "late", "7");
+}
+
+#[test]
+fn a_list_does_not_overrule_the_late_flags_of_canvas() {
+    let class = TestClass::named("class")
+        .with("LATE_anon_aB3x9_9001_camera.rs", camera())
+        .with("anon_cD4y0_9002_camera.rs", camera())
+        .with("early_LATE_1_9003_camera.rs", camera())
+        .with("late_2_9004_camera.rs", camera())
+        .with("equal_LATE_3_9005_camera.rs", camera());
+    let roster = class.write_beside(
+        "roster.csv",
+        "name,datetime\nearly,2026-10-19 12:00\nlate,2026-10-22 12:00\nequal,2026-10-22 12:00\n",
+    );
+    grade(&class, POLICY, &["--roster", &roster]);
+    assert_late_days(&class, "anon_aB3x9", "anon aB3x9", "1");
+    assert_late_days(&class, "anon_cD4y0", "anon cD4y0", "0");
+    assert_late_days(&class, "equal_3", "equal", "2");
+    let is_open = |id, name, reason| assert_open(&class, id, name, "time unclear", reason);
+    is_open(
+        "early_1",
+        "early",
+        "the platform marks the submission as late",
+    );
+    is_open(
+        "late_2",
+        "late",
+        "the platform does not mark the submission as late",
+    );
+
+    let flag = |id, name| cell(&class, id, name, "late_flag");
+    assert_eq!(flag("anon_aB3x9", "anon aB3x9"), "LATE");
+    assert_eq!(flag("anon_cD4y0", "anon cD4y0"), "");
+    let page = class.read("class.html");
+    assert_eq!(page.matches("marked LATE by the platform").count(), 3);
+}
+
+#[test]
+fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
+    let until = "Extension granted until:";
+    let english = format!("{until} Monday, 26 October 2026, 11:59 PM");
+    let rows = [
+        ("Ext", format!("Submitted for grading - {english}")),
+        (
+            "Late",
+            "Submitted for grading - 4 days 12 hours late".to_owned(),
+        ),
+        ("Draft", "Draft (not submitted)".to_owned()),
+        (
+            "Other",
+            format!("Submitted for grading - {until} lundi 26 octobre 2026, 23:59"),
+        ),
+        ("German", "Entwurf (nicht abgegeben)".to_owned()),
+    ];
+    let mut class = TestClass::named("class");
+    let mut worksheet = "Identifier,Full name,Status,Grade,Last modified (submission)\n".to_owned();
+    for (number, (name, status)) in rows.iter().enumerate() {
+        let folder = format!("{name}_{number}_assignsubmission_file_");
+        class = class.with(&format!("{folder}/camera.rs"), camera());
+        let time = "\"Sunday, 25 October 2026, 11:30 AM\"";
+        worksheet += &format!("Participant {number},{name},\"{status}\",,{time}\n");
+    }
+    let worksheet = class.write_beside("worksheet.csv", &worksheet);
+    let text = grade(&class, POLICY, &["--moodle", &worksheet]);
+    assert_late_days(&class, "Ext_0", "Ext", "0");
+    assert_late_days(&class, "Late_1", "Late", "5");
+    assert_open(&class, "Draft_2", "Draft", "draft", "Draft (not submitted)");
+    let is_open = |id, name, reason| assert_open(&class, id, name, "time unclear", reason);
+    is_open(
+        "Other_3",
+        "Other",
+        "the extension \"lundi 26 octobre 2026, 23:59\"",
+    );
+    is_open("German_4", "German", "set Moodle's language to English");
+    assert!(
+        text.contains("Draft: the status in Moodle's worksheet"),
+        "{text}"
+    );
+}

@@ -1,0 +1,91 @@
+//! How late a submission is, in seconds and in days of the calendar.
+
+use jiff::tz::TimeZone;
+use jiff::{Span, Timestamp};
+
+/// One day, in seconds.
+const DAY: u64 = 24 * 60 * 60;
+
+/// The time between the due time and the submission.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Lateness {
+    /// Seconds after the due time, or 0 if on time.
+    pub seconds: u64,
+    /// Days since the due time, of which the last has only started.
+    pub(super) days: u32,
+}
+
+impl Lateness {
+    /// The lateness of a submission that is on time.
+    pub const NONE: Lateness = Lateness {
+        seconds: 0,
+        days: 0,
+    };
+
+    /// Returns a lateness in days of 24 hours, for a submission whose time is unknown.
+    pub fn of_seconds(seconds: u64) -> Self {
+        let days = u32::try_from(seconds.div_ceil(DAY)).unwrap_or(u32::MAX);
+        Lateness { seconds, days }
+    }
+
+    /// Returns how long after `due` a submission was made. The started second does not count. With
+    /// a time zone, days are those of its calendar, of which some have 23 or 25 hours.
+    pub(super) fn since(due: Timestamp, submitted: Timestamp, zone: Option<&TimeZone>) -> Self {
+        let seconds = u64::try_from(submitted.duration_since(due).as_secs()).unwrap_or(0);
+        let by_hours = Lateness::of_seconds(seconds);
+        // Clocks are set by less than a day, so a calendar has at most one day more or less.
+        let is_over = |days: &u32| {
+            let end = after_days(due, (*days).into(), zone);
+            submitted.duration_since(end).as_secs() <= 0
+        };
+        let around = by_hours.days.saturating_sub(1)..=by_hours.days.saturating_add(1);
+        let days = around.into_iter().find(is_over).unwrap_or(by_hours.days);
+        Lateness { seconds, days }
+    }
+}
+
+/// Returns the same time of day this number of days later. A time that clocks skip becomes a later
+/// one, and of a time that they show twice, the second is meant: both are better for a student.
+pub(super) fn after_days(due: Timestamp, days: i64, zone: Option<&TimeZone>) -> Timestamp {
+    if days == 0 {
+        return due;
+    }
+    let zone = zone.cloned().unwrap_or(TimeZone::UTC);
+    let span = Span::new().try_days(days);
+    let local = span.and_then(|span| zone.to_datetime(due).checked_add(span));
+    let later = local.and_then(|local| zone.to_ambiguous_timestamp(local).later());
+    later.unwrap_or(Timestamp::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::policy::Policy;
+
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        let days = |zone: &str, due: &str, submitted: &str| {
+            let policy: Policy = toml::from_str(&format!("[late]\ndue = {due}\n{zone}")).unwrap();
+            let lateness = policy.lateness(submitted.parse().unwrap(), &[]).unwrap();
+            policy.counted_points(1, 1, lateness).late_days
+        };
+        let berlin = "timezone = 'Europe/Berlin'";
+        // Winter time begins on 25 October at 3:00, so this day has 25 hours.
+        let due = "2026-10-24T23:59:00+02:00";
+        assert_eq!(days(berlin, due, "2026-10-25T23:59:00+01:00"), 1);
+        assert_eq!(days(berlin, due, "2026-10-25T23:59:01+01:00"), 2);
+        assert_eq!(days("", due, "2026-10-25T23:59:00+01:00"), 2);
+        assert_eq!(days(berlin, due, "2026-10-30T23:59:00+01:00"), 6);
+        // Summer time begins on 28 March at 2:00, so this day has 23 hours.
+        let due = "2027-03-27T23:59:00+01:00";
+        assert_eq!(days(berlin, due, "2027-03-28T23:59:00+02:00"), 1);
+        assert_eq!(days(berlin, due, "2027-03-28T23:59:01+02:00"), 2);
+        assert_eq!(days("", due, "2027-03-28T23:59:01+02:00"), 1);
+        // Clocks skip 2:30 on this day, and show it twice on the other.
+        let due = "2027-03-27T02:30:00+01:00";
+        assert_eq!(days(berlin, due, "2027-03-28T03:30:00+02:00"), 1);
+        assert_eq!(days(berlin, due, "2027-03-28T03:30:01+02:00"), 2);
+        let due = "2026-10-24T02:30:00+02:00";
+        assert_eq!(days(berlin, due, "2026-10-25T02:30:00+01:00"), 1);
+        assert_eq!(days(berlin, due, "2026-10-25T02:30:01+01:00"), 2);
+    }
+}

@@ -4,40 +4,28 @@
 
 use std::env;
 
-use crate::http::{Method, Request};
+use crate::http::Request;
 
 /// Names that always mean this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
+/// The header with the token, in lower case. A page of another site or port cannot send it, because
+/// a browser first asks this server whether it may, and the server never agrees.
+pub const HEADER: &str = "view-token";
 
-/// The secrets and names that a request must know.
+/// The secret and the names that a request must know.
 #[derive(Clone, Debug)]
 pub struct Access {
-    /// The secret in the address that is printed.
+    /// The secret in the address that is printed. The page keeps it in the storage of its origin. A
+    /// cookie would not do: a browser sends the cookies of one port to all ports of the same host.
     token: String,
-    /// The secret in the cookie, for which the token is exchanged.
-    session: String,
-    /// The name of the cookie. It contains the port, because a browser sends the cookies of one port
-    /// to all others.
-    cookie: String,
     /// The names of hosts that lead here.
     hosts: Vec<String>,
     /// The name that a codespace gives to the port.
     forwarded: Option<String>,
 }
 
-/// The decision about a request.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Decision {
-    /// The request comes from the page.
-    Allowed,
-    /// The request has the token. The response sets this cookie.
-    SetCookie(String),
-    /// The request is not answered, for this reason.
-    Forbidden(&'static str),
-}
-
 impl Access {
-    /// Draws new secrets, for a server at this port that is also reached by these names.
+    /// Draws a new secret, for a server at this port that is also reached by these names.
     pub fn new(port: u16, allowed_hosts: &[String]) -> Result<Self, getrandom::Error> {
         let hosts = LOOPBACK.map(str::to_owned).into_iter();
         let forwarded = forwarded_host(port, |name| env::var(name).ok());
@@ -46,8 +34,6 @@ impl Access {
             .chain(forwarded.clone());
         Ok(Access {
             token: secret()?,
-            session: secret()?,
-            cookie: format!("view-{port}"),
             hosts: hosts.map(|host| host.to_lowercase()).collect(),
             forwarded,
         })
@@ -63,55 +49,22 @@ impl Access {
         format!("/?token={}", self.token)
     }
 
-    /// Decides about a request.
-    pub fn check(&self, request: &Request) -> Decision {
+    /// Returns why a request is not answered, if it is not. The files of the page are public: they
+    /// are the same for everyone, and contain no secret.
+    pub fn refusal(&self, request: &Request, is_public: bool) -> Option<&'static str> {
         // A page of another site can send requests here by giving its own name this address. It
         // cannot change the name in `Host`.
         let host = request.header("host").map(without_port);
-        if !host.is_some_and(|host| self.is_known(host)) {
-            return Decision::Forbidden(
+        if !host.is_some_and(|host| self.hosts.contains(&host.to_lowercase())) {
+            return Some(
                 "this name of the host is not known; to allow it, start `cargo view` with --allow-host NAME",
             );
         }
-        if !self.has_allowed_origin(request) {
-            return Decision::Forbidden("the request comes from another page");
-        }
-        let is = |given: Option<&str>, secret| given.is_some_and(|given| same(given, secret));
-        if request.method == Method::Get
-            && request.path == "/"
-            && is(request.parameter("token"), &self.token)
-        {
-            let Access {
-                cookie, session, ..
-            } = self;
-            return Decision::SetCookie(format!(
-                "{cookie}={session}; Path=/; HttpOnly; SameSite=Strict"
-            ));
-        }
-        if is(request.cookie(&self.cookie), &self.session) {
-            Decision::Allowed
-        } else {
-            Decision::Forbidden("open the address that `cargo view` has printed in the terminal")
-        }
-    }
-
-    /// Returns whether the request comes from a page of this server. A browser sends `Origin` with
-    /// each POST.
-    fn has_allowed_origin(&self, request: &Request) -> bool {
-        match (request.header("origin"), request.method) {
-            (None, Method::Get) => true,
-            (None, Method::Post) => false,
-            (Some(origin), _) => {
-                let scheme_and_host = origin.split_once("://");
-                scheme_and_host.is_some_and(|(scheme, host)| {
-                    ["http", "https"].contains(&scheme) && self.is_known(without_port(host))
-                })
-            }
-        }
-    }
-
-    fn is_known(&self, host: &str) -> bool {
-        self.hosts.contains(&host.to_lowercase())
+        let has_token = request
+            .header(HEADER)
+            .is_some_and(|given| same(given, &self.token));
+        (!is_public && !has_token)
+            .then_some("open the address that `cargo view` has printed in the terminal")
     }
 }
 
@@ -147,80 +100,49 @@ fn secret() -> Result<String, getrandom::Error> {
 mod tests {
     use super::*;
 
-    fn access() -> Access {
-        Access {
+    fn refusal(text: &str, is_public: bool) -> Option<&'static str> {
+        let access = Access {
             token: "t0".to_owned(),
-            session: "s1".to_owned(),
-            cookie: "view-80".to_owned(),
             hosts: ["localhost", "[::1]", "my-80.example"]
                 .map(str::to_owned)
                 .to_vec(),
             forwarded: None,
-        }
-    }
-
-    fn check(text: &str) -> Decision {
-        let text = format!("{}\r\n\r\n", text.replace('\n', "\r\n"));
-        access().check(&Request::read(&mut text.as_bytes()).unwrap())
-    }
-
-    #[test]
-    fn the_token_is_exchanged_for_a_strict_cookie() {
-        let first = check("GET /?token=t0 HTTP/1.1\nHost: localhost:9000");
-        let cookie = "view-80=s1; Path=/; HttpOnly; SameSite=Strict".to_owned();
-        assert_eq!(first, Decision::SetCookie(cookie));
-        let next = check("GET /state HTTP/1.1\nHost: [::1]:80\nCookie: view-80=s1");
-        assert_eq!(next, Decision::Allowed);
-    }
-
-    #[test]
-    fn without_the_secrets_nothing_is_answered() {
-        for text in [
-            "GET / HTTP/1.1\nHost: localhost",
-            "GET /?token=t1 HTTP/1.1\nHost: localhost",
-            "GET /?token= HTTP/1.1\nHost: localhost",
-            "GET /state?token=t0 HTTP/1.1\nHost: localhost",
-            "GET / HTTP/1.1\nHost: localhost\nCookie: view-80=t0",
-            "GET / HTTP/1.1\nHost: localhost\nCookie: view-81=s1",
-        ] {
-            assert!(
-                matches!(check(text), Decision::Forbidden(why) if why.contains("printed")),
-                "{text}"
-            );
-        }
-    }
-
-    #[test]
-    fn other_hosts_and_origins_are_refused_even_with_the_cookie() {
-        let with = |method: &str, headers: &str| {
-            check(&format!(
-                "{method} /state HTTP/1.1\nCookie: view-80=s1\n{headers}"
-            ))
         };
-        assert_eq!(with("GET", "Host: MY-80.example"), Decision::Allowed);
-        assert_eq!(
-            with("POST", "Host: localhost\nOrigin: http://localhost:8080"),
-            Decision::Allowed
+        let text = format!(
+            "GET /state HTTP/1.1\r\n{}\r\n\r\n",
+            text.replace('\n', "\r\n")
         );
-        assert_eq!(
-            with("POST", "Host: localhost\nOrigin: https://my-80.example"),
-            Decision::Allowed
-        );
-        for (method, headers) in [
-            ("GET", "Host: evil.example"),
-            ("GET", "Host: localhost.evil.example"),
-            ("GET", "X: 1"),
-            ("GET", "Host: localhost\nHost: evil.example"),
-            ("GET", "Host: localhost\nOrigin: http://evil.example"),
-            ("POST", "Host: localhost"),
-            ("POST", "Host: localhost\nOrigin: null"),
-            ("POST", "Host: localhost\nOrigin: file://localhost"),
+        access.refusal(&Request::read(&mut text.as_bytes()).unwrap(), is_public)
+    }
+
+    #[test]
+    fn only_the_header_with_the_token_opens_what_is_not_public() {
+        assert_eq!(refusal("Host: localhost:9000\nView-Token: t0", false), None);
+        assert_eq!(refusal("Host: [::1]:80", true), None);
+        for headers in [
+            "Host: localhost",
+            "Host: localhost\nView-Token: t1",
+            "Host: localhost\nView-Token:",
+            "Host: localhost\nView-Token: t0\nView-Token: t0",
+            "Host: localhost\nCookie: token=t0",
         ] {
-            let decision = with(method, headers);
-            assert!(
-                matches!(decision, Decision::Forbidden(_)),
-                "{method} {headers}"
-            );
+            let why = refusal(headers, false);
+            assert!(why.is_some_and(|why| why.contains("printed")), "{headers}");
+        }
+    }
+
+    #[test]
+    fn other_hosts_are_refused_even_with_the_token() {
+        assert_eq!(refusal("Host: MY-80.example\nView-Token: t0", false), None);
+        for headers in [
+            "Host: evil.example",
+            "Host: localhost.evil.example",
+            "X: 1",
+            "Host: localhost\nHost: evil.example",
+        ] {
+            let headers = format!("{headers}\nView-Token: t0");
+            assert!(refusal(&headers, false).is_some(), "{headers}");
+            assert!(refusal(&headers, true).is_some(), "{headers}");
         }
     }
 

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use grader::sandbox;
+use judging::sanitize::sanitize;
 use view::cli::Arguments;
 use view::run::run;
 
@@ -14,7 +15,7 @@ fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            anstream::eprintln!("error: {error}");
+            anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
             ExitCode::from(error.exit_code())
         }
     }

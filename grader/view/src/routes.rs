@@ -1,14 +1,17 @@
 //! The addresses of the page, its files and its data.
 
 use std::fmt::Display;
+use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use judging::sanitize::sanitize;
 use serde::Serialize;
+use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
 use tempfile::NamedTempFile;
 
-use crate::access::{Access, Decision};
-use crate::http::{Method, Request, Response, Status};
+use crate::access::Access;
+use crate::http::{Method, Request, Response, Site, Status};
 use crate::model::tree::{Bar, NodeInfo, TreeModel};
 use crate::session::Command;
 use crate::studio::Studio;
@@ -37,7 +40,7 @@ const FILES: [(&str, &str, &str); 10] = [
         include_str!("page/style.css"),
     ),
     ("/icon.svg", "image/svg+xml", ICON),
-    // Browsers ask for this one if a page names no icon, like the entrance and the errors.
+    // Browsers ask for this one if a page names no icon, like the errors.
     ("/favicon.ico", "image/svg+xml", ICON),
     ("/main.js", SCRIPT, include_str!("page/main.js")),
     ("/server.js", SCRIPT, include_str!("page/server.js")),
@@ -49,11 +52,6 @@ const FILES: [(&str, &str, &str); 10] = [
 const ICON: &str = include_str!("page/icon.svg");
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 const JSON: &str = "application/json";
-
-/// The page that sets the cookie. It leads on to the address without the token by itself: a browser
-/// does not send a strict cookie after a redirection that began in another program.
-const ENTRANCE: &str = "<!doctype html><html lang=\"en\"><title>cargo view</title>\
-    <meta http-equiv=\"refresh\" content=\"0;url=/\"><a href=\"/\">Open the viewer</a></html>";
 
 /// The data behind the page.
 pub struct Routes {
@@ -88,20 +86,21 @@ struct TreeLevel {
     boxes: Vec<NodeInfo>,
 }
 
-impl Routes {
-    /// Answers a request.
-    pub fn answer(&self, request: &Request) -> Response {
-        match self.access.check(request) {
-            Decision::Forbidden(why) => return Response::text(Status::Forbidden, why),
-            Decision::SetCookie(cookie) => {
-                let mut redirection = self.redirection.lock();
-                drop(redirection.as_deref_mut().map(Option::take));
-                let page = Response::new(Status::Ok, "text/html; charset=utf-8", ENTRANCE);
-                return page.with_header("Set-Cookie", cookie);
-            }
-            Decision::Allowed => {}
-        }
+impl Site for Routes {
+    fn trusts(&self, request: &Request) -> bool {
+        self.access.refusal(request, false).is_none()
+    }
+
+    fn answer(&self, request: &Request) -> Response {
         let file = FILES.iter().find(|(path, _, _)| *path == request.path);
+        if let Some(why) = self.access.refusal(request, file.is_some()) {
+            return Response::text(Status::Forbidden, why);
+        }
+        if file.is_none() {
+            // The page has the token, so the file that contains it is no longer needed.
+            let mut redirection = self.redirection.lock();
+            drop(redirection.as_deref_mut().map(Option::take));
+        }
         match (request.method, request.path.as_str(), file) {
             (Method::Get, _, Some((_, content_type, text))) => {
                 Response::new(Status::Ok, content_type, *text)
@@ -127,7 +126,9 @@ impl Routes {
             (Method::Get | Method::Post, _, _) => Response::text(Status::NotFound, "no such page"),
         }
     }
+}
 
+impl Routes {
     /// Returns the state as soon as its version differs from `known`.
     fn state(&self, known: u64) -> Response {
         if !self.studio.wait_for_news(known, POLL_TIMEOUT) {
@@ -199,9 +200,62 @@ fn number(request: &Request, name: &str) -> u64 {
         .unwrap_or(0)
 }
 
+/// Returns data for the page. All texts are sanitized, because they may be a submission's.
 fn json(value: &impl Serialize) -> Response {
-    match serde_json::to_vec(value) {
-        Ok(text) => Response::new(Status::Ok, JSON, text),
+    let mut text = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut text, Sanitizing);
+    match value.serialize(&mut serializer) {
+        Ok(()) => Response::new(Status::Ok, JSON, text),
         Err(error) => Response::text(Status::BadRequest, &error.to_string()),
+    }
+}
+
+/// Writes JSON with sanitized strings.
+struct Sanitizing;
+
+impl Formatter for Sanitizing {
+    fn write_string_fragment<W: ?Sized + Write>(
+        &mut self,
+        to: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
+        // Quotes and backslashes are no fragments. Those of an escape are text of the string.
+        let text = sanitize(fragment, usize::MAX).replace('\\', "\\\\");
+        to.write_all(text.as_bytes())
+    }
+
+    fn write_char_escape<W: ?Sized + Write>(
+        &mut self,
+        to: &mut W,
+        escape: CharEscape,
+    ) -> io::Result<()> {
+        let control = match escape {
+            CharEscape::Backspace => '\u{8}',
+            CharEscape::FormFeed => '\u{c}',
+            CharEscape::CarriageReturn => '\r',
+            CharEscape::AsciiControl(byte) => char::from(byte),
+            CharEscape::Quote
+            | CharEscape::ReverseSolidus
+            | CharEscape::Solidus
+            | CharEscape::LineFeed
+            | CharEscape::Tab => return CompactFormatter.write_char_escape(to, escape),
+        };
+        self.write_string_fragment(to, control.encode_utf8(&mut [0; 4]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strings_are_sanitized_and_everything_else_is_as_usual() {
+        let body = |value: &serde_json::Value| json(value).body().to_vec();
+        let usual = serde_json::json!({ "a\n\t\"\\/é": [1.5, null, true, "<b>漢"] });
+        assert_eq!(body(&usual), serde_json::to_vec(&usual).unwrap());
+        let text = serde_json::json!("a\r\u{1b}[2J\u{8}\u{c}\u{7f}\u{85}\u{202e}\\");
+        let read: String = serde_json::from_slice(&body(&text)).unwrap();
+        let shown = "a\\r\\u{1b}[2J\\u{8}\\u{c}\\u{7f}\\u{85}\\u{202e}\\";
+        assert_eq!(read, shown);
     }
 }

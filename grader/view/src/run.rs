@@ -12,6 +12,7 @@ use grader::handed_out::RAYS;
 use grader::select_isolation::IsolationRequest;
 use grader::system::available_memory;
 use grader::workspace::Workspace;
+use judging::sanitize::sanitize_line;
 
 use crate::access::Access;
 use crate::cli::{Arguments, DEFAULT_PORT};
@@ -61,7 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
 
     let access = Access::new(port, &arguments.allow_host)?;
     let url = format!("http://127.0.0.1:{port}{}", access.first_path());
-    anstream::println!("{}: open {url}", programs.folder().display());
+    let folder = sanitize_line(&programs.folder().display().to_string(), usize::MAX);
+    anstream::println!("{folder}: open {url}");
     if let Some(forwarded) = access.forwarded() {
         let path = access.first_path();
         anstream::println!("From outside of this codespace: open https://{forwarded}{path}");
@@ -81,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         settings,
         redirection: Mutex::new(redirection),
     };
-    http::serve(&listener, move |request| routes.answer(request));
+    http::serve(&listener, routes);
     Ok(())
 }
 

@@ -7,4 +7,4 @@ mod serve;
 
 pub use request::{Method, Request, RequestError};
 pub use response::{Response, Status};
-pub use serve::serve;
+pub use serve::{Site, serve};

@@ -124,15 +124,6 @@ impl Request {
         }
     }
 
-    /// Returns the value of a cookie.
-    pub fn cookie(&self, name: &str) -> Option<&str> {
-        let cookies = self.header("cookie")?.split(';');
-        cookies
-            .filter_map(|cookie| cookie.trim().split_once('='))
-            .find(|(known, _)| *known == name)
-            .map(|(_, value)| value)
-    }
-
     /// Returns the value of a parameter in the query. It is not decoded: the server's own links have
     /// only letters and digits there.
     pub fn parameter(&self, name: &str) -> Option<&str> {
@@ -165,15 +156,11 @@ mod tests {
 
     #[test]
     fn reads_the_path_the_headers_and_the_body() {
-        let text = "POST /command?n=7&m=x HTTP/1.1\r\nHost: a:1\r\nCookie: x=1; view=2\r\n\
+        let text = "POST /command?n=7&m=x HTTP/1.1\r\nHost: a:1\r\n\
                     Content-Length: 2\r\n\r\n{}";
         let request = read(text).unwrap();
         assert_eq!((request.method, &*request.path), (Method::Post, "/command"));
         assert_eq!(request.header("host"), Some("a:1"));
-        assert_eq!(
-            (request.cookie("view"), request.cookie("none")),
-            (Some("2"), None)
-        );
         assert_eq!(
             (request.parameter("n"), request.parameter("m")),
             (Some("7"), Some("x"))

@@ -23,7 +23,7 @@ pub enum Status {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Response {
     status: Status,
-    headers: Vec<(&'static str, String)>,
+    content_type: Option<String>,
     body: Vec<u8>,
 }
 
@@ -61,7 +61,7 @@ impl Response {
     pub fn new(status: Status, content_type: &str, body: impl Into<Vec<u8>>) -> Self {
         Response {
             status,
-            headers: vec![("Content-Type", content_type.to_owned())],
+            content_type: Some(content_type.to_owned()),
             body: body.into(),
         }
     }
@@ -75,21 +75,24 @@ impl Response {
     pub fn nothing() -> Self {
         Response {
             status: Status::NoContent,
-            headers: Vec::new(),
+            content_type: None,
             body: Vec::new(),
         }
     }
 
-    /// Returns the response with another header.
-    pub fn with_header(mut self, name: &'static str, value: String) -> Self {
-        self.headers.push((name, value));
-        self
+    /// Returns the body.
+    #[cfg(test)]
+    pub fn body(&self) -> &[u8] {
+        &self.body
     }
 
     /// Writes the response.
     pub fn write(&self, to: &mut impl Write) -> io::Result<()> {
         let mut head = format!("HTTP/1.1 {}\r\n", self.status.line());
-        let own = self.headers.iter().map(|(name, value)| (*name, &**value));
+        let own = self
+            .content_type
+            .iter()
+            .map(|value| ("Content-Type", &**value));
         for (name, value) in HEADERS.into_iter().chain(own) {
             head += &format!("{name}: {value}\r\n");
         }

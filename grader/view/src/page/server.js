@@ -1,17 +1,36 @@
 // Talks to the viewer: sends commands, and waits for news.
 
 const refused = document.getElementById("refused");
+const token = takeToken();
+
+/** Moves the secret from the address to the storage of this origin, which no other port can read. */
+function takeToken() {
+  const given = new URLSearchParams(location.search).get("token");
+  try {
+    if (given === null) return localStorage.getItem("token") ?? "";
+    localStorage.setItem("token", given);
+    history.replaceState(null, "", "/");
+  } catch {
+    // The browser forbids storage, so the secret stays in the address.
+  }
+  return given ?? "";
+}
+
+/** Sends a request with the secret. */
+export async function request(path, options) {
+  return fetch(path, { ...options, headers: { "View-Token": token } });
+}
 
 /** Sends a command, such as { view: "depth" }. If it is refused, the page shows why. */
 export async function send(command) {
   // If the viewer has ended, the request for news fails, too, and the page says so.
-  const answer = await fetch("/command", { method: "POST", body: JSON.stringify(command) }).catch(() => null);
+  const answer = await request("/command", { method: "POST", body: JSON.stringify(command) }).catch(() => null);
   refused.textContent = answer && !answer.ok ? await answer.text() : "";
 }
 
 /** Returns some data, or null if there is none. */
 export async function load(path) {
-  const answer = await fetch(path).catch(() => null);
+  const answer = await request(path).catch(() => null);
   return answer?.ok ? answer.json() : null;
 }
 
@@ -25,13 +44,14 @@ export async function follow(show, connected) {
       continue;
     }
     try {
-      const answer = await fetch(`/state?after=${version}`);
+      const answer = await request(`/state?after=${version}`);
       connected(answer.ok);
       if (answer.status === 200) {
         const state = await answer.json();
         version = state.version;
         show(state);
       } else if (!answer.ok) {
+        if (answer.status === 403) refused.textContent = await answer.text();
         await pause(2000);
       }
     } catch {

@@ -1,5 +1,5 @@
 // The picture: shows it, and turns mouse, touch and keys into movements of the camera.
-import { move, send } from "./server.js";
+import { move, request, send } from "./server.js";
 
 const stage = document.getElementById("stage");
 const pixels = document.getElementById("pixels");
@@ -17,7 +17,7 @@ export async function showPicture(state) {
     const { picture, film } = wanted;
     wanted = null;
     try {
-      const answer = await fetch(`/picture?n=${picture}`);
+      const answer = await request(`/picture?n=${picture}`);
       if (!answer.ok) break;
       const blob = await answer.blob();
       const bitmap = await createImageBitmap(blob);

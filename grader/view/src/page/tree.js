@@ -9,6 +9,8 @@ const isOn = document.getElementById("boxes-on");
 const below = document.getElementById("below");
 let shown = "";
 let summary = null;
+/** The number of levels in the strip. */
+let rows = 1;
 let boxes = [];
 let selected = null;
 
@@ -29,9 +31,11 @@ export async function showTree(state) {
   summary = await load("/tree");
   if (!summary) return;
   level.max = summary.levels - 1;
+  rows = 1 + summary.bars.reduce((most, bar) => Math.max(most, bar.level), 0);
   document.getElementById("tree-facts").textContent =
     `${count(summary.primitives, "primitive")}, ${count(summary.nodes, "node")}, ${count(summary.levels, "level")}; `
-    + `SAH cost ${number(summary.cost)}: the expected number of tests of a ray that hits the root's box.`;
+    + `SAH cost ${number(summary.cost)}: the expected number of tests of a ray that hits the root's box.`
+    + (rows < summary.levels ? ` Only the first ${rows} levels are in the strip.` : "");
   showTable("worst", summary.worst);
   document.getElementById("node-index").max = summary.nodes - 1;
   drawStrip();
@@ -114,7 +118,7 @@ function drawStrip() {
   strip.width = Math.max(1, strip.clientWidth * scale);
   strip.height = Math.max(1, strip.clientHeight * scale);
   const context = strip.getContext("2d");
-  const row = strip.height / summary.levels;
+  const row = strip.height / rows;
   for (const bar of summary.bars) {
     const isLevel = isOn.checked && (bar.level === Number(level.value) || below.checked && bar.level > level.value);
     context.fillStyle = selected?.node === bar.node ? "#e08a00" : bar.leaf ? (isLevel ? "#138a4a" : "#7bbf9a") : isLevel ? "#0b57c2" : "#8fb0dd";
@@ -126,7 +130,7 @@ function drawStrip() {
 function barAt(event) {
   if (!summary) return null;
   const x = event.offsetX / strip.clientWidth;
-  const wanted = Math.floor(event.offsetY / strip.clientHeight * summary.levels);
+  const wanted = Math.floor(event.offsetY / strip.clientHeight * rows);
   return summary.bars.find((bar) => bar.level === wanted && bar.start <= x && x < bar.start + bar.width) ?? null;
 }
 

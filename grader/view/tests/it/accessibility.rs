@@ -160,7 +160,7 @@ fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
     let submission = Submission::reference();
     let correct = submission.read("camera.rs");
     let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
-    let panic = "assert!(pixel.x != 3, \"column {}\", pixel.x);";
+    let panic = "assert!(pixel.x != 3, \"column {} {}\", pixel.x, \"x\".repeat(999));";
     submission.replace("camera.rs", signature, &format!("{signature} {panic}"));
     let viewer = Viewer::start(&submission, &["flat", "--size", "20x10", "--samples", "1"]);
     viewer.wait_for_picture();
@@ -192,7 +192,7 @@ fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
         }
     };
     check(
-        "/10 samples, the first in pixel .3, \\d.: column 3 .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
+        "/10 samples, the first in pixel .3, \\d.: column 3 x+ .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
     );
     submission.write("camera.rs", &format!("{correct}\nlet oops\n"));
     check(

@@ -19,8 +19,6 @@ pub fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
         &format!("http://127.0.0.1:{}{}", viewer.port, viewer.first),
         reader,
     );
-    // The page with the token leads on to the viewer by itself.
-    tab.wait_until_loaded();
     tab
 }
 
@@ -284,4 +282,20 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
         tab.bring_to_front();
         tab.wait_until("!document.getElementById('offline').hidden", TEXT);
     }
+}
+
+#[test]
+fn the_secret_leaves_the_address_and_stays_in_this_browser() {
+    let arguments = ["flat", "--size", "16x12", "--samples", "1"];
+    let Some((chromium, viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+        return;
+    };
+    let address = format!("http://127.0.0.1:{}/", viewer.port);
+    assert_eq!(tab.eval("location.href"), address);
+    let other = Chromium::start().unwrap();
+    let [mut again, mut tab] = [chromium.tab(), other.tab()];
+    again.open_url(&address, DESKTOP);
+    again.wait_until(IS_COMPLETE, TEXT);
+    tab.open_url(&address, DESKTOP);
+    tab.wait_until(&format!("{TEXT}.includes('has printed')"), TEXT);
 }

@@ -108,7 +108,6 @@ pub struct Viewer {
     pub port: u16,
     /// The path of the first address, with the token.
     pub first: String,
-    cookie: String,
     /// Not read, but open, as a terminal is.
     _output: BufReader<ChildStdout>,
     errors: ChildStderr,
@@ -124,26 +123,17 @@ impl Viewer {
     pub fn try_start(submission: &Submission, arguments: &[&str]) -> Result<Self, String> {
         let mut command = view();
         command.arg("--submission").arg(submission.path());
-        Viewer::try_run(command.args(arguments))
+        Viewer::run(command.args(arguments))
     }
 
-    /// Starts the viewer at any port, and exchanges the token for the cookie.
-    fn try_run(command: &mut Command) -> Result<Self, String> {
-        let mut viewer = Viewer::run(command)?;
-        viewer.visit();
-        Ok(viewer)
-    }
-
-    /// Starts the viewer at any port, and does not open the page.
+    /// Starts the viewer at any port.
     pub fn run(command: &mut Command) -> Result<Self, String> {
         Viewer::spawn(command.args(["--port", "0"]))
     }
 
-    /// Starts the viewer without a choice of the port, and exchanges the token for the cookie.
+    /// Starts the viewer without a choice of the port.
     pub fn run_at_the_usual_port(command: &mut Command) -> Self {
-        let mut viewer = Viewer::spawn(command).unwrap();
-        viewer.visit();
-        viewer
+        Viewer::spawn(command).unwrap()
     }
 
     fn spawn(command: &mut Command) -> Result<Self, String> {
@@ -167,18 +157,10 @@ impl Viewer {
         Ok(Viewer {
             port: port.parse().unwrap(),
             first: format!("/{first}"),
-            cookie: String::new(),
             child,
             _output: output,
             errors,
         })
-    }
-
-    /// Exchanges the token for the cookie, like a browser.
-    pub fn visit(&mut self) {
-        let answer = self.request("GET", &self.first, "Host: localhost\r\n", "");
-        let cookie = answer.head.split("Set-Cookie: ").nth(1).unwrap();
-        self.cookie = cookie.split(';').next().unwrap().to_owned();
     }
 
     /// Kills the viewer, and returns what it has printed as errors.
@@ -219,10 +201,8 @@ impl Viewer {
 
     /// Returns the headers of the page.
     pub fn headers(&self) -> String {
-        format!(
-            "Host: localhost\r\nOrigin: http://localhost\r\nCookie: {}\r\n",
-            self.cookie
-        )
+        let token = self.first.split_once('=').unwrap().1;
+        format!("Host: localhost\r\nOrigin: http://localhost\r\nView-Token: {token}\r\n")
     }
 
     pub fn get(&self, path: &str) -> Answer {

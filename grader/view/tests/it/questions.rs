@@ -103,8 +103,7 @@ fn the_command_in_a_report_opens_the_wrong_question() {
     let question = command.rsplit_once(' ').unwrap().1;
     assert!(question.starts_with("traverse.prunes#"), "{command}");
 
-    let mut viewer = Viewer::run(view().args(words)).unwrap();
-    viewer.visit();
+    let viewer = Viewer::run(view().args(words)).unwrap();
     let state = viewer.wait_for_picture();
     assert_eq!(state["subject"], question);
     let ray = &viewer.explanation()["rays"][0];

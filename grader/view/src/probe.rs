@@ -17,13 +17,9 @@ use view_probe::messages::{Request, Response};
 
 use crate::program::Program;
 
-/// The maximum address space of a program, in bytes: enough for some millions of triangles.
-const MEMORY_LIMIT: u64 = 4 << 30;
 /// The maximum CPU time of a program. It only ends one that has been forgotten: each request has a
 /// limit of its own.
 const CPU_LIMIT: Duration = Duration::from_secs(24 * 3600);
-/// The maximum size of a response: a tree with some millions of nodes.
-const MAX_RESPONSE_BYTES: usize = 512 << 20;
 /// The maximum size of the output that is kept, in bytes.
 const MAX_OUTPUT_BYTES: usize = 16 << 10;
 /// The polling interval for a program that is computing.
@@ -38,6 +34,8 @@ const EXIT_TIMEOUT: Duration = Duration::from_secs(2);
 pub struct Probe {
     process: Process,
     requests: Sender<Vec<u8>>,
+    /// The maximum size of each response. Nothing is read that was not asked for.
+    limits: Sender<usize>,
     responses: Receiver<Result<Frame, WireError>>,
     output: Capture,
     nonce: u64,
@@ -55,15 +53,16 @@ pub enum NoResponse {
 }
 
 impl Probe {
-    /// Starts a program. On Linux it ends with the thread that started it.
-    pub fn start(program: &Program) -> std::io::Result<Self> {
+    /// Starts a program with this limit of memory, in bytes. On Linux it ends with the thread that
+    /// started it.
+    pub fn start(program: &Program, memory: u64) -> std::io::Result<Self> {
         let (path, sandbox) = program.executable();
         let folder = path.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&path);
         system::clear_environment(&mut command);
         let limits = Limits {
             data: None,
-            memory: MEMORY_LIMIT,
+            memory,
             cpu: CPU_LIMIT,
             file: 0,
         };
@@ -72,12 +71,14 @@ impl Probe {
         let stdout = process.child.stdout.take().expect("the stream is piped");
         let stderr = process.child.stderr.take().expect("the stream is piped");
         let (requests, to_write) = channel();
+        let (limits, to_read) = channel();
         let (answered, responses) = channel();
         thread::spawn(move || write(stdin, to_write));
-        thread::spawn(move || read(stdout, answered));
+        thread::spawn(move || read(stdout, to_read, answered));
         Ok(Probe {
             process,
             requests,
+            limits,
             responses,
             output: Capture::start(stderr, MAX_OUTPUT_BYTES),
             nonce: 0,
@@ -96,7 +97,8 @@ impl Probe {
         self.nonce += 1;
         let frame = wire::encode(self.nonce, request)
             .map_err(|error| NoResponse::Fault(Fault::Protocol(error.to_string())))?;
-        // If the thread has ended, the missing response is noticed below.
+        // If a thread has ended, the missing response is noticed below.
+        self.limits.send(request.max_response_bytes()).ok();
         self.requests.send(frame).ok();
         let started_at = Instant::now();
         let cpu_before = self.process.cpu_time();
@@ -131,11 +133,14 @@ impl Probe {
                 return Err(NoResponse::Fault(Fault::TimedOut(TimeLimit::Wall)));
             }
         };
-        let response = if frame.nonce == self.nonce {
-            frame.decode().map_err(|error| error.to_string())
-        } else {
-            Err("a response that belongs to no request".to_owned())
-        };
+        let response = frame.decode().map_err(|error| error.to_string());
+        let response = response.and_then(|response: Response| {
+            if frame.nonce == self.nonce && response.answers(request) {
+                Ok(response)
+            } else {
+                Err("a response that does not belong to the request".to_owned())
+            }
+        });
         response.map_err(|why| {
             self.process.kill();
             NoResponse::Fault(Fault::Protocol(why))
@@ -177,10 +182,10 @@ fn write(mut stdin: impl Write, frames: Receiver<Vec<u8>>) {
     }
 }
 
-fn read(stdout: impl Read, answered: Sender<Result<Frame, WireError>>) {
+fn read(stdout: impl Read, limits: Receiver<usize>, answered: Sender<Result<Frame, WireError>>) {
     let mut stdout = BufReader::with_capacity(1 << 16, stdout);
-    loop {
-        let frame = wire::read(&mut stdout, MAX_RESPONSE_BYTES);
+    for limit in limits {
+        let frame = wire::read(&mut stdout, limit);
         let is_over = frame.is_err();
         if answered.send(frame).is_err() || is_over {
             return;

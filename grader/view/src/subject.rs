@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use framework::scene::{Camera, Scene};
 use grader::workspace::Workspace;
-use protocol::Ray;
-use view_probe::messages::Aim;
-use view_probe::scene_data::SceneData;
+use protocol::{Question, Ray};
+use view_probe::messages::{Aim, TreeSize};
+use view_probe::scene_data::{SceneData, TreeSource};
 
 use crate::error::ViewError;
 use crate::model::bounds::Bounds;
@@ -73,6 +73,33 @@ impl Subject {
             camera: scene.camera,
             viewpoint,
             question: None,
+        }
+    }
+}
+
+impl Subject {
+    /// Returns why a tree is not read, if it is much larger than a correct one can be.
+    pub fn oversize(&self, size: TreeSize) -> Option<String> {
+        let shapes = self.data.shapes.len();
+        let own = match &self.data.tree {
+            TreeSource::Prebuilt(tree) => tree.nodes.len(),
+            TreeSource::Build | TreeSource::List => 0,
+        };
+        let limit = Question::max_nodes(shapes).max(own);
+        let TreeSize { nodes, primitives } = size;
+        if nodes as usize > limit {
+            let most = (2 * shapes).saturating_sub(1);
+            Some(format!(
+                "it has {nodes} nodes, but a binary tree over {shapes} primitives has at most {most}. \
+                 Does `Bvh::build` add nodes that the tree does not use?"
+            ))
+        } else if primitives as usize > limit {
+            Some(format!(
+                "it has {primitives} primitives, but the scene only {shapes}. Does `Bvh::build` add \
+                 primitives more than once?"
+            ))
+        } else {
+            None
         }
     }
 }

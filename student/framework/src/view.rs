@@ -23,6 +23,10 @@ pub enum ViewMode {
 /// differ in their rounding.
 const RELATIVE_TOLERANCE: f32 = 1e-4;
 
+/// The maximum number of nodes that are compared with a point. A good tree needs some hundred. In a
+/// list of a million nodes, the picture would take hours.
+const MAX_STEPS: usize = 4096;
+
 /// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
 /// is not finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate in
 /// the scene.
@@ -99,12 +103,12 @@ struct TreeLocation {
 }
 
 /// Finds the boxes that contain `point`, with this tolerance. This does not trace a ray,
-/// which is the submission's task. If the tree is invalid, the result covers only part of it.
+/// which is the submission's task. If the tree is invalid or very deep, the result covers only part of it.
 fn locate(tree: &Tree, point: Vec3, tolerance: f32) -> TreeLocation {
     let mut found = TreeLocation::default();
     let mut stack = vec![tree.root];
     // A valid tree has each node once. The limit ends the loop if the tree has a cycle.
-    for _ in 0..tree.nodes.len() {
+    for _ in 0..tree.nodes.len().min(MAX_STEPS) {
         let Some(index) = stack.pop() else { break };
         let Some(node) = tree.nodes.get(index as usize) else {
             continue;
@@ -206,6 +210,17 @@ mod tests {
             locate(&Tree::default(), Vec3::ONE, 0.0),
             TreeLocation::default()
         );
+    }
+
+    #[test]
+    fn a_very_deep_tree_is_followed_only_so_far() {
+        let next = |i: u32| node(0.0, 1.0, i + 1, u32::MAX);
+        let tree = Tree {
+            nodes: (0..10_000).map(next).collect(),
+            root: 0,
+            order: Vec::new(),
+        };
+        assert!(locate(&tree, Vec3::splat(0.5), 0.0).boxes as usize <= MAX_STEPS);
     }
 
     #[test]

@@ -7,7 +7,9 @@ use framework::integrator::{Integrator, RenderStats};
 use glam::{UVec2, Vec2};
 use protocol::{ElementOutcome, Panic, Ray, Trace};
 
-use crate::messages::{Draw, Drawn, Follow, Followed, Quantity, Target, TestCounts, Values};
+use crate::messages::{
+    Draw, Drawn, Follow, Followed, MAX_PANICS, Quantity, Target, TestCounts, Values,
+};
 use crate::record;
 use crate::stage::Stage;
 
@@ -82,11 +84,12 @@ impl<'a> Pixels<'a> {
     }
 
     /// Adds a panic to the list. The messages of a panic at one location can differ in each pixel,
-    /// so only the first is kept.
+    /// so only the first is kept. Those of very many locations are counted with the last one.
     fn add_panic(&mut self, panic: Panic, index: u32) {
-        let same = |(known, _): &&mut (Panic, Vec<u32>)| known.location == panic.location;
-        match self.panics.iter_mut().find(same) {
-            Some((_, indices)) => indices.push(index),
+        let same = |(known, _): &(Panic, Vec<u32>)| known.location == panic.location;
+        let known = self.panics.iter().position(same);
+        match known.or((self.panics.len() == MAX_PANICS).then_some(MAX_PANICS - 1)) {
+            Some(known) => self.panics[known].1.push(index),
             None => self.panics.push((panic, vec![index])),
         }
     }

@@ -10,7 +10,7 @@ use framework::submission::Submission;
 use protocol::wire::{self, WireError};
 
 use crate::draw::{draw, follow};
-use crate::messages::{Request, Response};
+use crate::messages::{Request, Response, TreeData};
 use crate::stage::Stage;
 
 /// The maximum size of a request: a scene with some millions of triangles. The viewer is trusted,
@@ -55,7 +55,7 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
             (
                 Request::Aim(_)
                 | Request::Draw(_)
-                | Request::Tree
+                | Request::Tree(_)
                 | Request::Follow(_)
                 | Request::Boxes(_),
                 None,
@@ -82,7 +82,7 @@ fn serve_aimed(stage: &Stage, first: Request, pipe: &mut Pipe) -> Result<Request
         let response = match &request {
             Request::Open(_) | Request::Aim(_) => return Ok(request),
             Request::Draw(request) => Response::Drawn(draw(stage, &integrator, request)),
-            Request::Tree => Response::Tree(attempt(|| stage.world.tree())),
+            Request::Tree(_) => Response::Tree(attempt(|| TreeData(stage.world.tree()))),
             Request::Follow(request) => Response::Followed(follow(stage, &integrator, request)),
             Request::Boxes(queries) => {
                 let boxes = queries.boxes.iter();

@@ -5,7 +5,7 @@
 //! the other, so that they are added in order, as in `cargo render`. No tile waits for another.
 
 use glam::{UVec2, uvec2};
-use view_probe::messages::{Draw, Quantity};
+use view_probe::messages::{Draw, MAX_VALUES, Quantity};
 
 /// The side of a tile in pixels: a multiple of the largest stride.
 const TILE: u32 = 64;
@@ -14,6 +14,7 @@ const TILE: u32 = 64;
 const MAX_PASSES: u32 = 16;
 /// The strides of the first steps.
 const STRIDES: [u32; 3] = [4, 2, 1];
+const _: () = assert!((TILE * TILE * MAX_PASSES) as usize <= MAX_VALUES);
 
 /// The values of a picture.
 #[derive(Clone, Debug)]
@@ -103,15 +104,14 @@ impl<T: Copy + Default> Layer<T> {
         panicked: impl IntoIterator<Item = u32>,
         add: impl Fn(&mut T, T),
     ) {
-        for ((_, pixel), value) in draw.pixels().zip(values) {
-            let pixel = self.index(pixel);
-            add(&mut self.values[pixel], *value);
-            self.counts[pixel] += 1;
+        let pixels: Vec<usize> = draw.pixels().map(|(_, pixel)| self.index(pixel)).collect();
+        for (pixel, value) in pixels.iter().zip(values) {
+            add(&mut self.values[*pixel], *value);
+            self.counts[*pixel] += 1;
         }
         for number in panicked {
-            if let Some((_, pixel)) = draw.pixels().nth(number as usize) {
-                let pixel = self.index(pixel);
-                self.panicked[pixel] = true;
+            if let Some(pixel) = pixels.get(number as usize) {
+                self.panicked[*pixel] = true;
             }
         }
         let of_pass = u32::try_from(draw.pixels_of_pass().count()).unwrap_or(u32::MAX);

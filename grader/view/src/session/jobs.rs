@@ -17,6 +17,9 @@ const DRAW_LIMITS: [Duration; 2] = [Duration::from_secs(5), Duration::from_secs(
 const OPEN_LIMIT: [Duration; 2] = [Duration::from_secs(10), Duration::from_micros(60)];
 /// The maximum memory of all programs together, in bytes.
 const MAX_MEMORY: u64 = 3 << 30;
+/// The least and the most memory that a program may use, in bytes: the most is enough for some
+/// millions of triangles. In between, all programs share the available memory.
+const PROGRAM: [u64; 2] = [1 << 30, 4 << 30];
 /// An estimate of the memory that a program needs for each shape, while it builds the tree.
 const BYTES_PER_SHAPE: u64 = 700;
 
@@ -44,6 +47,8 @@ pub struct Work<J> {
     pub aim: Aim,
     /// The limit of CPU time for opening the scene.
     pub open_limit: Duration,
+    /// The limit of the program's memory, in bytes.
+    pub memory: u64,
     /// The job.
     pub job: J,
 }
@@ -158,6 +163,7 @@ impl Session {
             program,
             subject: Arc::clone(&self.subject),
             aim: self.aim(),
+            memory: (self.memory / (self.programs() as u64 + 1)).clamp(PROGRAM[0], PROGRAM[1]),
             open_limit: (fixed + shapes * per_shape).max(10 * self.last_opening),
             job,
         }

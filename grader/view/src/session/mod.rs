@@ -100,6 +100,8 @@ pub struct Session {
     pub(crate) tree: Option<Arc<TreeModel>>,
     is_tree_wanted: bool,
     is_tree_busy: bool,
+    /// The reason why the tree could not be read.
+    tree_fault: Option<String>,
     pinned: Option<Pinned>,
     pub(crate) explanation: Option<Arc<Explanation>>,
     /// Changes with the explanation.
@@ -164,6 +166,7 @@ impl Session {
             tree: None,
             is_tree_wanted: false,
             is_tree_busy: false,
+            tree_fault: None,
             pinned: None,
             explanation: None,
             explanation_number: 0,
@@ -278,6 +281,7 @@ impl Session {
 
     fn forget_tree(&mut self) {
         self.tree = None;
+        self.tree_fault = None;
         self.is_tree_busy = false;
     }
 

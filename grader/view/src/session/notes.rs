@@ -8,6 +8,9 @@ use view_probe::messages::{Part, TreeSize};
 use super::{BuildState, Session, View};
 use crate::program::FileError;
 
+/// The maximum number of panics that are listed.
+const MAX_PANICS: usize = 20;
+
 /// A remark about the submission.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Note {
@@ -74,6 +77,10 @@ impl Session {
             ElementOutcome::Value(size) => self.add_notes_about_tree(*size, &mut add),
             ElementOutcome::Skipped => {}
         }
+        if let Some(why) = &self.tree_fault {
+            let text = format!("The tree cannot be shown: {why}");
+            add(text, self.line_of("bvh.rs", "pub fn build"));
+        }
         if self.invalid_paths > 0 {
             add(
                 format!(
@@ -133,9 +140,11 @@ impl Session {
 
     /// Adds the panics of some pixels.
     pub(super) fn add_panic(&mut self, panic: &Panic, pixel: [u32; 2], count: u64) {
-        let mut known = self.panics.iter_mut();
-        match known.find(|known| known.location == panic.location) {
-            Some(known) => known.count += count,
+        let mut known = self.panics.iter();
+        match known.position(|known| known.location == panic.location) {
+            Some(known) => self.panics[known].count += count,
+            // The first ones are enough to start with.
+            None if self.panics.len() == MAX_PANICS => {}
             None => self.panics.push(PanicNote {
                 message: panic.message.clone(),
                 location: panic.location.clone(),
@@ -155,7 +164,8 @@ fn method<'a>(text: &'a str, declaration: &str) -> Option<Vec<&'a str>> {
         .peekable();
     let indentation = |line: &str| line.len() - line.trim_start().len();
     let depth = indentation(lines.peek()?);
-    let body = lines.take_while(|line| line.trim_end() != format!("{}}}", " ".repeat(depth)));
+    let end = format!("{}}}", " ".repeat(depth));
+    let body = lines.take_while(|line| line.trim_end() != end);
     let lines = body.map(str::trim).filter(|line| !line.is_empty());
     Some(lines.collect())
 }

@@ -135,19 +135,20 @@ impl Session {
     }
 
     /// Reports the tree.
-    pub fn received_tree(&mut self, key: Key, tree: Tree) {
+    pub fn received_tree(&mut self, key: Key, tree: Arc<TreeModel>) {
         if (key.program, key.scene) == (self.numbers.program, self.numbers.scene) {
-            self.tree = Some(Arc::new(TreeModel::new(tree)));
+            self.tree = Some(tree);
             self.is_tree_busy = false;
             self.is_dirty = true;
             self.version += 1;
         }
     }
 
-    /// Reports that the tree could not be read.
-    pub fn tree_ended(&mut self, key: Key, why: &str) {
+    /// Reports that the tree could not be read. An empty one is shown, and drawing goes on.
+    pub fn tree_ended(&mut self, key: Key, why: String) {
         if (key.program, key.scene) == (self.numbers.program, self.numbers.scene) {
-            self.stop(format!("Reading the tree: {why}"));
+            self.tree_fault = Some(why);
+            self.received_tree(key, Arc::new(TreeModel::new(Tree::default())));
         }
     }
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
 
-use protocol::{Interval, Tree};
+use protocol::Interval;
 use view_probe::messages::{BoxQueries, Follow, Followed, Request, Response, Target};
 use view_probe::scene_data::TreeSource;
 
@@ -47,9 +47,10 @@ pub fn draw(studio: &Studio, worker: usize) {
             }
             DrawJob::Tree => match open.tree(studio, &work) {
                 Some(Ok(tree)) => {
+                    let tree = Arc::new(tree);
                     studio.update(|session, _| session.received_tree(work.key, tree));
                 }
-                Some(Err(why)) => studio.update(|session, _| session.tree_ended(work.key, &why)),
+                Some(Err(why)) => studio.update(|session, _| session.tree_ended(work.key, why)),
                 None => {}
             },
         }
@@ -87,16 +88,17 @@ pub fn record(studio: &Studio) {
                     (known.0.program, known.0.scene) == (work.key.program, work.key.scene)
                 };
                 if tree.as_ref().filter(same).is_none() {
-                    tree = match open.tree(studio, &work) {
-                        Some(Ok(new)) => Some((work.key, NumberedTree::new(new))),
-                        Some(Err(_)) | None => None,
-                    };
+                    tree = None;
+                    match open.tree(studio, &work) {
+                        Some(Ok(new)) => tree = Some((work.key, NumberedTree::new(new))),
+                        Some(Err(why)) => studio.update(|session, _| {
+                            let why = format!("The tree cannot be read: {why}");
+                            session.explained(work.key, &pinned, Err(why));
+                        }),
+                        None => {}
+                    }
                 }
-                let Some((_, tree)) = &tree else {
-                    let why = "the tree could not be read".to_owned();
-                    studio.update(|session, _| session.explained(work.key, &pinned, Err(why)));
-                    continue;
-                };
+                let Some((_, tree)) = &tree else { continue };
                 if let Some(result) = explain_pinned(&mut open, studio, &work, &pinned, tree) {
                     studio.update(|session, _| session.explained(work.key, &pinned, result));
                 }
@@ -128,8 +130,7 @@ struct NumberedTree {
 }
 
 impl NumberedTree {
-    fn new(tree: Tree) -> Self {
-        let model = TreeModel::new(tree);
+    fn new(model: TreeModel) -> Self {
         NumberedTree {
             leaves: model.leaves_by_number(),
             model,

@@ -3,11 +3,12 @@
 use std::time::{Duration, Instant};
 
 use grader::probe::Fault;
-use protocol::{ElementOutcome, Tree};
-use view_probe::messages::{Aim, Request, Response};
+use protocol::ElementOutcome;
+use view_probe::messages::{Aim, Request, Response, TreeData, TreeSize};
 use view_probe::scene_data::SceneData;
 
 use super::{LIMIT, not_started, unexpected};
+use crate::model::tree::TreeModel;
 use crate::probe::{NoResponse, Probe};
 use crate::session::{Key, Work};
 use crate::studio::Studio;
@@ -18,6 +19,8 @@ pub(super) struct OpenProgram {
     probe: Option<Probe>,
     key: Key,
     aim: Option<Aim>,
+    /// The size of the tree.
+    size: TreeSize,
 }
 
 impl OpenProgram {
@@ -60,7 +63,7 @@ impl OpenProgram {
 
     fn open<J>(&mut self, studio: &Studio, work: &Work<J>, is_recorded: bool) -> bool {
         if self.probe.is_none() {
-            match Probe::start(&work.program) {
+            match Probe::start(&work.program, work.memory) {
                 Ok(probe) => self.probe = Some(probe),
                 Err(error) => {
                     not_started(studio, work.key, &error.to_string());
@@ -78,6 +81,9 @@ impl OpenProgram {
         match self.ask(studio, work, &request, work.open_limit) {
             Some(Ok(Response::Opened(opened))) => {
                 let is_open = matches!(opened.tree, ElementOutcome::Value(_));
+                if let ElementOutcome::Value(size) = opened.tree {
+                    self.size = size;
+                }
                 let took = started_at.elapsed();
                 studio.update(|session, _| session.opened(work.key, opened, took));
                 if is_open {
@@ -121,20 +127,23 @@ impl OpenProgram {
         }
     }
 
+    /// Returns the tree with facts about its nodes, or the reason why there is none.
     pub(super) fn tree<J>(
         &mut self,
         studio: &Studio,
         work: &Work<J>,
-    ) -> Option<Result<Tree, String>> {
-        Some(
-            match self.ask(studio, work, &Request::Tree, work.open_limit.max(LIMIT))? {
-                Ok(Response::Tree(ElementOutcome::Value(tree))) => Ok(tree),
-                Ok(Response::Tree(ElementOutcome::Panicked(panic))) => {
-                    Err(format!("panicked: {} ({})", panic.message, panic.location))
-                }
-                Ok(other) => Err(unexpected(&other)),
-                Err(fault) => Err(fault.to_string()),
-            },
-        )
+    ) -> Option<Result<TreeModel, String>> {
+        if let Some(why) = work.subject.oversize(self.size) {
+            return Some(Err(why));
+        }
+        let (request, limit) = (Request::Tree(self.size), work.open_limit.max(LIMIT));
+        Some(match self.ask(studio, work, &request, limit)? {
+            Ok(Response::Tree(ElementOutcome::Value(TreeData(tree)))) => Ok(TreeModel::new(tree)),
+            Ok(Response::Tree(ElementOutcome::Panicked(panic))) => {
+                Err(format!("panicked: {} ({})", panic.message, panic.location))
+            }
+            Ok(other) => Err(unexpected(&other)),
+            Err(fault) => Err(fault.to_string()),
+        })
     }
 }

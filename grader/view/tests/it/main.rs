@@ -7,5 +7,6 @@ mod expected_tests;
 mod explanations;
 mod failures;
 mod harness;
+mod hostile;
 mod pictures;
 mod questions;

@@ -1,14 +1,18 @@
 //! Requests of the viewer, and the probe's responses. They are framed like the grader's questions:
 //! see [`protocol::wire`].
 
+mod limits;
 mod recorded;
 
 use glam::{Mat3, UVec2, Vec3};
-use protocol::{ElementOutcome, Interval, Panic, PinholeCamera, Ray, Trace, Tree};
+use protocol::{ElementOutcome, Interval, Panic, PinholeCamera, Ray, Trace, Tree, TreeNode};
 use serde::{Deserialize, Serialize};
 
 use crate::scene_data::SceneData;
 
+use limits::{at_most, fixed_width};
+
+pub use limits::{MAX_PANICS, MAX_VALUES};
 pub use recorded::{Followed, FollowedRay, Test};
 
 /// A request of the viewer.
@@ -20,8 +24,8 @@ pub enum Request {
     Aim(Aim),
     /// Draws some pixels.
     Draw(Draw),
-    /// Returns the tree.
-    Tree,
+    /// Returns the tree, which has this size.
+    Tree(TreeSize),
     /// Records the tests of a ray or of a path.
     Follow(Follow),
     /// Calls `BBox::hit` of boxes.
@@ -157,7 +161,7 @@ pub enum Response {
     /// The response to `Draw`.
     Drawn(Drawn),
     /// The response to `Tree`.
-    Tree(ElementOutcome<Tree>),
+    Tree(ElementOutcome<TreeData>),
     /// The response to `Follow`.
     Followed(Followed),
     /// The response to `Boxes`: the part of the ray's range that is in each box, or `None`.
@@ -170,6 +174,7 @@ pub enum Response {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
     /// The parts of the submission that are not written yet, each with its panic.
+    #[serde(deserialize_with = "at_most::<_, _, MAX_PANICS>")]
     pub missing: Vec<(Part, Panic)>,
     /// The size of the tree, or the panic of `Bvh::build`.
     pub tree: ElementOutcome<TreeSize>,
@@ -188,8 +193,22 @@ pub enum Part {
     BBox,
 }
 
+/// A tree that can be sent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TreeData(#[serde(with = "TreeDef")] pub Tree);
+
+/// The fields of [`Tree`], for `serde`. In memory, they take hardly more bytes than on the wire.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Tree")]
+struct TreeDef {
+    nodes: Vec<TreeNode>,
+    root: u32,
+    #[serde(with = "fixed_width")]
+    order: Vec<u32>,
+}
+
 /// The size of a tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TreeSize {
     /// The number of nodes.
     pub nodes: u32,
@@ -203,6 +222,7 @@ pub struct Drawn {
     /// One value per pixel, in the order of [`Draw::pixels`].
     pub values: Values,
     /// Each panic, with the indices of the pixels in which it occurred.
+    #[serde(deserialize_with = "at_most::<_, _, MAX_PANICS>")]
     pub panics: Vec<(Panic, Vec<u32>)>,
     /// The number of rays that were traced.
     pub rays: u64,
@@ -214,11 +234,11 @@ pub struct Drawn {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Values {
     /// First hits.
-    Hits(Vec<Option<Trace>>),
+    Hits(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<Option<Trace>>),
     /// The radiance of one path per pixel.
-    Light(Vec<Vec3>),
+    Light(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<Vec3>),
     /// Numbers of tests.
-    Tests(Vec<TestCounts>),
+    Tests(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<TestCounts>),
 }
 
 impl Values {

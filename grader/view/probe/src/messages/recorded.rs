@@ -5,11 +5,13 @@ use protocol::{Interval, Panic, Ray, Trace};
 use serde::{Deserialize, Serialize};
 
 use super::TestCounts;
+use super::limits::{MAX_RAYS, at_most};
 
 /// The recorded tests of a ray, or of all rays of a path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
     /// The rays, in the order in which they were traced.
+    #[serde(deserialize_with = "at_most::<_, _, MAX_RAYS>")]
     pub rays: Vec<FollowedRay>,
     /// The radiance of the path.
     pub radiance: Option<Vec3>,

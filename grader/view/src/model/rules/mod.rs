@@ -96,13 +96,11 @@ impl NodeAddresses {
         self.first + node * self.stride
     }
 
-    /// Returns the nodes at this address, or all of them if none is.
-    fn choose(self, nodes: &[u32], address: u64) -> Vec<u32> {
-        let is_there = |node: &&u32| self.of(i128::from(**node)) == i128::from(address);
-        match nodes.iter().find(is_there) {
-            Some(node) => vec![*node],
-            None => nodes.to_vec(),
-        }
+    /// Returns the node at this address.
+    fn node_at(self, address: u64) -> Option<u32> {
+        let offset = i128::from(address) - self.first;
+        let node = u32::try_from(offset.div_euclid(self.stride)).ok()?;
+        (self.of(node.into()) == i128::from(address)).then_some(node)
     }
 }
 
@@ -120,10 +118,10 @@ pub fn rows(
             Test::Box {
                 min, max, address, ..
             } => {
-                let nodes = tree.with_box(*min, *max);
-                let nodes = match addresses {
-                    Some(addresses) => addresses.choose(nodes, *address),
-                    None => nodes.to_vec(),
+                let node = addresses.and_then(|addresses| addresses.node_at(*address));
+                let nodes = match node.filter(|node| tree.has_box(*node, *min, *max)) {
+                    Some(node) => vec![node],
+                    None => tree.with_box(*min, *max).to_vec(),
                 };
                 let parents = nodes.iter().filter_map(|node| tree.parent(*node));
                 let parents = parents.collect();

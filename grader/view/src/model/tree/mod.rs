@@ -1,12 +1,20 @@
 //! A submission's tree: levels, sizes and costs of its nodes. The tree may be invalid, so nothing
 //! here assumes that it is a tree.
 
+mod strip;
+mod unheld;
+
 use std::collections::HashMap;
 
 use glam::Vec3;
 use protocol::{Tree, TreeNode};
 use serde::Serialize;
 
+pub use strip::Bar;
+use unheld::Unheld;
+
+/// The maximum number of nodes that are listed for one box.
+const MAX_EQUAL: usize = 100;
 /// A tree with facts about its nodes.
 #[derive(Clone, Debug)]
 pub struct TreeModel {
@@ -20,9 +28,12 @@ pub struct TreeModel {
     counts: Vec<u32>,
     /// The nodes in depth-first order.
     order: Vec<u32>,
-    /// The leaf that holds the primitive at each index.
+    /// The number of levels.
+    depth: u32,
+    /// The leaf that holds the primitive at each index: the first in depth-first order.
     leaves: Vec<Option<u32>>,
-    by_bits: HashMap<[u32; 6], Vec<u32>>,
+    /// The nodes in the order of the bits of their boxes.
+    by_box: Vec<u32>,
 }
 
 /// A node as it is shown on the page.
@@ -54,23 +65,8 @@ pub struct NodeInfo {
     pub overlap: Option<f32>,
 }
 
-/// A bar of the strip that shows the tree by levels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Bar {
-    /// The node.
-    pub node: u32,
-    /// Its level.
-    pub level: u32,
-    /// The share of primitives to its left, from 0 to 1.
-    pub start: f32,
-    /// Its share of primitives.
-    pub width: f32,
-    /// Whether it is a leaf.
-    pub leaf: bool,
-}
-
 impl TreeModel {
-    /// Computes the facts about a tree.
+    /// Computes the facts about a tree, in time `n log n`, whatever its nodes refer to.
     pub fn new(tree: Tree) -> Self {
         let nodes = tree.nodes.len();
         let mut model = TreeModel {
@@ -78,25 +74,24 @@ impl TreeModel {
             levels: vec![None; nodes],
             counts: vec![0; nodes],
             order: Vec::new(),
+            depth: 0,
             leaves: vec![None; tree.order.len()],
-            by_bits: HashMap::new(),
+            by_box: Vec::new(),
             tree,
         };
         model.visit();
-        for index in &model.order {
-            let node = &model.tree.nodes[*index as usize];
-            model
-                .by_bits
-                .entry(bits(node.min, node.max))
-                .or_default()
-                .push(*index);
-        }
+        model.by_box.clone_from(&model.order);
+        let nodes = &model.tree.nodes;
+        model
+            .by_box
+            .sort_by_key(|node| bits(&nodes[*node as usize]));
         model
     }
 
     /// Visits each node that can be reached from the root once, and fills in the lists.
     fn visit(&mut self) {
         let mut stack = vec![(self.tree.root, None, 0)];
+        let mut unheld = Unheld::new(self.leaves.len());
         while let Some((index, parent, level)) = stack.pop() {
             let Some(node) = self.tree.nodes.get(index as usize).copied() else {
                 continue;
@@ -107,17 +102,22 @@ impl TreeModel {
                 continue;
             }
             *slot = Some(level);
+            self.depth = self.depth.max(level + 1);
             self.parents[index as usize] = parent;
             self.order.push(index);
             if node.is_leaf() {
-                let first = node.start as usize;
-                let held = self.leaves.iter_mut().skip(first).take(node.size as usize);
-                let mut count = 0;
-                for leaf in held {
-                    leaf.get_or_insert(index);
-                    count += 1;
+                let first = self.leaves.len().min(node.start as usize);
+                let end = self
+                    .leaves
+                    .len()
+                    .min(first.saturating_add(node.size as usize));
+                self.counts[index as usize] = TreeNode::saturating_index(end - first);
+                let mut primitive = unheld.first_from(first);
+                while primitive < end {
+                    self.leaves[primitive] = Some(index);
+                    unheld.remove(primitive);
+                    primitive = unheld.first_from(primitive);
                 }
-                self.counts[index as usize] = count;
             } else {
                 stack.push((node.r, Some(index), level + 1));
                 stack.push((node.l, Some(index), level + 1));
@@ -126,7 +126,8 @@ impl TreeModel {
         for index in self.order.iter().rev() {
             let count = self.counts[*index as usize];
             if let Some(parent) = self.parents[*index as usize] {
-                self.counts[parent as usize] += count;
+                let sum = &mut self.counts[parent as usize];
+                *sum = sum.saturating_add(count);
             }
         }
     }
@@ -138,11 +139,7 @@ impl TreeModel {
 
     /// Returns the number of levels.
     pub fn levels(&self) -> u32 {
-        let levels = self
-            .order
-            .iter()
-            .filter_map(|node| self.levels[*node as usize]);
-        levels.max().map_or(0, |deepest| deepest + 1)
+        self.depth
     }
 
     /// Returns the level of a node, if it is reached from the root.
@@ -160,9 +157,21 @@ impl TreeModel {
         self.tree.nodes.get(index as usize)
     }
 
-    /// Returns the nodes whose boxes are exactly this one, in depth-first order.
+    /// Returns the nodes whose boxes are exactly this one, in depth-first order. Of very many, only
+    /// the first are returned.
     pub fn with_box(&self, min: Vec3, max: Vec3) -> &[u32] {
-        self.by_bits.get(&bits(min, max)).map_or(&[], Vec::as_slice)
+        let wanted = bits_of(min, max);
+        let of = |node: &u32| bits(&self.tree.nodes[*node as usize]);
+        let start = self.by_box.partition_point(|node| of(node) < wanted);
+        let rest = &self.by_box[start..];
+        let rest = &rest[..rest.len().min(MAX_EQUAL)];
+        &rest[..rest.partition_point(|node| of(node) == wanted)]
+    }
+
+    /// Returns whether a node is reached from the root, and its box is exactly this one.
+    pub fn has_box(&self, node: u32, min: Vec3, max: Vec3) -> bool {
+        let is_equal = |node: &TreeNode| bits(node) == bits_of(min, max);
+        self.level(node).is_some() && self.node(node).is_some_and(is_equal)
     }
 
     /// Returns the leaf that holds each primitive, by the number in its material.
@@ -216,63 +225,28 @@ impl TreeModel {
             Some(of_node) => of_node == level,
             None => false,
         };
-        let nodes = self.order.iter().filter(is_shown);
-        let mut nodes: Vec<NodeInfo> = nodes.filter_map(|node| self.info(*node)).collect();
-        let count = nodes.len();
-        nodes.sort_by(|a, b| b.area.total_cmp(&a.area));
-        nodes.truncate(most);
-        (nodes, count)
+        self.largest(self.order.iter().filter(is_shown), most, |node| node.area)
     }
 
     /// Returns the nodes with the highest costs, except the root.
     pub fn worst(&self, most: usize) -> Vec<NodeInfo> {
         let below_root = self.order.iter().skip(1);
-        let mut nodes: Vec<NodeInfo> = below_root.filter_map(|node| self.info(*node)).collect();
-        nodes.sort_by(|a, b| b.cost.total_cmp(&a.cost));
-        nodes.truncate(most);
-        nodes
+        self.largest(below_root, most, |node| node.cost).0
     }
 
-    /// Returns the bars of the strip. Of the bars that are narrower than `narrowest`, one is returned
-    /// for each such width, so that there are not more than can be seen.
-    pub fn strip(&self, narrowest: f32) -> Vec<Bar> {
-        let total = self
-            .counts
-            .get(self.tree.root as usize)
-            .copied()
-            .unwrap_or(0)
-            .max(1) as f32;
-        let mut bars = Vec::new();
-        let mut starts = vec![0; self.tree.nodes.len()];
-        // The right ends of each level's bars so far. The order is depth-first, so it is from left to
-        // right in each level.
-        let mut ends = vec![0.0; self.levels() as usize];
-        for index in self.order.iter().copied() {
-            let node = &self.tree.nodes[index as usize];
-            let start = starts[index as usize];
-            if !node.is_leaf() {
-                for (child, offset) in [(node.l, 0), (node.r, self.count(node.l))] {
-                    if self.parent(child) == Some(index) {
-                        starts[child as usize] = start + offset;
-                    }
-                }
-            }
-            let level = self.levels[index as usize].unwrap_or(0);
-            let start = start as f32 / total;
-            let width = self.count(index) as f32 / total;
-            let end = &mut ends[level as usize];
-            if width >= narrowest || start >= *end {
-                *end = start + width.max(narrowest);
-                bars.push(Bar {
-                    node: index,
-                    level,
-                    start,
-                    width,
-                    leaf: node.is_leaf(),
-                });
-            }
-        }
-        bars
+    /// Returns the nodes with the largest values, and the number of all.
+    fn largest<'a>(
+        &self,
+        nodes: impl Iterator<Item = &'a u32>,
+        most: usize,
+        value: impl Fn(&NodeInfo) -> f32,
+    ) -> (Vec<NodeInfo>, usize) {
+        let valued = nodes.filter_map(|node| Some((value(&self.info(*node)?), *node)));
+        let mut valued: Vec<(f32, u32)> = valued.collect();
+        valued.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let nodes = valued.iter().take(most);
+        let nodes = nodes.filter_map(|(_, node)| self.info(*node)).collect();
+        (nodes, valued.len())
     }
 
     /// Returns the number of primitives below a node.
@@ -295,7 +269,11 @@ impl TreeModel {
     }
 }
 
-fn bits(min: Vec3, max: Vec3) -> [u32; 6] {
+fn bits(node: &TreeNode) -> [u32; 6] {
+    bits_of(node.min, node.max)
+}
+
+fn bits_of(min: Vec3, max: Vec3) -> [u32; 6] {
     let [a, b, c] = min.to_array().map(f32::to_bits);
     let [d, e, f] = max.to_array().map(f32::to_bits);
     [a, b, c, d, e, f]

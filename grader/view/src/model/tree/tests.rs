@@ -82,3 +82,65 @@ fn invalid_trees_are_shown_as_far_as_they_are_trees() {
     assert_eq!(model.info(2), None, "node 2 is not reached");
     assert!(!TreeModel::new(Tree::default()).has_nodes());
 }
+
+/// A tree of this many interior nodes, each with a leaf and the next one as children. All leaves have
+/// this range of primitives.
+fn chain(interior: usize, start: u32, size: u32, primitives: u32) -> Tree {
+    let leaf = |_| TreeNode {
+        start,
+        size,
+        ..TreeNode::new(Vec3::ZERO, Vec3::ONE, 0, 0, 0, 0)
+    };
+    let inner = |i: usize| {
+        TreeNode::new(
+            Vec3::ZERO,
+            Vec3::ONE,
+            0,
+            0,
+            2 * i + 1,
+            (2 * i + 2) % (2 * interior),
+        )
+    };
+    let nodes = (0..interior).flat_map(|i| [inner(i), leaf(i)]);
+    Tree {
+        nodes: nodes.collect(),
+        root: 0,
+        order: (0..primitives).collect(),
+    }
+}
+
+#[test]
+fn a_million_levels_and_equal_leaves_take_no_longer_than_other_trees() {
+    let started_at = std::time::Instant::now();
+    for (interior, start, size, held) in [
+        (1_000_000, 0, 1, 1),
+        (100_000, 0, u32::MAX, 300_000),
+        (1_000, u32::MAX, u32::MAX, 0),
+        (1_000, 299_999, 7, 1),
+    ] {
+        // The last child is the root again: a cycle.
+        let model = TreeModel::new(chain(interior, start, size, 300_000));
+        assert_eq!(model.levels(), interior as u32 + 1);
+        assert_eq!(model.count(1), held);
+        assert_eq!(model.count(0), (interior as u32).saturating_mul(held));
+        assert_eq!(model.leaves_by_number().len(), held as usize);
+        assert_eq!(model.with_box(Vec3::ZERO, Vec3::ONE).len(), MAX_EQUAL);
+        assert_eq!(model.at_level(0, true, 9).1, 2 * interior);
+        assert_eq!(model.worst(9).len(), 9);
+        assert!(model.strip(0.01).len() < 30_000);
+    }
+    // Quadratic code takes minutes.
+    assert!(started_at.elapsed().as_secs() < 60);
+}
+
+#[test]
+fn a_box_with_nan_or_infinity_is_found_like_others() {
+    let mut odd = tree();
+    odd.nodes[2].min = Vec3::NAN;
+    odd.nodes[4].max = Vec3::INFINITY;
+    let model = TreeModel::new(odd);
+    assert_eq!(model.with_box(Vec3::NAN, Vec3::splat(2.0)), [2]);
+    assert_eq!(model.with_box(Vec3::splat(2.0), Vec3::INFINITY), [4]);
+    assert!(model.has_box(0, Vec3::ZERO, Vec3::ONE) && !model.has_box(1, Vec3::ZERO, Vec3::ONE));
+    assert_eq!(model.worst(9).len(), 4);
+}

@@ -40,6 +40,11 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
         Fault::Crashed(Crash::Exited(_)) => {
             format!("Look in {file} for `std::process::exit`: a method must return or panic.")
         }
+        Fault::Crashed(Crash::NotStarted) => {
+            "Look in all of your files for a `static` or a `thread_local!` with a large type, such as \
+             a long array."
+                .to_owned()
+        }
         Fault::Crashed(Crash::Signal(_) | Crash::Killed) | Fault::Protocol(_) => format!(
             "Run this question by itself, with `--replay`, and see what `{method}` in {file} does last."
         ),

@@ -12,11 +12,11 @@ use judging::recognise::Observations;
 use judging::sanitize::sanitize;
 use protocol::Answer;
 
-use crate::alone::{alone, beside_others};
-use crate::build::{Build, Control};
+use crate::alone::{Attempt, decide};
+use crate::build::Build;
 use crate::item_outcome::{ItemOutcome, NotRun};
 use crate::kept_state::is_right_alone;
-use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe};
+use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe, TimeUsed};
 
 /// Number of time-outs after which a task is stopped.
 pub const MAX_TIMEOUTS: usize = 1;
@@ -28,8 +28,8 @@ const MAX_PRINTED_CHARS: usize = 1_000;
 /// A program that is asked the items of one task. Its process is started for the first item, and
 /// again after a fault.
 pub struct TaskSession<'a> {
+    build: &'a Build,
     launcher: Option<Launcher>,
-    control: &'a Control,
     probe: Option<Probe>,
     printed: String,
     timeouts: usize,
@@ -63,17 +63,26 @@ impl Add for TimeSpent {
     }
 }
 
+/// The answers to an item, or the fault, with the process that it was asked.
+struct Asked {
+    probe: Probe,
+    answered: Result<Vec<Answer>, Fault>,
+    used: TimeUsed,
+}
+
 impl<'a> TaskSession<'a> {
     /// Creates a session with one of the programs of a submission, or with none if nothing compiled.
     pub fn new(build: &'a Build, program: Option<&Path>) -> Self {
         TaskSession {
+            build,
             launcher: program.map(|program| build.launcher(program)),
-            control: build.control(),
             probe: None,
             printed: String::new(),
             timeouts: 0,
             crashes: 0,
-            stopped_by: None,
+            stopped_by: program
+                .filter(|program| build.is_unstartable(program))
+                .map(|_| Fault::Crashed(Crash::NotStarted)),
             observations: Observations::default(),
             spent: TimeSpent::default(),
         }
@@ -96,19 +105,13 @@ impl<'a> TaskSession<'a> {
         let Some(limits) = allowance.next_item() else {
             return Ok((ItemOutcome::NotRun(NotRun::BudgetUsedUp), Vec::new()));
         };
-        let process_cpu = allowance.budget().total_cpu();
-        let started_at = Instant::now();
-        let probe = match self.probe.take() {
-            Some(probe) => probe,
-            None => launcher.start(process_cpu)?,
-        };
-        let ready_at = Instant::now();
-        let restart = || launcher.start(process_cpu);
-        let (mut probe, answered) = ask_fairly(probe, restart, item, limits, self.control)?;
-        let used = probe.take_time_used();
+        let asked = self.ask_fairly(&launcher, item, limits, allowance.budget().total_cpu())?;
+        let Asked {
+            probe,
+            answered,
+            used,
+        } = asked;
         allowance.spend(used);
-        self.spent.start += ready_at - started_at;
-        self.spent.asking += ready_at.elapsed();
         let started_at = Instant::now();
         match answered {
             Ok(answers) => {
@@ -130,6 +133,15 @@ impl<'a> TaskSession<'a> {
                 }
                 Ok((outcome, answers))
             }
+            Err(fault @ Fault::Crashed(Crash::NotStarted)) => {
+                self.keep_output(probe);
+                self.stopped_by = Some(fault.clone());
+                let outcome = ItemOutcome::Fault {
+                    fault,
+                    culprit: None,
+                };
+                Ok((outcome, Vec::new()))
+            }
             Err(fault) => {
                 let culprit = Culprit::find(&launcher, item)?;
                 allowance.spend(culprit.used);
@@ -143,6 +155,51 @@ impl<'a> TaskSession<'a> {
                 Ok((outcome, Vec::new()))
             }
         }
+    }
+
+    /// Asks an item. If the machine may be the reason for a fault, the item is asked again by itself;
+    /// if the fault is the same, but not that of the control, the program is the reason. `cpu` is the
+    /// CPU time that a process may use.
+    fn ask_fairly(
+        &mut self,
+        launcher: &Launcher,
+        item: &Item,
+        limits: ItemLimits,
+        cpu: Duration,
+    ) -> io::Result<Asked> {
+        let build = self.build;
+        let mut running = self.probe.take();
+        let spent = &mut self.spent;
+        let mut used = TimeUsed::default();
+        let attempt = || {
+            let started_at = Instant::now();
+            let mut probe = match running.take() {
+                Some(probe) => probe,
+                None => launcher.start(cpu)?,
+            };
+            spent.start += started_at.elapsed();
+            let started_at = Instant::now();
+            let questions = item.questions.iter().map(|question| &question.question);
+            let answered = probe.ask(questions, limits);
+            spent.asking += started_at.elapsed();
+            used += probe.take_time_used();
+            let is_doubtful = answered.as_ref().is_err_and(Fault::is_doubtful);
+            let outcome = (probe, answered);
+            Ok(if is_doubtful {
+                Attempt::Doubtful(outcome)
+            } else {
+                Attempt::Certain(outcome)
+            })
+        };
+        let (probe, answered) = decide(attempt, |(_, answered)| match answered {
+            Err(Fault::Crashed(Crash::NotStarted)) => build.check_start(&launcher.program, cpu),
+            Ok(_) | Err(_) => build.control().check_run(),
+        })?;
+        Ok(Asked {
+            probe,
+            answered,
+            used,
+        })
     }
 
     /// Counts a fault towards stopping the task, if the outcome is one. Faults that another task
@@ -194,43 +251,4 @@ impl<'a> TaskSession<'a> {
         let printed = self.printed.trim_end();
         (!printed.is_empty()).then(|| sanitize(printed, MAX_PRINTED_CHARS))
     }
-}
-
-/// Asks an item. If the system kills the program, it is asked again by itself; if it is killed once
-/// more, but the control is not, the program is the reason.
-fn ask_fairly(
-    mut probe: Probe,
-    restart: impl FnOnce() -> io::Result<Probe>,
-    item: &Item,
-    limits: ItemLimits,
-    control: &Control,
-) -> io::Result<(Probe, Result<Vec<Answer>, Fault>)> {
-    let questions = item.questions.iter().map(|question| &question.question);
-    {
-        let _permit = beside_others();
-        let answered = probe.ask(questions.clone(), limits);
-        if !was_killed(&answered) {
-            return Ok((probe, answered));
-        }
-    }
-    {
-        let _permit = alone();
-        probe = restart()?;
-        let answered = probe.ask(questions, limits);
-        if !was_killed(&answered) {
-            return Ok((probe, answered));
-        }
-        if control.runs()? {
-            return Ok((probe, answered));
-        }
-    }
-    Err(io::Error::other(
-        "the system killed the program (signal 9) although it used little memory, and a small \
-         program of the grader, too: give this machine more memory, or grade fewer submissions at \
-         once",
-    ))
-}
-
-fn was_killed(answered: &Result<Vec<Answer>, Fault>) -> bool {
-    matches!(answered, Err(Fault::Crashed(Crash::Killed)))
 }

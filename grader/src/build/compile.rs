@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use judging::content_hash::ContentHash;
 
@@ -31,6 +31,23 @@ pub fn compile(
     })
 }
 
+/// Compiles the starter, which shows whether the machine is the reason that a submission does not
+/// compile or start. Returns the program, or why there is none.
+pub(super) fn compile_starter(
+    handed_out: &HandedOut,
+    folder: &Path,
+    rustc: &Rustc,
+) -> Result<PathBuf, String> {
+    let starter = handed_out.files.iter();
+    let starter: Vec<_> = starter.map(|file| (file.name, file.starter)).collect();
+    match compile(&starter, handed_out, folder, &rustc.for_own_code()) {
+        Ok(CompileOutcome::Done(program)) => Ok(program),
+        Ok(CompileOutcome::Errors(errors)) => Err(errors[0].text().to_owned()),
+        Ok(CompileOutcome::Failed(why)) => Err(why),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
 fn compile_uncached(
     files: &[(&str, &str)],
     handed_out: &HandedOut,
@@ -45,7 +62,6 @@ fn compile_uncached(
     fs::write(folder.join(ROOT), format!("{root}{}", handed_out.entry))?;
     rustc.compile(&Crate {
         name: "probe",
-        task_files: handed_out.files,
         kind: CrateKind::Program,
         folder,
         root: ROOT,

@@ -3,11 +3,11 @@
 //! machine is not the reason.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::build::rustc::{CompileAttempt, CompileOutcome, CrateKind, Rustc};
+use crate::build::rustc::{CompileOutcome, CrateKind, Rustc};
 use crate::build::trial;
 
 const SOURCE: &str = include_str!("../../trial/control.rs");
@@ -24,33 +24,41 @@ pub struct Control {
 }
 
 impl Control {
-    /// Returns whether the honest program can be compiled.
-    pub(super) fn compiles(&self) -> io::Result<bool> {
-        Ok(self.compile()?.is_some())
+    /// Returns a control that compiles beside the folder of another crate.
+    pub(super) fn beside(rustc: &Rustc, folder: &Path) -> Self {
+        Control {
+            rustc: rustc.clone(),
+            folder: folder.parent().unwrap_or(folder).to_owned(),
+        }
     }
 
-    /// Returns whether the honest program gets to its end. It uses as much memory as a program may
-    /// use without being considered out of memory.
-    pub fn runs(&self) -> io::Result<bool> {
-        let Some((_folder, program)) = self.compile()? else {
-            return Ok(false);
-        };
-        Ok(trial::run(&self.rustc.sandbox, &program, "")? == OUTPUT)
+    /// Returns an error unless the honest program can be compiled.
+    pub(super) fn check_compiler(&self) -> io::Result<()> {
+        self.compile().map(drop)
     }
 
-    /// Returns the program, and the folder that keeps it, or `None` if the system kills the
-    /// compiler.
-    fn compile(&self) -> io::Result<Option<(TempDir, PathBuf)>> {
+    /// Returns an error unless the honest program gets to its end. It uses as much memory as a
+    /// program may use without being considered out of memory.
+    pub fn check_run(&self) -> io::Result<()> {
+        let (_folder, program) = self.compile()?;
+        if trial::run(&self.rustc.sandbox, &program, "")? == OUTPUT {
+            return Ok(());
+        }
+        Err(io::Error::other(
+            "the system killed the program (signal 9) although it used little memory, and a small \
+             program of the grader, too: give this machine more memory, or grade fewer submissions \
+             at once",
+        ))
+    }
+
+    /// Returns the program, and the folder that keeps it.
+    fn compile(&self) -> io::Result<(TempDir, PathBuf)> {
         let folder = TempDir::new_in(&self.folder)?;
         let kind = CrateKind::Program;
-        let compiled = trial::compile(&self.rustc, folder.path(), NAME, SOURCE, kind)?;
-        match compiled {
-            CompileAttempt::Ended(CompileOutcome::Done(program)) => Ok(Some((folder, program))),
-            CompileAttempt::Ended(CompileOutcome::Errors(errors)) => {
-                Err(io::Error::other(errors[0].text().to_owned()))
-            }
-            CompileAttempt::Ended(CompileOutcome::Failed(why)) => Err(io::Error::other(why)),
-            CompileAttempt::Killed => Ok(None),
+        match trial::compile(&self.rustc, folder.path(), NAME, SOURCE, kind)? {
+            CompileOutcome::Done(program) => Ok((folder, program)),
+            CompileOutcome::Errors(errors) => Err(io::Error::other(errors[0].text().to_owned())),
+            CompileOutcome::Failed(why) => Err(io::Error::other(why)),
         }
     }
 }

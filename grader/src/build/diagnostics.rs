@@ -90,6 +90,12 @@ impl Diagnostic {
             && code.is_none_or(|code| !UNRESOLVED.contains(&code))
     }
 
+    /// Returns whether the message is about source code, and not about the linker or the machine.
+    pub fn is_about_source(&self) -> bool {
+        let explaining = self.children.iter().flat_map(|child| &child.spans);
+        self.spans.iter().chain(explaining).next().is_some()
+    }
+
     /// Returns the whole message as the compiler prints it.
     pub fn text(&self) -> &str {
         self.rendered.as_deref().unwrap_or(&self.message).trim_end()

@@ -4,6 +4,7 @@
 mod blame;
 pub mod build_dir;
 mod compile;
+mod compile_budget;
 mod compiler_sandbox;
 mod control;
 mod dependencies;
@@ -21,13 +22,13 @@ mod verified_copy;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 use judging::content_hash::ContentHash;
 
 use crate::build::blame::{blame, blame_all, explain, incomplete_files, unreadable_files};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
-use crate::build::compile::compile;
+use crate::build::compile::{compile, compile_starter};
 use crate::build::dependencies::{Dependencies, DependenciesError};
 use crate::build::program_cache::ProgramCache;
 use crate::build::rustc::{CompileOutcome, Rustc};
@@ -97,6 +98,7 @@ impl Builder {
                 dependencies,
                 cache: None,
                 sandbox: Sandbox::none(),
+                budget: None,
             },
             reference_parts: Vec::new(),
             folder,
@@ -194,6 +196,7 @@ impl Builder {
         mut report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<Build, BuildError> {
         let build_dir = BuildDir::new_in(&self.folder)?;
+        let rustc = &self.rustc.for_submission();
         let handed_out = submission.handed_out;
         let mut not_compiled = unreadable_files(submission);
         let mut probe = None;
@@ -201,7 +204,7 @@ impl Builder {
         if !incomplete.is_empty() {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join("as handed in");
-            match compile(&files, handed_out, &folder, &self.rustc).at("build in", &self.folder)? {
+            match compile(&files, handed_out, &folder, rustc).at("build in", &self.folder)? {
                 // The declaration is there, but written in an unusual way.
                 CompileOutcome::Done(path) => {
                     probe = Some(path);
@@ -217,7 +220,7 @@ impl Builder {
         for attempt in 0..attempts {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join(attempt.to_string());
-            match compile(&files, handed_out, &folder, &self.rustc).at("build in", &self.folder)? {
+            match compile(&files, handed_out, &folder, rustc).at("build in", &self.folder)? {
                 CompileOutcome::Done(path) => {
                     probe = Some(path);
                     break;
@@ -235,16 +238,21 @@ impl Builder {
             }
         }
         if probe.is_none() {
-            self.check_machine(handed_out, build_dir.path())?;
+            // If the starter does not compile either, the cause is the machine (a full disk, a
+            // broken linker or too little memory), not the submission.
+            let folder = build_dir.path().join("starter");
+            let starter = compile_starter(handed_out, &folder, &self.rustc);
+            starter.map_err(BuildError::Machine)?;
             let why = "the remaining files do not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
         Ok(Build {
             handed_out,
-            substitutions: self.substitutions(submission, &not_compiled, build_dir.path()),
+            substitutions: self.substitutions(submission, &not_compiled, rustc, build_dir.path()),
             probe,
             not_compiled,
             interrupt: Interrupt::default(),
+            unstartable: Mutex::default(),
             control: Control {
                 rustc: self.rustc.clone(),
                 folder: build_dir.path().to_owned(),
@@ -253,27 +261,12 @@ impl Builder {
         })
     }
 
-    /// Compiles the starter after every attempt to compile a submission has failed. If the starter
-    /// does not compile either, the cause is the machine (a full disk, a broken linker or too
-    /// little memory), not the submission.
-    fn check_machine(&self, handed_out: &HandedOut, folder: &Path) -> Result<(), BuildError> {
-        let starter = handed_out.files.iter();
-        let starter: Vec<_> = starter.map(|file| (file.name, file.starter)).collect();
-        let folder = folder.join("starter");
-        let why = match compile(&starter, handed_out, &folder, &self.rustc) {
-            Ok(CompileOutcome::Done(_)) => return Ok(()),
-            Ok(CompileOutcome::Errors(errors)) => errors[0].text().to_owned(),
-            Ok(CompileOutcome::Failed(why)) => why,
-            Err(error) => error.to_string(),
-        };
-        Err(BuildError::Machine(why))
-    }
-
     /// Returns the submission's files that can be graded with the reference's parts.
     fn substitutions(
         &self,
         submission: &Submission,
         not_compiled: &BTreeMap<&'static str, NotCompiled>,
+        rustc: &Rustc,
         build_dir: &Path,
     ) -> Vec<Substitution> {
         let substitution = |parts: &ReferenceParts| {
@@ -285,7 +278,7 @@ impl Builder {
                 source,
                 parts: parts.clone(),
                 handed_out: submission.handed_out,
-                rustc: self.rustc.clone(),
+                rustc: rustc.clone(),
                 folder: build_dir.join("substitution").join(file.name),
                 program: OnceLock::new(),
             })

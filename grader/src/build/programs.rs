@@ -1,15 +1,18 @@
 //! The result of building a submission: its programs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use crate::build::blame::NotCompiled;
 use crate::build::build_dir::BuildDir;
+use crate::build::compile::compile_starter;
 use crate::build::control::Control;
 use crate::build::substitution::Substitution;
 use crate::handed_out::HandedOut;
-use crate::probe::{Interrupt, Launcher};
+use crate::probe::{Interrupt, Launcher, START_LIMITS};
 use crate::sandbox::Isolation;
 
 /// A built submission.
@@ -24,6 +27,8 @@ pub struct Build {
     /// Ends the programs' answers early.
     pub interrupt: Interrupt,
     pub(super) substitutions: Vec<Substitution>,
+    /// The programs that cannot be started, although the starter's can.
+    pub(super) unstartable: Mutex<BTreeSet<PathBuf>>,
     pub(super) control: Control,
     /// The directory that contains the programs. It is removed when this value is dropped.
     pub(super) _build_dir: BuildDir,
@@ -59,6 +64,43 @@ impl Build {
             sandbox: self.control.rustc.sandbox.clone(),
             interrupt: self.interrupt.clone(),
         }
+    }
+
+    /// Returns an error unless the starter, compiled in the same way as this program, can be started:
+    /// then the machine is not the reason that the program cannot. `cpu` is the CPU time that it may
+    /// use.
+    pub fn check_start(&self, program: &Path, cpu: Duration) -> io::Result<()> {
+        let mut substitutions = self.substitutions.iter();
+        let is_of = |substitution: &&Substitution| {
+            let made = substitution.program.get().and_then(Option::as_deref);
+            made == Some(program)
+        };
+        let starter = match substitutions.find(is_of) {
+            Some(substitution) => substitution.starter_program()?,
+            None => {
+                let folder = self.control.folder.join("starter");
+                compile_starter(self.handed_out, &folder, &self.control.rustc)
+                    .map_err(io::Error::other)?
+            }
+        };
+        let started = self.launcher(&starter).start(cpu)?.ask([], START_LIMITS);
+        started.map_err(|fault| {
+            io::Error::other(format!(
+                "not even the starter's program can be started: {fault}; see `cargo grade --doctor`"
+            ))
+        })?;
+        self.unstartable().insert(program.to_owned());
+        Ok(())
+    }
+
+    /// Returns whether [`Build::check_start`] has shown that this program cannot be started.
+    pub fn is_unstartable(&self, program: &Path) -> bool {
+        self.unstartable().contains(program)
+    }
+
+    fn unstartable(&self) -> MutexGuard<'_, BTreeSet<PathBuf>> {
+        let known = self.unstartable.lock();
+        known.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Returns the program in which the reference's parts replace all files but this one. It is
@@ -100,6 +142,7 @@ impl Build {
             },
             cache: None,
             sandbox: Sandbox::none(),
+            budget: None,
         };
         Build {
             handed_out: &crate::handed_out::RAYS,
@@ -107,6 +150,7 @@ impl Build {
             not_compiled,
             interrupt: Interrupt::default(),
             substitutions: Vec::new(),
+            unstartable: Mutex::default(),
             control: Control {
                 rustc,
                 folder: folder.to_owned(),

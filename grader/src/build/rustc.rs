@@ -10,31 +10,28 @@ use std::time::{Duration, Instant};
 
 use judging::content_hash::ContentHash;
 
-use crate::alone::{alone, beside_others};
+use crate::alone::{Attempt, decide};
+use crate::build::compile_budget::{CompileBudget, CompileTime, used_up_message};
 use crate::build::compiler_sandbox;
 use crate::build::control::Control;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
-use crate::build::machine_fault::MachineFault;
+use crate::build::machine_fault::{MachineFault, is_killed};
 use crate::build::program_cache::ProgramCache;
 use crate::build::toolchain::Toolchain;
-use crate::build::verified_copy;
+use crate::build::verified_copy::{self, OutputFile};
 use crate::capture::Capture;
-use crate::handed_out::TaskFile;
 use crate::sandbox::{ExitReason, Sandbox};
 use crate::system::{self, Limits};
 
 const LIMITS: Limits = Limits {
     memory: 4 << 30,
     data: None,
-    cpu: Duration::from_secs(60),
+    cpu: CompileTime::MOST.cpu,
     file: 256 << 20,
 };
 /// The memory that an honest submission may need, in bytes.
 const NEEDED_MEMORY: u64 = 512 << 20;
-/// Wall time limit of a compiler call. It ends a compiler that waits and therefore never exceeds
-/// its CPU time limit.
-const WALL_LIMIT: Duration = Duration::from_secs(90);
 /// Maximum size of the compiler messages that are stored, in bytes.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
@@ -46,9 +43,6 @@ const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again
 /// A crate to compile.
 #[derive(Debug)]
 pub struct Crate<'a> {
-    /// The task files of a submission that may be among its files. Errors in them are never the
-    /// machine's fault.
-    pub task_files: &'a [TaskFile],
     /// Name of the crate.
     pub name: &'a str,
     /// Whether to compile the crate to a program or to a library.
@@ -95,9 +89,20 @@ pub enum CompileOutcome {
     Failed(String),
 }
 
+impl CompileOutcome {
+    /// Returns whether the compiler failed, and no error is about the source code.
+    fn is_unexplained(&self) -> bool {
+        match self {
+            CompileOutcome::Done(_) => false,
+            CompileOutcome::Errors(errors) => !errors.iter().any(Diagnostic::is_about_source),
+            CompileOutcome::Failed(_) => true,
+        }
+    }
+}
+
 /// Result of an attempt to compile.
 #[derive(Debug)]
-pub(super) enum CompileAttempt {
+enum CompileAttempt {
     /// The compiler came to an end.
     Ended(CompileOutcome),
     /// The system killed the compiler or the linker, and no error names a file of the submission.
@@ -115,6 +120,9 @@ pub struct Rustc {
     pub cache: Option<ProgramCache>,
     /// The sandbox in which the compiler runs. Programs are linked so that they can run in it.
     pub sandbox: Sandbox,
+    /// The time that is left for a submission. `None` for the course's own code, in which all
+    /// failures are the machine's.
+    pub(super) budget: Option<CompileBudget>,
 }
 
 impl Rustc {
@@ -143,36 +151,58 @@ impl Rustc {
         })
     }
 
-    /// Compiles one crate. A failure of the machine is returned as an error, and not as an outcome.
-    ///
-    /// If the system kills the compiler, the crate is compiled again while nothing else of this
-    /// process runs. If that is killed, too, but an honest program compiles, the crate is the
-    /// reason.
-    pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
-        {
-            let _permit = beside_others();
-            if let CompileAttempt::Ended(outcome) = self.attempt(source)? {
-                return Ok(outcome);
-            }
-        }
-        let _permit = alone();
-        if let CompileAttempt::Ended(outcome) = self.attempt(source)? {
-            return Ok(outcome);
-        }
-        let control = Control {
-            rustc: self.clone(),
-            folder: source.folder.parent().unwrap_or(source.folder).to_owned(),
-        };
-        if control.compiles()? {
-            Ok(CompileOutcome::Failed(KILLED_ALONE.to_owned()))
-        } else {
-            Err(io::Error::other(MachineFault::Memory))
+    /// Returns a compiler for one submission.
+    pub(super) fn for_submission(&self) -> Self {
+        Rustc {
+            budget: Some(CompileBudget::default()),
+            ..self.clone()
         }
     }
 
-    /// Compiles one crate. A failure of the machine is returned as an error, unless it is that the
-    /// compiler was killed.
-    pub(super) fn attempt(&self, source: &Crate) -> io::Result<CompileAttempt> {
+    /// Returns a compiler for the course's own code.
+    pub(super) fn for_own_code(&self) -> Self {
+        Rustc {
+            budget: None,
+            ..self.clone()
+        }
+    }
+
+    /// Compiles one crate. A failure of the machine is returned as an error, and not as an outcome.
+    ///
+    /// If a submission's compiler fails and no error explains why, the crate is compiled again while
+    /// nothing else of this process runs. If the system kills that, too, but an honest program
+    /// compiles, the crate is the reason. All other failures that no error explains are compared
+    /// with compiling the starter, once no program is left to try.
+    pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
+        let attempt = match self.budget {
+            Some(_) => decide(
+                || self.attempt(source),
+                |outcome| match outcome {
+                    CompileAttempt::Ended(_) => Ok(()),
+                    CompileAttempt::Killed => Control::beside(self, source.folder).check_compiler(),
+                },
+            )?,
+            None => self.attempt(source)?.into_outcome(),
+        };
+        match attempt {
+            CompileAttempt::Killed => match self.budget {
+                Some(_) => Ok(CompileOutcome::Failed(KILLED_ALONE.to_owned())),
+                None => Err(io::Error::other(MachineFault::Memory)),
+            },
+            CompileAttempt::Ended(outcome) => {
+                if outcome.is_unexplained() {
+                    MachineFault::check_disk(source.folder).map_err(io::Error::other)?;
+                }
+                Ok(outcome)
+            }
+        }
+    }
+
+    /// Attempts to compile one crate.
+    fn attempt(&self, source: &Crate) -> io::Result<Attempt<CompileAttempt>> {
+        let Some(time) = self.time_left() else {
+            return Ok(stopped());
+        };
         let mut command = Command::new(&self.toolchain.rustc);
         system::clear_environment(&mut command);
         system::keep_search_path(&mut command);
@@ -200,7 +230,11 @@ impl Rustc {
             compiler_sandbox::arguments(self, source, &mut command);
         }
         let profile = compiler_sandbox::profile(self, source);
-        let limits = LIMITS.within_available_memory(NEEDED_MEMORY);
+        let limits = Limits {
+            cpu: time.cpu,
+            ..LIMITS.within_available_memory(NEEDED_MEMORY)
+        };
+        let started_at = Instant::now();
         let mut process = self
             .sandbox
             .start(command, source.folder, profile, limits)?;
@@ -209,16 +243,16 @@ impl Rustc {
             MAX_MESSAGE_BYTES,
         );
 
-        let deadline = Instant::now() + WALL_LIMIT;
+        let deadline = started_at + time.wall;
+        let mut cpu = None;
         let exit_reason = loop {
+            // The time that the compiler has used is available until its exit code has been read.
+            cpu = process.cpu_time_with_children().or(cpu);
             match process.exit_reason() {
-                Some(exit_reason) => break exit_reason,
+                Some(exit_reason) => break Some(exit_reason),
                 None if Instant::now() >= deadline => {
                     process.kill();
-                    let seconds = WALL_LIMIT.as_secs();
-                    return Ok(CompileAttempt::Ended(CompileOutcome::Failed(format!(
-                        "the compiler was stopped after {seconds} s"
-                    ))));
+                    break None;
                 }
                 // The compiler closes its output just before it ends, so there is no need to poll
                 // before that.
@@ -226,34 +260,63 @@ impl Rustc {
             }
             thread::sleep(Duration::from_micros(200));
         };
+        let wall = started_at.elapsed();
+        if let Some(budget) = &self.budget {
+            let cpu = cpu.unwrap_or(wall);
+            budget.spend(CompileTime { cpu, wall });
+        }
+        let Some(exit_reason) = exit_reason else {
+            return Ok(stopped());
+        };
         messages.wait_for_end(Duration::from_secs(1));
 
-        if exit_reason.is_success()
-            && let Some(made) = self.output_file(source)?
-        {
-            return Ok(CompileAttempt::Ended(CompileOutcome::Done(made)));
+        if exit_reason.is_success() {
+            return Ok(Attempt::Certain(CompileAttempt::Ended(
+                match self.output_file(source)? {
+                    OutputFile::Verified(path) => CompileOutcome::Done(path),
+                    OutputFile::TooLarge(bytes) => CompileOutcome::Failed(too_large_message(bytes)),
+                    OutputFile::Missing => CompileOutcome::Failed(failure_message(exit_reason)),
+                },
+            )));
         }
         let errors = diagnostics::errors(&messages.head());
-        match MachineFault::check(exit_reason, &errors, source.task_files, source.folder) {
-            Ok(()) => {}
-            Err(MachineFault::Memory) => return Ok(CompileAttempt::Killed),
-            Err(fault @ MachineFault::DiskFull { .. }) => return Err(io::Error::other(fault)),
+        if errors.iter().any(Diagnostic::is_about_source) {
+            return Ok(Attempt::Certain(CompileAttempt::Ended(
+                CompileOutcome::Errors(errors),
+            )));
         }
-        Ok(CompileAttempt::Ended(if errors.is_empty() {
-            CompileOutcome::Failed(failure_message(exit_reason))
-        } else {
-            CompileOutcome::Errors(errors)
-        }))
+        if is_killed(exit_reason, &errors) {
+            return Ok(Attempt::Doubtful(CompileAttempt::Killed));
+        }
+        if exit_reason.is_time_limit() || self.time_left().is_none() {
+            return Ok(stopped());
+        }
+        Ok(Attempt::Doubtful(CompileAttempt::Ended(
+            if errors.is_empty() {
+                CompileOutcome::Failed(failure_message(exit_reason))
+            } else {
+                CompileOutcome::Errors(errors)
+            },
+        )))
     }
 
-    /// Returns the path of the compiler's output, if it exists.
-    fn output_file(&self, source: &Crate) -> io::Result<Option<PathBuf>> {
+    /// Returns the time that is left for compiling, or `None` if it is used up.
+    fn time_left(&self) -> Option<CompileTime> {
+        match &self.budget {
+            Some(budget) => budget.left(),
+            None => Some(CompileTime::MOST),
+        }
+    }
+
+    /// Returns the compiler's output. Its size has the same limit with a sandbox and without, so that
+    /// a submission gets the same result everywhere.
+    fn output_file(&self, source: &Crate) -> io::Result<OutputFile> {
         let name = source.kind.file_name(source.name);
         if self.sandbox.confines() {
-            return verified_copy::copy_verified(source.folder, &name);
+            verified_copy::copy_verified(source.folder, &name)
+        } else {
+            verified_copy::check_size(source.folder.join(name))
         }
-        let path = source.folder.join(name);
-        Ok(path.is_file().then_some(path))
     }
 
     fn link_arguments(&self, source: &Crate) -> Vec<OsString> {
@@ -283,8 +346,24 @@ pub(super) fn option_with_path(option: &str, path: &Path) -> OsString {
     argument
 }
 
+/// Returns the result of a call for which no time is left.
+fn stopped() -> Attempt<CompileAttempt> {
+    let outcome = CompileOutcome::Failed(used_up_message());
+    Attempt::Certain(CompileAttempt::Ended(outcome))
+}
+
+fn too_large_message(bytes: u64) -> String {
+    format!(
+        "the compiled program has {} MiB, but may have {} MiB at most: make its `static` variables \
+         and constants smaller, or fill them when the program runs",
+        bytes.div_ceil(1 << 20),
+        verified_copy::MAX_BYTES >> 20
+    )
+}
+
 fn failure_message(exit_reason: ExitReason) -> String {
     match exit_reason {
+        ExitReason::Code(0) => "the compiler reported no error, but made no program".to_owned(),
         ExitReason::Code(code) => format!("the compiler ended with exit code {code}"),
         ExitReason::Signal(signal) => format!(
             "the compiler was killed by signal {signal}: it used too much time or memory, or crashed on this code"

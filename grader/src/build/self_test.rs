@@ -9,8 +9,7 @@ use tempfile::TempDir;
 
 use crate::build::Builder;
 use crate::build::build_dir::BuildDir;
-use crate::build::machine_fault::MachineFault;
-use crate::build::rustc::{CompileAttempt, CompileOutcome, CrateKind, Rustc};
+use crate::build::rustc::{CompileOutcome, CrateKind, Rustc};
 use crate::build::trial;
 use crate::files::{self, PathError};
 use crate::sandbox::Isolation;
@@ -106,11 +105,5 @@ fn compile(
     text: &str,
     kind: CrateKind,
 ) -> Result<CompileOutcome, SelfTestError> {
-    match trial::compile(rustc, work, name, text, kind).map_err(SelfTestError::Setup)? {
-        CompileAttempt::Ended(outcome) => Ok(outcome),
-        CompileAttempt::Killed => {
-            let killed = io::Error::other(MachineFault::Memory);
-            Err(SelfTestError::Setup(killed))
-        }
-    }
+    trial::compile(rustc, work, name, text, kind).map_err(SelfTestError::Setup)
 }

@@ -168,7 +168,6 @@ fn compile_parts(
     }
     let library = Crate {
         name: "parts",
-        task_files: &[],
         kind: CrateKind::Library,
         folder,
         root: "parts.rs",
@@ -234,28 +233,29 @@ impl Substitution {
                     None
                 }
                 CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
-                    self.check_starter()?;
+                    self.starter_program()?;
                     None
                 }
             },
         )
     }
 
-    /// Compiles the starter's file with the parts. This is done when no error explains why the
-    /// submission's file does not compile: if the starter's does not compile either, the machine is
-    /// to blame.
-    fn check_starter(&self) -> io::Result<()> {
+    /// Compiles the starter's file with the parts, if no error explains why the submission's file does
+    /// not compile, or if the program cannot be started. If the starter's does not compile either,
+    /// the machine is to blame.
+    pub(super) fn starter_program(&self) -> io::Result<PathBuf> {
         let starter = Substitution {
             file: self.file,
             source: self.file.starter.to_owned(),
             handed_out: self.handed_out,
             parts: self.parts.clone(),
-            rustc: self.rustc.clone(),
-            folder: self.folder.with_extension("starter"),
+            rustc: self.rustc.for_own_code(),
+            // Not beside the submission's folder: their compiled files would have the same path.
+            folder: self.folder.join("starter").join(self.file.name),
             program: OnceLock::new(),
         };
         let why = match starter.compile_uncached()? {
-            CompileOutcome::Done(_) => return Ok(()),
+            CompileOutcome::Done(program) => return Ok(program),
             CompileOutcome::Errors(errors) => errors[0].text().to_owned(),
             CompileOutcome::Failed(why) => why,
         };
@@ -276,7 +276,6 @@ impl Substitution {
         fs::write(self.folder.join(self.file.name), &self.source)?;
         let submission = self.rustc.compile(&Crate {
             name: "submission",
-            task_files: self.handed_out.files,
             kind: CrateKind::Library,
             folder: &self.folder,
             root: AROUND,
@@ -298,7 +297,6 @@ impl Substitution {
         }
         self.rustc.compile(&Crate {
             name: "probe",
-            task_files: self.handed_out.files,
             kind: CrateKind::Program,
             folder: &joined,
             root: PROBE,

@@ -8,7 +8,7 @@ use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::build::rustc::{CompileAttempt, Crate, CrateKind, Rustc};
+use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
 use crate::capture::Capture;
 use crate::sandbox::{Profile, Sandbox};
 use crate::system::{self, Limits};
@@ -32,13 +32,12 @@ pub(super) fn compile(
     name: &str,
     text: &str,
     kind: CrateKind,
-) -> io::Result<CompileAttempt> {
+) -> io::Result<CompileOutcome> {
     let folder = work.join(name);
     let root = format!("{name}.rs");
     fs::create_dir(&folder)?;
     fs::write(folder.join(&root), text)?;
-    rustc.attempt(&Crate {
-        task_files: &[],
+    rustc.for_own_code().compile(&Crate {
         name,
         kind,
         folder: &folder,

@@ -8,17 +8,45 @@ use std::path::{Path, PathBuf};
 use crate::system;
 
 /// Maximum size of a program, in bytes. The reference's program has about 6 MB.
-const MAX_BYTES: u64 = 64 << 20;
+pub(super) const MAX_BYTES: u64 = 64 << 20;
 
 /// First bytes of programs (ELF) and of libraries (`ar`).
 const MAGIC_NUMBERS: [&[u8]; 2] = [b"\x7fELF", b"!<arch>\n"];
 
+/// The compiler's output.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum OutputFile {
+    /// The path of a program or library.
+    Verified(PathBuf),
+    /// A file of this many bytes, which is too large.
+    TooLarge(u64),
+    /// There is no such file, or it is not a regular file that begins like a program or library.
+    Missing,
+}
+
+/// Checks the size of a file, and leaves it in place.
+pub(super) fn check_size(path: PathBuf) -> io::Result<OutputFile> {
+    Ok(match fs::metadata(&path) {
+        Ok(file) if !file.is_file() => OutputFile::Missing,
+        Ok(file) if file.len() > MAX_BYTES => OutputFile::TooLarge(file.len()),
+        Ok(_) => OutputFile::Verified(path),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => OutputFile::Missing,
+        Err(error) => return Err(error),
+    })
+}
+
 /// Copies a file from `folder` to a folder that only the grader can write to, and returns the path
-/// of the copy. Returns `None` if there is no such file, or if it is not a regular file that begins
-/// like a program or library.
-pub(super) fn copy_verified(folder: &Path, name: &str) -> io::Result<Option<PathBuf>> {
-    let Some(made) = open_verified(&folder.join(name))? else {
-        return Ok(None);
+/// of the copy.
+pub(super) fn copy_verified(folder: &Path, name: &str) -> io::Result<OutputFile> {
+    let Some(made) = open_regular(&folder.join(name))? else {
+        return Ok(OutputFile::Missing);
+    };
+    let length = made.metadata()?.len();
+    if length > MAX_BYTES {
+        return Ok(OutputFile::TooLarge(length));
+    }
+    let Some(made) = with_magic_number(made)? else {
+        return Ok(OutputFile::Missing);
     };
     let folder_of_copy = folder.with_extension("made");
     fs::create_dir_all(&folder_of_copy)?;
@@ -27,19 +55,20 @@ pub(super) fn copy_verified(folder: &Path, name: &str) -> io::Result<Option<Path
     let mut copy = copy.write(true).create_new(true).open(&path)?;
     io::copy(&mut made.take(MAX_BYTES), &mut copy)?;
     system::make_executable(&copy)?;
-    Ok(Some(path))
+    Ok(OutputFile::Verified(path))
 }
 
-fn open_verified(path: &Path) -> io::Result<Option<File>> {
-    let mut file = match system::open_file_without_hard_links(path) {
-        Ok(Some(file)) => file,
-        Ok(None) => return Ok(None),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(error),
-    };
+fn open_regular(path: &Path) -> io::Result<Option<File>> {
+    match system::open_file_without_hard_links(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        opened => opened,
+    }
+}
+
+/// Returns the file if it begins like a program or library.
+fn with_magic_number(mut file: File) -> io::Result<Option<File>> {
     let mut first_bytes = [0; 8];
-    let length = file.metadata()?.len();
-    if length > MAX_BYTES || file.read_exact(&mut first_bytes).is_err() {
+    if file.read_exact(&mut first_bytes).is_err() {
         return Ok(None);
     }
     let is_known = MAGIC_NUMBERS

@@ -100,7 +100,9 @@ impl fmt::Display for Reason<'_> {
             Reason::Unwritten => "the method still contains `todo!`",
             Reason::TimedOut => "the code took too long: is there an endless loop?",
             Reason::OutOfMemory => "out of memory: does something grow without limit?",
-            Reason::Crashed => "the program crashed: is there an endless recursion?",
+            Reason::Crashed => {
+                "the program crashed: is there an endless recursion, or a huge `static`?"
+            }
             Reason::InvalidAnswer => "the program sent an invalid answer",
             Reason::NotCompiled => "the file is missing or does not compile",
             Reason::DependsOn(id) => return write!(f, "depends on {id}: fix that first"),

@@ -71,9 +71,14 @@ impl Culprit {
         let mut probe = launcher.start(PROCESS_CPU)?;
         let mut faulty = None;
         for (number, question) in questions.enumerate() {
-            if probe.ask([&question], LIMITS).is_err() {
-                faulty = Some(number);
-                break;
+            match probe.ask([&question], LIMITS) {
+                Ok(_) => {}
+                // No question is the reason.
+                Err(fault) if fault.is_doubtful() => break,
+                Err(_) => {
+                    faulty = Some(number);
+                    break;
+                }
             }
         }
         self.used += probe.take_time_used();

@@ -40,16 +40,25 @@ pub enum Crash {
     /// It was killed from outside while it used little memory. If the machine runs out of memory,
     /// the system may kill any process.
     Killed,
+    /// It failed before the first question, when none of the submission's functions had been called.
+    NotStarted,
 }
 
 impl Fault {
+    /// Returns whether the machine may be the reason for the fault.
+    pub fn is_doubtful(&self) -> bool {
+        matches!(self, Fault::Crashed(Crash::Killed | Crash::NotStarted))
+    }
+
     /// Converts the fault to the reason that is compared with the signatures of known mistakes.
     pub fn no_answer_reason(&self) -> NoAnswerReason {
         match self {
             Fault::TimedOut(_) => NoAnswerReason::Time,
             Fault::OutOfMemory => NoAnswerReason::Memory,
             Fault::Crashed(Crash::StackOverflow) => NoAnswerReason::Stack,
-            Fault::Crashed(Crash::Exited(_) | Crash::Signal(_) | Crash::Killed)
+            Fault::Crashed(
+                Crash::Exited(_) | Crash::Signal(_) | Crash::Killed | Crash::NotStarted,
+            )
             | Fault::Protocol(_) => NoAnswerReason::Other,
         }
     }
@@ -83,6 +92,10 @@ impl fmt::Display for Fault {
             Fault::Crashed(Crash::Killed) => f.write_str(
                 "the system killed the program (signal 9), even when nothing else was running, but \
                  not a small program of the grader",
+            ),
+            Fault::Crashed(Crash::NotStarted) => f.write_str(
+                "the program could not be started: keep `static` and `thread_local!` variables \
+                 below 32 MiB in all, and allocate more in a method, with `vec!` for example",
             ),
             Fault::Protocol(why) => write!(f, "the program sent an invalid answer: {why}"),
         }

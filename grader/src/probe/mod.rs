@@ -37,7 +37,7 @@ pub use shrink::smallest_overflow;
 /// Maximum size of a submission's output that is stored, in bytes.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;
 /// The time limits of starting. They are generous, because no code of the submission runs yet.
-const START_LIMITS: ItemLimits = ItemLimits {
+pub const START_LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_secs(30),
     ..ItemLimits::from_cpu(Duration::from_secs(10))
 };
@@ -71,6 +71,8 @@ pub struct Probe {
     /// Time used for questions.
     used: TimeUsed,
     interrupt: Interrupt,
+    /// The fault if it did not start. It answers no question then.
+    not_started: Option<Fault>,
 }
 
 /// A launcher, which starts the probes of one submission.
@@ -95,8 +97,10 @@ impl Launcher {
     /// so that it does not outlive a killed grader. `cpu` is the CPU time that it may use in all;
     /// this limit ends it even if the grader itself has been killed.
     ///
-    /// No code of the submission runs before the first question, so a failure up to then is the
-    /// fault of the grader or the machine.
+    /// No code of the submission runs before the first question, but its variables may need too much
+    /// memory. A program that fails up to then answers every question with [`Crash::NotStarted`].
+    /// Returns an error if the launcher fails or the system cannot create a process, which no
+    /// submission can bring about.
     pub fn start(&self, cpu: Duration) -> io::Result<Probe> {
         let folder = self.program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(&self.program);
@@ -121,20 +125,15 @@ impl Launcher {
             memory: 0,
             used: TimeUsed::default(),
             interrupt: Interrupt::default(),
+            not_started: None,
         };
-        match probe.ask([], START_LIMITS) {
-            Ok(_) => {
-                // Only now, so that an interrupted start does not look like a fault of the machine.
-                probe.interrupt = self.interrupt.clone();
-                Ok(probe)
-            }
-            Err(fault) => {
-                let output = probe.finish();
-                Err(io::Error::other(format!(
-                    "{fault}, before the first question: see `cargo grade --doctor` {output}"
-                )))
-            }
+        if probe.ask([], START_LIMITS).is_err() {
+            probe.process.kill();
+            probe.not_started = Some(Fault::Crashed(Crash::NotStarted));
         }
+        // Only now, so that an interrupted start does not look like one that failed.
+        probe.interrupt = self.interrupt.clone();
+        Ok(probe)
     }
 }
 
@@ -146,6 +145,9 @@ impl Probe {
         questions: impl IntoIterator<Item = &'a Question>,
         limits: ItemLimits,
     ) -> Result<Vec<Answer>, Fault> {
+        if let Some(fault) = &self.not_started {
+            return Err(fault.clone());
+        }
         // The last question only marks the end, so that answers that belong to no question are
         // detected.
         let questions: Vec<&Question> = questions.into_iter().chain([&Question::Done]).collect();
@@ -349,18 +351,14 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_fails_to_start_is_a_grader_error() {
+    fn a_program_that_fails_to_start_answers_nothing() {
         let launcher = Launcher {
             program: "/usr/bin/false".into(),
             sandbox: Sandbox::none(),
             interrupt: Interrupt::default(),
         };
-        let error = launcher
-            .start(Duration::from_secs(1))
-            .expect_err("the program sends no answer");
-        assert!(
-            error.to_string().contains("before the first question"),
-            "{error}"
-        );
+        let mut probe = launcher.start(Duration::from_secs(1)).unwrap();
+        let answered = probe.ask([], START_LIMITS);
+        assert_eq!(answered, Err(Fault::Crashed(Crash::NotStarted)));
     }
 }

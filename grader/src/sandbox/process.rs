@@ -72,6 +72,13 @@ impl Process {
         system::cpu_time(&self.child)
     }
 
+    /// Returns the CPU time used so far by the process and by those of its children that have ended
+    /// and that it has waited for, if the system reports it. After the process has ended, the time
+    /// is available until [`Process::exit_reason`] returns that.
+    pub fn cpu_time_with_children(&self) -> Option<Duration> {
+        system::cpu_time_with_children(&self.child)
+    }
+
     /// Returns how the process has used its time so far, if the system reports it.
     pub fn time(&self) -> Option<ProcessTime> {
         system::process_time(&self.child)
@@ -123,5 +130,12 @@ impl ExitReason {
         /// The number of SIGKILL on every system.
         const KILL: i32 = 9;
         self == ExitReason::Signal(KILL)
+    }
+
+    /// Returns whether the process was ended by its limit of CPU time.
+    pub fn is_time_limit(self) -> bool {
+        /// The number of SIGXCPU on Linux, where this limit is set.
+        const XCPU: i32 = 24;
+        cfg!(target_os = "linux") && self == ExitReason::Signal(XCPU)
     }
 }

@@ -53,14 +53,29 @@ pub fn process_time(child: &Child) -> Option<ProcessTime> {
 
 /// Returns the CPU time that a process has used so far.
 pub fn cpu_time(child: &Child) -> Option<Duration> {
+    // utime and stime (proc_pid_stat(5)).
+    cpu_time_fields(child, 2)
+}
+
+/// Returns the CPU time that a process, and those of its children that it has waited for, have used
+/// so far.
+pub fn cpu_time_with_children(child: &Child) -> Option<Duration> {
+    // utime, stime, cutime and cstime (proc_pid_stat(5)).
+    cpu_time_fields(child, 4)
+}
+
+/// Returns the sum of the first `count` times of a process, which begin at field 14.
+fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
     // The second field is a name in parentheses that may contain spaces, so count from its end.
-    // utime and stime are fields 14 and 15 (proc_pid_stat(5)).
     let (_, fields) = stat.rsplit_once(')')?;
-    let mut fields = fields.split_whitespace().skip(11);
-    let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
+    let times = fields.split_whitespace().skip(11).take(count);
+    let times: Option<Vec<u64>> = times.map(|ticks| ticks.parse().ok()).collect();
+    let times = times.filter(|times| times.len() == count)?;
     let hertz = rustix::param::clock_ticks_per_second();
-    Some(Duration::from_secs_f64(ticks as f64 / hertz as f64))
+    Some(Duration::from_secs_f64(
+        times.iter().sum::<u64>() as f64 / hertz as f64,
+    ))
 }
 
 /// Returns the longest time that any thread of a process has waited for a processor.

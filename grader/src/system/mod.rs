@@ -23,7 +23,7 @@ mod windows;
 #[cfg(target_os = "linux")]
 pub use available_memory::available_memory;
 #[cfg(target_os = "linux")]
-pub use linux::{cpu_time, memory, process_time, set_limits};
+pub use linux::{cpu_time, cpu_time_with_children, memory, process_time, set_limits};
 #[cfg(unix)]
 pub use unix::{
     Folder, command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
@@ -171,6 +171,12 @@ pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
 /// Returns `None`: a process's CPU time is not available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
+    None
+}
+
+/// Returns `None`: a process's CPU time is not available on this system.
+#[cfg(not(target_os = "linux"))]
+pub fn cpu_time_with_children(_: &std::process::Child) -> Option<Duration> {
     None
 }
 

@@ -14,7 +14,7 @@ use crate::bundle_version::bundle_version;
 use crate::clue;
 use crate::handed_out::HandedOut;
 use crate::item_outcome::{ItemOutcome, NotRun, worst_failure};
-use crate::probe::Fault;
+use crate::probe::{Crash, Fault};
 use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
 use crate::score::{
@@ -100,7 +100,7 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
                 NotRun::TaskStopped(fault) => verdict_of(fault),
                 NotRun::NeedsStoppedTask | NotRun::BudgetUsedUp => Verdict::TimedOut,
             };
-            score.message = not_run_message(why).to_owned();
+            score.message = not_run_message(why);
             score.section = item.section.clone();
         }
         ItemOutcome::Answered {
@@ -116,8 +116,9 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
     score
 }
 
-fn not_run_message(why: &NotRun) -> &'static str {
-    match why {
+fn not_run_message(why: &NotRun) -> String {
+    let why = match why {
+        NotRun::TaskStopped(fault @ Fault::Crashed(Crash::NotStarted)) => return fault.to_string(),
         NotRun::TaskStopped(Fault::TimedOut(_)) => {
             "not run, because another item of this task took too long"
         }
@@ -128,7 +129,8 @@ fn not_run_message(why: &NotRun) -> &'static str {
         NotRun::BudgetUsedUp => {
             "not run, because the items before it have used up the time of the whole submission"
         }
-    }
+    };
+    why.to_owned()
 }
 
 fn not_compiled_message(file: &str, why: &NotCompiled) -> String {

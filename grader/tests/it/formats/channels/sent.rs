@@ -103,7 +103,11 @@ fn has_a_channel(fault: &Fault, failure: &FailureKind) {
         Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Waiting | TimeLimit::Wall)
         | Fault::OutOfMemory
         | Fault::Crashed(
-            Crash::StackOverflow | Crash::Exited(_) | Crash::Signal(_) | Crash::Killed,
+            Crash::StackOverflow
+            | Crash::Exited(_)
+            | Crash::Signal(_)
+            | Crash::Killed
+            | Crash::NotStarted,
         )
         | Fault::Protocol(_) => {}
     }

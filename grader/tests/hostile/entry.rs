@@ -41,6 +41,9 @@ pub struct Expectation {
     base: Base,
     /// The task file to which `attack.rs` is appended.
     into: Option<String>,
+    /// Other task files that get the same text and the same calls.
+    #[serde(default)]
+    also_into: Vec<String>,
     /// Whether `attack.rs` calls the function in `hole.rs`.
     #[serde(default)]
     uses_hole: bool,
@@ -167,7 +170,7 @@ impl Entry {
             return;
         };
         copy_with_placeholders_filled(folder, target, placeholders);
-        if let Some(into) = &self.expect.into {
+        for into in self.expect.into.iter().chain(&self.expect.also_into) {
             let mut text = fs::read_to_string(target.join(into)).expect("a task file");
             for method in &self.expect.within {
                 text = insert_first_statement(&text, method, &self.expect.call);

@@ -1,0 +1,26 @@
+
+// The error in `sphere.rs` is found late, and hides the endless constant in `bbox.rs`.
+const IS_SPHERE: bool = module_path!().len() == "probe::sphere".len();
+#[allow(long_running_const_eval)]
+const SLOW: usize = {
+    let mut n = 0_u64;
+    while IS_SPHERE && n < 60_000_000 {
+        n += 1;
+    }
+    IS_SPHERE as usize
+};
+static _WRONG: [u8; 0] = [0; SLOW];
+struct Late<T>(#[allow(dead_code)] T);
+impl<T> Late<T> {
+    #[allow(long_running_const_eval)]
+    const ENDLESS: u32 = {
+        let mut n = 0_u32;
+        while n < 2 {
+            n = (n + 1) % 2;
+        }
+        n
+    };
+}
+fn attack() {
+    eprintln!("{}", Late::<u8>::ENDLESS);
+}

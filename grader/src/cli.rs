@@ -9,6 +9,7 @@ use crate::exam_source::ExamSource;
 use crate::format::{FORMATS, OutputSpec};
 use crate::handed_out::{HandedOut, RAYS};
 use crate::options::{Dependents, GradeOptions};
+use crate::printing::exit_with;
 use crate::probe::Budget;
 use crate::question_ref::QuestionRef;
 use crate::report::text::HintDetail;
@@ -202,8 +203,9 @@ impl Arguments {
     /// Parses this process's command line. If it is invalid or asks for help, prints a message and
     /// exits.
     pub fn from_command_line() -> Self {
-        let matches = Self::for_students().get_matches();
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        let matches = Self::for_students().try_get_matches();
+        let arguments = matches.and_then(|matches| Self::from_arg_matches(&matches));
+        arguments.unwrap_or_else(|error| exit_with(&error))
     }
 
     /// Returns the definition of the command line, with help that shows students' options only.

@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::{env, io};
 
+use crate::printing::print_error_line;
+
 /// Reasons why a file was not opened.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
@@ -18,7 +20,7 @@ pub enum OpenError {
 /// this fails, prints the path of the file instead of returning an error.
 pub fn show(file: &Path) {
     if let Err(why) = open(file) {
-        anstream::eprintln!("{why}: open {} yourself", file.display());
+        print_error_line(format_args!("{why}: open {} yourself", file.display()));
     }
 }
 

@@ -16,7 +16,7 @@
 //! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`given_files`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
 //! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
-//! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`zipfile`]; [`files`], above [`disk`]; [`system`], [`nearest_name`] |
+//! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`]; [`files`], above [`disk`]; [`system`], [`nearest_name`] |
 
 pub mod alone;
 mod backup;
@@ -46,6 +46,7 @@ pub mod kept_state;
 pub mod nearest_name;
 pub mod options;
 pub mod policy;
+pub mod printing;
 pub mod probe;
 pub mod question_ref;
 pub mod replay;

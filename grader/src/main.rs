@@ -5,20 +5,20 @@ use std::process::ExitCode;
 use grader::cli::{Arguments, Command};
 use grader::error::Error;
 use grader::policy;
+use grader::printing::{print, print_error};
 use grader::replay::replay;
 use grader::reset::reset;
 use grader::sandbox;
 use grader::score;
 use grader::terminal::{check_and_print_package, diagnose_and_print, grade_and_print};
 use grader::watch::watch;
-use judging::sanitize::sanitize;
 
 fn main() -> ExitCode {
     if let Some(code) = sandbox::run_as_launcher() {
         return code;
     }
     run(Arguments::from_command_line().resolve()).unwrap_or_else(|error| {
-        anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
+        print_error(&error);
         ExitCode::from(error.exit_code())
     })
 }
@@ -27,19 +27,19 @@ fn run(command: Command) -> Result<ExitCode, Error> {
     match command {
         Command::Grade(options, print) => return grade_and_print(&options, print),
         Command::Watch { options, open } => match watch(&options, open)? {},
-        Command::Replay(options, question) => anstream::print!("{}", replay(&options, &question)?),
+        Command::Replay(options, question) => print(replay(&options, &question)?),
         Command::Reset {
             handed_out,
             folder,
             names,
-        } => anstream::print!("{}", reset(handed_out, folder.as_deref(), &names)?),
+        } => print(reset(handed_out, folder.as_deref(), &names)?),
         Command::Diagnose => return diagnose_and_print(),
         Command::CheckPackage(path, handed_out) => {
             return check_and_print_package(&path, handed_out);
         }
-        Command::PrintSchema => anstream::print!("{}", score::PUBLISHED_SCHEMA),
-        Command::PrintDefaultPolicy => anstream::print!("{}", policy::DEFAULT),
-        Command::PrintHelp(help) => anstream::print!("{}", help.ansi()),
+        Command::PrintSchema => print(score::PUBLISHED_SCHEMA),
+        Command::PrintDefaultPolicy => print(policy::DEFAULT),
+        Command::PrintHelp(help) => print(help.ansi()),
     }
     Ok(ExitCode::SUCCESS)
 }

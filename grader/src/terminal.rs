@@ -13,10 +13,10 @@ use crate::cached_report;
 use crate::desktop;
 use crate::doctor::{diagnose, package};
 use crate::error::Error;
-use crate::format::github;
 use crate::grade::{GradedSubmission, grade, source_paths};
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
+use crate::printing::{print, print_commands, print_line};
 use crate::report::next_step::next_step;
 use crate::report::text::report;
 use crate::report_files::ReportFiles;
@@ -82,9 +82,9 @@ fn grade_and_store(
     if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
         cached_report::store(key, &graded.score, &text, files);
     }
-    anstream::print!("{}", graded.runner_commands());
+    print_commands(&graded.runner_commands());
     if print.timings {
-        anstream::println!("{}", graded.score.timings.stages.table());
+        print_line(graded.score.timings.stages.table());
     }
     Ok((graded.score.points, graded.files))
 }
@@ -93,12 +93,12 @@ fn grade_and_store(
 pub fn check_and_print_package(path: &Path, handed_out: &HandedOut) -> Result<ExitCode, Error> {
     let problems = package::problems(path, handed_out)?;
     if problems.is_empty() {
-        anstream::println!("{}: no problems found", path.display());
+        print_line(format_args!("{}: no problems found", path.display()));
         return Ok(ExitCode::SUCCESS);
     }
     for problem in &problems {
         let problem = sanitize(&problem.to_string(), usize::MAX);
-        anstream::println!("{}: {problem}", path.display());
+        print_line(format_args!("{}: {problem}", path.display()));
     }
     Ok(ExitCode::from(2))
 }
@@ -106,7 +106,7 @@ pub fn check_and_print_package(path: &Path, handed_out: &HandedOut) -> Result<Ex
 /// Prints what this machine offers and lacks, with the exit code of the diagnosis.
 pub fn diagnose_and_print() -> Result<ExitCode, Error> {
     let diagnosis = diagnose()?;
-    anstream::print!("{diagnosis}");
+    print(&diagnosis);
     Ok(ExitCode::from(diagnosis.exit_code()))
 }
 
@@ -136,18 +136,11 @@ fn file_list(files: &ReportFiles) -> String {
     paths.map(|file| format!("  {file}\n")).collect()
 }
 
-/// Prints the text, with the paths of the task files. On GitHub Actions, printed text can contain
-/// workflow commands; these are disabled.
+/// Prints the text, with the paths of the task files.
 fn print_text(options: &GradeOptions, text: &str) -> Result<(), Error> {
     // A cached report gets the paths only here, since the folder may have moved.
     let text = &*source_paths(options, &Workspace::find()?).in_text(text);
-    match std::env::var_os("GITHUB_ACTIONS") {
-        Some(_) => {
-            let token = github::random_token().map_err(io::Error::other)?;
-            anstream::println!("{}", github::with_commands_stopped(text, &token));
-        }
-        None => anstream::println!("{}", with_links_on_a_terminal(text)),
-    }
+    print_line(with_links_on_a_terminal(text));
     Ok(())
 }
 

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use grader::policy::{
     AttemptRule, Extension, Lateness, Policy, TimeError, are_far_apart, read_time,
 };
+use grader::printing::print_error_line;
 use jiff::Timestamp;
 use judging::sanitize::sanitize;
 
@@ -193,14 +194,16 @@ fn extensions(
 pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     for name in unmatched_extensions(policy, people) {
         let name = sanitize(name, 200);
-        anstream::eprintln!("the policy has an extension for {name:?}, who is not in this class");
+        print_error_line(format_args!(
+            "the policy has an extension for {name:?}, who is not in this class"
+        ));
     }
     for name in extensions_of_namesakes(policy, people) {
         let name = sanitize(name, 200);
-        anstream::eprintln!(
+        print_error_line(format_args!(
             "the policy has an extension for {name:?}, and several people with this name get it: \
              write an email address or student number in its place"
-        );
+        ));
     }
 }
 

@@ -7,18 +7,19 @@ use class::cli::{Cli, Command};
 use class::error::Error;
 use class::grade::{Completion, grade_class};
 use class::merge::merge_shards;
+use grader::printing::{exit_with, print_error};
 use grader::sandbox;
-use judging::sanitize::sanitize;
 
 fn main() -> ExitCode {
     if let Some(ended) = sandbox::run_as_launcher() {
         return ended;
     }
-    match run(&Cli::parse()) {
+    let cli = Cli::try_parse().unwrap_or_else(|error| exit_with(&error));
+    match run(&cli) {
         Ok(Completion::Complete) => ExitCode::SUCCESS,
         Ok(Completion::Incomplete) => ExitCode::from(3),
         Err(error) => {
-            anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
+            print_error(&error);
             ExitCode::from(error.exit_code())
         }
     }

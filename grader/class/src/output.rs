@@ -1,5 +1,7 @@
 //! Writes the files of a graded class, and prints the summary.
 
+use grader::printing::{print, print_line};
+
 use crate::cli::Lists;
 use crate::drift::Changes;
 use crate::error::Error;
@@ -29,31 +31,31 @@ pub fn write_results(
     store.write("class.json", json(&summary))?;
     store.write("class.html", page::render_page(class, &summary, changes))?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
-    anstream::print!("{}", text::render_summary(&summary));
+    print(text::render_summary(&summary));
 
     if let Some(regrade) = &changes.regrade {
         store.write("drift.json", json(&regrade.drifts))?;
-        anstream::print!("{}", text::render_regrade(regrade));
+        print(text::render_regrade(regrade));
     }
-    anstream::print!("{}", text::render_resubmitted(&changes.resubmitted));
-    anstream::print!("{}", text::render_removed(&changes.removed));
+    print(text::render_resubmitted(&changes.resubmitted));
+    print(text::render_removed(&changes.removed));
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.
-        anstream::print!("{}", text::render_gradebook(&filled));
+        print(text::render_gradebook(&filled));
         store.write(name, filled.table.to_csv())?;
-        anstream::println!("  {}", store.folder().join(name).display());
+        print_line(format_args!("  {}", store.folder().join(name).display()));
     }
     if lists.hand_back {
         let hand_back = hand_back(class, store)?;
         store.write(ARCHIVE, &hand_back.archive)?;
-        anstream::print!("{}", text::render_hand_back(&hand_back));
-        anstream::println!("  {}", store.folder().join(ARCHIVE).display());
+        print(text::render_hand_back(&hand_back));
+        print_line(format_args!("  {}", store.folder().join(ARCHIVE).display()));
     }
-    anstream::println!();
+    print_line("");
     for name in ["grades.csv", "class.html"] {
-        anstream::println!("  {}", store.folder().join(name).display());
+        print_line(format_args!("  {}", store.folder().join(name).display()));
     }
-    anstream::println!();
+    print_line("");
     Ok(())
 }
 

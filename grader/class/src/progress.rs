@@ -4,6 +4,7 @@
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use grader::printing::{print_error_line, without_commands};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use judging::sanitize::sanitize_line;
 
@@ -63,10 +64,10 @@ impl Progress {
                 bars.all.set_message(format!("{failed} without a score"));
                 bars.all.inc(1);
                 if is_failed {
-                    bars.all.println(line);
+                    bars.all.println(without_commands(&line));
                 }
             }
-            None if is_new => eprintln!("[{done}/{}] {line}", self.count),
+            None if is_new => print_error_line(format_args!("[{done}/{}] {line}", self.count)),
             None => {}
         }
     }

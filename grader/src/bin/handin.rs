@@ -5,16 +5,17 @@ use std::process::ExitCode;
 use clap::Parser;
 use grader::hand_in::{HandIn, HandInArguments};
 use grader::handed_out::RAYS;
-use judging::sanitize::sanitize;
+use grader::printing::{exit_with, print, print_error};
 
 fn main() -> ExitCode {
-    match HandIn::make(HandInArguments::parse(), &RAYS) {
+    let arguments = HandInArguments::try_parse().unwrap_or_else(|error| exit_with(&error));
+    match HandIn::make(arguments, &RAYS) {
         Ok(made) => {
-            anstream::print!("{made}");
+            print(&made);
             ExitCode::from(u8::from(!made.is_ready()))
         }
         Err(error) => {
-            anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
+            print_error(&error);
             ExitCode::from(error.exit_code())
         }
     }

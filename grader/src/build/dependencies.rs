@@ -19,6 +19,7 @@ use serde_json::Value;
 
 use crate::build::toolchain::Toolchain;
 use crate::files::{self, AtPath, PathError};
+use crate::printing::print_error_line;
 use crate::system;
 use crate::workspace::Workspace;
 
@@ -74,8 +75,8 @@ impl Dependencies {
             .join("dependencies")
             .join(&key[..16]);
         prepare_once(&cache, || {
-            eprintln!(
-                "Compiling the dependencies of submissions, which takes a few seconds and is done only once."
+            print_error_line(
+                "Compiling the dependencies of submissions, which takes a few seconds and is done only once.",
             );
             let libraries = build(&FRAMEWORK_PACKAGES, workspace, toolchain)?;
             copy(libraries, &EXTERNS, &cache.join("crates"))

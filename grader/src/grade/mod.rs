@@ -12,6 +12,7 @@ use crate::cached_report::CacheKey;
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::options::GradeOptions;
+use crate::printing::print_error_line;
 use crate::report::html::Reload;
 use crate::report_files::ReportFiles;
 use crate::score::Score;
@@ -102,7 +103,7 @@ fn print_compile_errors(paths: SourcePaths) -> impl FnMut(&BTreeMap<&'static str
             let line = file_line(why).map(|line| format!(":{line}"));
             let line = line.unwrap_or_default();
             let text = format!("{file}{line}: {first}; grading the rest");
-            anstream::eprintln!("{}", paths.in_text(&text));
+            print_error_line(paths.in_text(&text));
         }
     }
 }

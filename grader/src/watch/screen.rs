@@ -9,6 +9,7 @@ use console::{Term, truncate_str};
 use judging::assignment::Task;
 
 use crate::options::GradeOptions;
+use crate::printing::{print, without_commands};
 use crate::report::next_step::next_step;
 use crate::report::text::{OldResults, ReportParts, report_parts, short_table};
 use crate::score::{Score, Verdict};
@@ -116,8 +117,10 @@ impl<'a> Screen<'a> {
             let ReportParts {
                 headline, table, ..
             } = report;
-            anstream::print!("\n{headline}{table}{details}\n{next}");
-            anstream::println!("{}\n", status.trim());
+            let status = status.trim();
+            print(format_args!(
+                "\n{headline}{table}{details}\n{next}{status}\n\n"
+            ));
             Ok(())
         }
     }
@@ -139,6 +142,7 @@ impl<'a> Screen<'a> {
         self.term.move_cursor_to(0, 0)?;
         for line in fit(page, usize::from(rows).saturating_sub(1)) {
             self.term.clear_line()?;
+            let line = without_commands(&line);
             self.term
                 .write_line(&strip_unwanted_colours(&truncate_str(&line, columns, "…")))?;
         }

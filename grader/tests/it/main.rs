@@ -24,6 +24,8 @@ mod ordinary_user;
 mod packages;
 mod policies;
 mod reset;
+#[cfg(unix)]
+mod runner_commands;
 mod scores;
 mod substitution;
 mod watch;

@@ -7,13 +7,13 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use crate::harness::{Submission, grader};
 
 /// A grader process that waits for changes. The process is killed when this is dropped.
-struct WatchProcess {
+pub struct WatchProcess {
     child: Child,
     lines: BufReader<ChildStdout>,
 }
 
 impl WatchProcess {
-    fn start(submission: &Submission) -> Self {
+    pub fn start(submission: &Submission) -> Self {
         Self::start_with(submission, |command| command)
     }
 
@@ -31,7 +31,7 @@ impl WatchProcess {
     }
 
     /// Returns the next report, up to the line that says that the grader is waiting.
-    fn report(&mut self) -> String {
+    pub fn report(&mut self) -> String {
         let lines = self.lines.by_ref().lines().map(Result::unwrap);
         let mut report = String::new();
         for line in lines {

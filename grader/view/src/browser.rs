@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use grader::desktop;
+use grader::printing::print_error_line;
 use tempfile::NamedTempFile;
 
 /// Opens `url` in a browser, and returns a file in `folder` that must exist until it has been read.
@@ -26,10 +27,10 @@ pub fn open(folder: &Path, url: &str, port: u16) -> std::io::Result<NamedTempFil
     )?;
     file.flush()?;
     if let Err(why) = desktop::open(file.path()) {
-        anstream::eprintln!(
+        print_error_line(format_args!(
             "{why}: open the address yourself. From another machine, forward the port first, with \
              `ssh -L {port}:localhost:{port}` or in your editor."
-        );
+        ));
     }
     Ok(file)
 }

@@ -3,8 +3,8 @@
 use std::process::ExitCode;
 
 use clap::Parser;
+use grader::printing::{exit_with, print_error};
 use grader::sandbox;
-use judging::sanitize::sanitize;
 use view::cli::Arguments;
 use view::run::run;
 
@@ -12,10 +12,11 @@ fn main() -> ExitCode {
     if let Some(code) = sandbox::run_as_launcher() {
         return code;
     }
-    match run(&Arguments::parse()) {
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| exit_with(&error));
+    match run(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            anstream::eprintln!("error: {}", sanitize(&error.to_string(), usize::MAX));
+            print_error(&error);
             ExitCode::from(error.exit_code())
         }
     }

@@ -9,6 +9,7 @@ use std::{fs, io};
 
 use grader::files::AtPath;
 use grader::handed_out::RAYS;
+use grader::printing::print_line;
 use grader::select_isolation::IsolationRequest;
 use grader::system::available_memory;
 use grader::workspace::Workspace;
@@ -63,12 +64,14 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     let access = Access::new(port, &arguments.allow_host)?;
     let url = format!("http://127.0.0.1:{port}{}", access.first_path());
     let folder = sanitize_line(&programs.folder().display().to_string(), usize::MAX);
-    anstream::println!("{folder}: open {url}");
+    print_line(format_args!("{folder}: open {url}"));
     if let Some(forwarded) = access.forwarded() {
         let path = access.first_path();
-        anstream::println!("From outside of this codespace: open https://{forwarded}{path}");
+        print_line(format_args!(
+            "From outside of this codespace: open https://{forwarded}{path}"
+        ));
     }
-    anstream::println!("The page redraws after every save. Press Ctrl-C to stop.");
+    print_line("The page redraws after every save. Press Ctrl-C to stop.");
     let redirection = if arguments.no_open {
         None
     } else {

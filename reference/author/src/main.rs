@@ -6,12 +6,13 @@ use std::process::ExitCode;
 use author::cli::Cli;
 use author::commands;
 use clap::Parser;
+use grader::printing::print_error;
 
 fn main() -> ExitCode {
     match commands::run(Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            print_error(&error);
             ExitCode::FAILURE
         }
     }

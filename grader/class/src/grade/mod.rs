@@ -9,6 +9,7 @@ use grader::error::Error as GraderError;
 use grader::grade::Grader;
 use grader::options::GradeOptions;
 use grader::policy::{Policy, PolicyError};
+use grader::printing::{print, print_error_line};
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
@@ -85,16 +86,14 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
     manual.check_students(&people)?;
     if let Some(folder) = &arguments.similarity_input {
         let entries = &recognised.entries;
-        anstream::print!(
-            "{}",
-            similarity::write_input(folder, entries, options.handed_out)?
-        );
+        print(similarity::write_input(
+            folder,
+            entries,
+            options.handed_out,
+        )?);
     }
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
-        anstream::print!(
-            "{}",
-            render_preview(&recognised, &missing, options.handed_out)
-        );
+        print(render_preview(&recognised, &missing, options.handed_out));
         return Ok(Completion::Complete);
     };
 
@@ -106,7 +105,7 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
     let settings = grader.settings()?;
     let policy = policy_text(options.policy.as_deref())?;
     if store.read_run()?.is_some_and(|run| run.policy != policy) {
-        anstream::eprintln!("the policy differs from the last run's, so final points may change");
+        print_error_line("the policy differs from the last run's, so final points may change");
     }
     let run = Run {
         shard: arguments.shard,
@@ -136,7 +135,7 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
     let slots = slot_count(arguments.jobs);
     if arguments.estimate {
         let estimate = estimate(&grader, &store, &run, entries, slots)?;
-        anstream::print!("{}", estimate.render());
+        print(estimate.render());
         return Ok(Completion::Complete);
     }
     let results = grade_entries(&grader, &store, &run, &entries, slots)?;
@@ -160,7 +159,7 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
         rows,
         missing,
     };
-    anstream::print!("{warnings}");
+    print(warnings);
     write_results(&class, &store, &arguments.lists, &changes)?;
     Ok(match class.fault_count() {
         0 => Completion::Complete,

@@ -16,6 +16,8 @@ mod page;
 mod people;
 mod recipes;
 mod resuming;
+#[cfg(unix)]
+mod runner_commands;
 mod score_files;
 mod shards;
 mod similarity;

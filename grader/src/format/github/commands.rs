@@ -1,9 +1,9 @@
-//! Formats and disables workflow commands: lines of the log that the runner executes
+//! Formats workflow commands: lines of the log that the runner executes
 //! (<https://docs.github.com/en/actions/reference/workflows-and-actions/workflow-commands>).
 
-use std::fmt::Write;
-
 use judging::sanitize::sanitize;
+
+use crate::printing::without_commands;
 
 /// Returns a command with properties. Everything is sanitized and escaped, so that no text can start
 /// another command.
@@ -20,7 +20,7 @@ pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> Stri
 }
 
 fn escape_message(text: &str) -> String {
-    sanitize(text, usize::MAX)
+    without_commands(&sanitize(text, usize::MAX))
         .replace('%', "%25")
         .replace('\r', "%0D")
         .replace('\n', "%0A")
@@ -28,23 +28,6 @@ fn escape_message(text: &str) -> String {
 
 fn escape_property(text: &str) -> String {
     escape_message(text).replace(':', "%3A").replace(',', "%2C")
-}
-
-/// Wraps a text so that the runner ignores all commands in it. The text must not contain `token`,
-/// which marks the end.
-pub fn with_commands_stopped(text: &str, token: &str) -> String {
-    format!("::stop-commands::{token}\n{text}\n::{token}::\n")
-}
-
-/// Returns a token that a submission cannot guess.
-pub fn random_token() -> Result<String, getrandom::Error> {
-    let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes)?;
-    let mut token = String::new();
-    for byte in bytes {
-        write!(token, "{byte:02x}").expect("writing to a string cannot fail");
-    }
-    Ok(token)
 }
 
 #[cfg(test)]
@@ -57,20 +40,8 @@ mod tests {
         let line = command("error", &file, "100%\r\n::set-output name=x::y");
         assert_eq!(
             line,
-            "::error file=a%2Cb%3Ac.rs::100%25\\r%0A::set-output name=x::y\n"
+            "::error file=a%2Cb%3Ac.rs::100%25\\r%0A:\\:set-output name=x::y\n"
         );
         assert_eq!(line.lines().count(), 1);
-    }
-
-    #[test]
-    fn tokens_are_long_and_differ() {
-        let (one, other) = (random_token().unwrap(), random_token().unwrap());
-        assert!(one.len() == 32 && one != other);
-    }
-
-    #[test]
-    fn commands_are_stopped_around_a_text() {
-        let text = with_commands_stopped("::error::mine", "token");
-        assert_eq!(text, "::stop-commands::token\n::error::mine\n::token::\n");
     }
 }

@@ -1,13 +1,11 @@
-//! GitHub Actions: a summary on the page of the run, annotations on the student's lines, and a log
-//! in which a submission's output cannot be mistaken for a command.
+//! GitHub Actions: a summary on the page of the run, and annotations on the student's
+//! lines.
 
 mod annotations;
 mod commands;
 mod summary;
 
 use crate::format::FormatSpec;
-
-pub use commands::{random_token, with_commands_stopped};
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {

@@ -34,25 +34,10 @@ fn assert_snapshots(case: &str, submission: &Submission, arguments: &[&str]) {
     });
 }
 
-/// Returns the lines of a log in which the runner looks for commands: those outside the sections
-/// where commands are stopped.
+/// Returns the lines of a log that the runner executes.
 fn runner_commands(log: &str) -> String {
-    let mut stop_token: Option<&str> = None;
-    let mut commands = Vec::new();
-    for line in log.lines() {
-        match stop_token {
-            None => match line.strip_prefix("::stop-commands::") {
-                Some(token) => stop_token = Some(token),
-                None => commands.push(line),
-            },
-            Some(token) if line == format!("::{token}::") => stop_token = None,
-            Some(_) => {}
-        }
-    }
-    assert_eq!(
-        stop_token, None,
-        "commands must be enabled again at the end"
-    );
+    let lines = log.lines();
+    let commands: Vec<&str> = lines.filter(|line| line.starts_with("::")).collect();
     commands.join("\n")
 }
 
@@ -86,10 +71,4 @@ fn renders_an_endless_loop() {
 #[test]
 fn renders_hostile_text_harmlessly() {
     assert_snapshots("forging", &hostile_submission(), &[]);
-}
-
-#[test]
-fn ignores_lines_while_commands_are_stopped() {
-    let log = "::stop-commands::t\n::error::x\n::u::\n::t::\n::error::ours";
-    assert_eq!(runner_commands(log), "::error::ours");
 }

@@ -10,3 +10,4 @@ mod harness;
 mod hostile;
 mod pictures;
 mod questions;
+mod runner_commands;

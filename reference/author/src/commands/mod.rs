@@ -13,6 +13,7 @@ use std::path::Path;
 use std::slice;
 
 use grader::handed_out::{HandedOut, RAYS};
+use grader::printing::print_error_line;
 
 use crate::cli::{Command, RecordArgs};
 use crate::coverage::coverage;
@@ -90,7 +91,7 @@ fn solutions() -> Result<Solutions, SolutionsError> {
 /// Prints the problems and the summary line. Fails if there are problems.
 fn report(problems: &[String], line: &str) -> CommandResult {
     for problem in problems {
-        eprintln!("{problem}");
+        print_error_line(problem);
     }
     println!("{line}");
     match problems.len() {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use grader::printing::print_error_line;
 use judging::exam::Exam;
 
 use super::{CommandResult, HANDED_OUT, generate, record_result, report, solutions, written};
@@ -75,7 +76,7 @@ pub(super) fn prove(args: ProveArgs) -> CommandResult {
     let summary = proof::prove::prove(&selected, args.seeds, args.mistakes)?;
     record_result(args.record, "prove", &seeds, &summary.summary_line())?;
     for note in summary.notes() {
-        eprintln!("{note}");
+        print_error_line(note);
     }
     report(&summary.problems(), &summary.summary_line())
 }

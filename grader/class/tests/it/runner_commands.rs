@@ -1,0 +1,72 @@
+//! A CI system executes commands in a log. Nothing that a student chooses may become one.
+
+use std::io::{Cursor, Write};
+use std::process::{Command, Output};
+
+use grader::printing::without_commands;
+use zip::ZipWriter;
+
+use crate::harness::{TestClass, class_command};
+
+/// A command of each kind. It is also a name of a file.
+const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
+
+/// Panics if a command prints none of the names, or prints one as a command.
+fn check(command: &mut Command) {
+    let Output { stdout, stderr, .. } = command.env("GITHUB_ACTIONS", "true").output().unwrap();
+    let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());
+    let text = text.join("\n");
+    assert_eq!(without_commands(&text), text, "{command:?}");
+    assert!(text.contains("set-env"), "{command:?}: {text}");
+}
+
+#[test]
+fn nothing_of_a_class_is_a_command_in_a_log() {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default();
+    archive
+        .start_file(format!("../{COMMANDS}"), options)
+        .unwrap();
+    archive.write_all(b"x").unwrap();
+    let hit = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
+    let class = TestClass::named(COMMANDS)
+        .with("mallory.zip", archive.finish().unwrap().into_inner())
+        .with(COMMANDS, "")
+        .with_reference(&format!("{COMMANDS} folder"))
+        .with_reference("ann")
+        .with_replaced(
+            "ann/sphere.rs",
+            hit,
+            &format!("{hit} panic!(\"{COMMANDS}\");"),
+        )
+        .with("ann/camera.rs", format!("compile_error!(\"{COMMANDS}\");"))
+        .with_folder("bob");
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    let rows = format!("ann,{COMMANDS}\n{COMMANDS},{COMMANDS}\n");
+    let roster = class.write_beside("roster.csv", &format!("username,name\n{rows}"));
+    let extensions = format!("[late.extensions]\n{COMMANDS:?} = 2\n");
+    let policy = class.write_beside("policy.toml", &extensions);
+    let lists = ["--roster", &*roster, "--policy", &*policy];
+
+    check(
+        class_command()
+            .arg(class.input())
+            .arg("--dry-run")
+            .args(lists),
+    );
+    check(&mut class.command(&exam, &lists));
+    check(&mut class.command(&exam, &[&lists[..], &["--regrade"]].concat()));
+    let mut merge = class_command();
+    merge.arg("merge").arg(class.out()).args(lists);
+    check(merge.arg("--out").arg(class.path_beside(COMMANDS)));
+    check(&mut class.command(COMMANDS, &[]));
+    for arguments in [
+        ["--roster", COMMANDS],
+        ["--manual-points", COMMANDS],
+        ["--canvas", COMMANDS],
+        ["--policy", COMMANDS],
+        ["--shard", COMMANDS],
+    ] {
+        check(&mut class.command(&exam, &arguments));
+    }
+}

@@ -1,0 +1,136 @@
+//! A CI system executes commands in a log. Nothing that a student chooses may become one.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+use std::process::{Command, Output};
+use std::{fs, str};
+
+use grader::printing::without_commands;
+use zip::ZipWriter;
+
+use crate::harness::{Submission, grader, workspace};
+use crate::watch::WatchProcess;
+
+/// A command of each kind. It is also a name of a file.
+const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
+
+/// Returns what a command prints on a CI system. Panics if the text is not printed, or as a command.
+/// A line that begins with `own` is the grader's.
+fn checked_output(command: &mut Command, own: &str) -> String {
+    let Output { stdout, stderr, .. } = command.env("GITHUB_ACTIONS", "true").output().unwrap();
+    let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());
+    let text = text.join("\n");
+    for line in text.split(['\n', '\r']) {
+        let others = line.strip_prefix(own).unwrap_or(line);
+        assert_eq!(without_commands(others), others, "{command:?}: {text}");
+    }
+    assert!(text.contains("set-env"), "{command:?}: {text}");
+    text
+}
+
+/// Returns a submission that has commands wherever it can.
+fn hostile_submission() -> Submission {
+    let printed = format!("\\n{COMMANDS}\\n  {COMMANDS}\\r{COMMANDS}\\u{{1b}}[1m{COMMANDS}");
+    let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
+    let attack = format!("{head} println!(\"{printed}\"); panic!(\"{printed}\");");
+    Submission::reference(COMMANDS)
+        .with_replaced("sphere.rs", head, &attack)
+        .with("camera.rs", format!("compile_error!(\"{COMMANDS}\");"))
+        .with(&format!("{COMMANDS}.rs"), "")
+}
+
+#[test]
+fn nothing_of_a_submission_is_a_command_in_a_log() {
+    let submission = hostile_submission();
+    let folder = submission.path().parent().unwrap().to_owned();
+    let run = |arguments: &[&str], own| {
+        let mut command = grader();
+        command.current_dir(&folder).arg(COMMANDS);
+        command.args(["--no-reference", "--isolation", "none"]);
+        checked_output(command.args(arguments), own)
+    };
+    let log = run(&["--format", "github", "--out", "out"], "::error ");
+    let annotations = log.lines().filter(|line| line.starts_with("::error "));
+    assert!(annotations.count() >= 2, "{log}");
+    // The earlier report.
+    run(&["--out", "graded"], "");
+    run(&["--out", "graded"], "");
+    run(&["--replay", "sphere.from_inside#1"], "");
+
+    let mut handin = Command::new(env!("CARGO_BIN_EXE_handin"));
+    handin.current_dir(workspace()).arg(submission.path());
+    checked_output(handin.arg("--out").arg(folder.join("a.zip")), "");
+
+    let report = WatchProcess::start(&submission).report();
+    assert_eq!(without_commands(&report), report);
+    assert!(report.contains("set-env"), "{report}");
+}
+
+#[test]
+fn no_name_in_an_error_is_a_command_in_a_log() {
+    let submission = Submission::reference("alice");
+    let file = |name: &str, bytes: &[u8]| {
+        fs::write(submission.path().join(name), bytes).unwrap();
+    };
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default();
+    let member = format!("../{COMMANDS}");
+    archive.start_file(member, options).unwrap();
+    archive.write_all(b"x").unwrap();
+    file("a.zip", &archive.finish().unwrap().into_inner());
+    file("policy.toml", format!("{COMMANDS:?} = 1").as_bytes());
+    file("exam.json", format!("{{{COMMANDS:?}: 1}}").as_bytes());
+    for arguments in [
+        &["a.zip"][..],
+        &[COMMANDS],
+        &[".", "--policy", "policy.toml"],
+        &[".", "--policy", COMMANDS],
+        &[".", "--exam", "exam.json"],
+        &[".", "--exam", COMMANDS],
+        &[".", "--task", COMMANDS],
+        &[".", "--replay", COMMANDS],
+        &[".", "--format", COMMANDS],
+        &[".", "--watch", COMMANDS],
+        &["--reset", COMMANDS],
+        &["--doctor", "--package", COMMANDS],
+    ] {
+        let mut command = grader();
+        let command = command.current_dir(submission.path());
+        checked_output(command.args(arguments), "");
+    }
+}
+
+/// Names the sources that may print, because they print no text of students.
+const OTHER_PRINTERS: [&str; 2] = ["grader/src/printing.rs", "grader/src/sandbox"];
+
+#[test]
+fn all_programs_print_in_one_place() {
+    let mut found = Vec::new();
+    let mut paths = [
+        "grader/src",
+        "grader/class/src",
+        "grader/view/src",
+        "grader/judging/src",
+    ]
+    .map(|path| workspace().join(path))
+    .to_vec();
+    while let Some(path) = paths.pop() {
+        let is_other = |other: &&str| path.ends_with(Path::new(other));
+        if OTHER_PRINTERS.iter().any(|other| is_other(&other)) {
+            continue;
+        }
+        if path.is_dir() {
+            let entries = fs::read_dir(path).unwrap();
+            paths.extend(entries.map(|entry| entry.unwrap().path()));
+        } else if let Ok(source) = str::from_utf8(&fs::read(&path).unwrap()) {
+            let prints = ["print!(", "println!(", "dbg!(", ".exit()"];
+            found.extend(
+                prints
+                    .iter()
+                    .any(|call| source.contains(call))
+                    .then_some(path),
+            );
+        }
+    }
+    assert_eq!(found, [""; 0].map(Path::new), "use grader::printing");
+}

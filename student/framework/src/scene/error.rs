@@ -153,20 +153,28 @@ impl TextPosition {
     }
 }
 
-/// Reads a text file, without the byte order mark that some editors put at its start.
+/// Reads a text file.
 #[cfg(feature = "cli")]
 pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
-    let failed = |kind| SceneError::new(None, kind).in_file(path);
-    let bytes = std::fs::read(path).map_err(|error| failed(SceneErrorKind::Unreadable(error)))?;
-    if let Some(text) = utf_16(&bytes) {
-        return Ok(text);
-    }
-    let text = String::from_utf8(bytes)
-        .map_err(|error| failed(SceneErrorKind::NotUtf8(error.utf8_error().valid_up_to())))?;
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(text) => text.to_owned(),
-        None => text,
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
+        let kind = SceneErrorKind::NotUtf8(error.utf8_error().valid_up_to());
+        SceneError::new(None, kind).in_file(path)
     })
+}
+
+/// Reads a text file that may have bytes that are not UTF-8, without the byte order mark that some
+/// editors put at its start.
+#[cfg(feature = "cli")]
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
+    let unreadable = |error| SceneError::new(None, SceneErrorKind::Unreadable(error)).in_file(path);
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    Ok(
+        match (utf_16(&bytes), bytes.strip_prefix("\u{feff}".as_bytes())) {
+            (Some(text), _) => text.into_bytes(),
+            (None, Some(rest)) => rest.to_owned(),
+            (None, None) => bytes,
+        },
+    )
 }
 
 /// Decodes a text that begins with a byte order mark of UTF-16, as PowerShell writes.

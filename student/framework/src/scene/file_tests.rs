@@ -76,6 +76,15 @@ fn a_mesh_is_scaled_rotated_and_translated() {
 }
 
 #[test]
+fn names_in_a_mesh_can_have_any_encoding() {
+    let folder = Folder::new("latin-1");
+    let mesh = [b"o Kugelfl\xe4che\n# \xfc\n", SQUARE.as_bytes()].concat();
+    folder.write("a.obj", mesh);
+    let scene = Scene::load(&folder.write("s.json", scene_with("")));
+    assert_eq!(scene.expect("the scene is valid").shapes.len(), 2);
+}
+
+#[test]
 fn a_subdivided_mesh_has_four_times_the_triangles_and_smooth_normals() {
     let folder = Folder::new("subdivided");
     let tetrahedron =

@@ -90,7 +90,7 @@ mod tests {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
             let mut result = result(id, &["Ann"], outcome.clone());
             result.info.submitted = time.map(str::to_owned);
-            ClassRow::new(result, policy, vec![Vec::new()])
+            ClassRow::new(result, policy, vec![Vec::new()], 100)
         };
         submissions.iter().map(row).collect()
     }

@@ -9,6 +9,7 @@ use grader::probe::Budget;
 use grader::sandbox::Isolation;
 use grader::select_isolation::IsolationRequest;
 
+use crate::list_kind::ListKind;
 use crate::shard::Shard;
 
 /// Grades a class: a learning platform's export, or a folder with a folder or archive per student.
@@ -145,6 +146,10 @@ pub struct Lists {
     /// Grades downloaded from Gradescope; the points are written to a copy
     #[arg(long, value_name = "CSV")]
     pub gradescope: Option<PathBuf>,
+
+    /// Drop a list that an earlier run was given; otherwise, a list that is left out counts as before
+    #[arg(long, value_name = "LIST")]
+    pub drop_list: Vec<ListKind>,
 }
 
 /// The arguments of `cargo class merge`.

@@ -5,7 +5,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::outcome::{EntryResult, ItemScore, ScoreSummary};
+use crate::final_grades::GradeChanges;
+use crate::outcome::{EntryResult, ItemScore, ScoreSummary, id_and_names};
 use crate::store::{Store, StoreError};
 
 /// The differences from earlier runs.
@@ -17,6 +18,8 @@ pub struct Changes {
     pub resubmitted: Vec<Drift>,
     /// The entries that are no longer in the input.
     pub removed: Vec<RemovedEntry>,
+    /// The final grades that changed; `None` if there are none to compare with.
+    pub grades: Option<GradeChanges>,
 }
 
 /// The changes of a regrade.
@@ -41,10 +44,7 @@ pub struct RemovedEntry {
 
 impl fmt::Display for RemovedEntry {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&self.id)?;
-        if self.names != self.id {
-            write!(f, " ({})", self.names)?;
-        }
+        f.write_str(&id_and_names(&self.id, &self.names))?;
         match self.points {
             Some(points) => write!(f, ": {points} points"),
             None => f.write_str(": no score"),
@@ -91,6 +91,13 @@ pub struct Drift {
     pub now: Option<u32>,
     /// The items whose points changed.
     pub items: Vec<ItemChange>,
+}
+
+impl Drift {
+    /// Returns whether the total points changed, and not only the items that they are for.
+    pub fn changes_points(&self) -> bool {
+        self.now != Some(self.was)
+    }
 }
 
 /// A change in the points of an item.

@@ -8,6 +8,7 @@ use grader::select_isolation::IsolationError;
 
 use crate::hand_back::HandBackError;
 use crate::input_error::ClassInputError;
+use crate::list_memory::ListMemoryError;
 use crate::manual::ManualPointsError;
 use crate::shard::Shard;
 use crate::similarity::SimilarityError;
@@ -23,6 +24,9 @@ pub enum Error {
     /// The roster or a gradebook cannot be used.
     #[error(transparent)]
     List(#[from] TableError),
+    /// A list cannot be read, or the one of an earlier run cannot be used.
+    #[error(transparent)]
+    ListMemory(#[from] ListMemoryError),
     /// The points by hand cannot be used.
     #[error(transparent)]
     ManualPoints(#[from] ManualPointsError),
@@ -110,17 +114,6 @@ pub enum Error {
         join_shards(.0)
     )]
     MissingShards(Vec<Shard>),
-    /// Two shards were graded with different policies.
-    #[error(
-        "{} and {} were graded with different policies: choose one with --policy",
-        one.display(), other.display()
-    )]
-    DifferentPolicies {
-        /// The output folder of one shard.
-        one: PathBuf,
-        /// The output folder of the other shard.
-        other: PathBuf,
-    },
     /// Two shards are parts of different lists of submissions.
     #[error(
         "{} and {} cannot be merged, or somebody could be missing: submissions were added or removed \
@@ -166,6 +159,7 @@ impl Error {
             Error::Input(_)
             | Error::List(_)
             | Error::ManualPoints(_)
+            | Error::ListMemory(_)
             | Error::Similarity(SimilarityError::NotEmpty(_) | SimilarityError::Overlap { .. })
             | Error::Policy(_)
             | Error::SettingsChanged { .. }
@@ -176,7 +170,6 @@ impl Error {
             | Error::UnfinishedShard(_)
             | Error::IncompatibleShards { .. }
             | Error::MissingShards(_)
-            | Error::DifferentPolicies { .. }
             | Error::DifferentClasses { .. }
             | Error::DuplicateEntry { .. }
             | Error::MergeIntoShard { .. } => 2,

@@ -12,8 +12,8 @@ use std::io::{self, Cursor, Write};
 use grader::report::html::with_counted;
 use judging::sanitize::safe_folder_name;
 use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
 
+use crate::archive;
 use crate::entry::{Person, WHO};
 use crate::model::{ClassRow, GradedClass, PersonGrade};
 use crate::store::{Store, StoreError};
@@ -45,13 +45,16 @@ pub enum HandBackError {
     Archive(#[from] io::Error),
 }
 
-/// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left out.
+/// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left
+/// out.
 pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, HandBackError> {
     let mut files = Files::new();
     let mut left_out = Vec::new();
     for row in &class.rows {
         let id = &row.result.id;
-        let ready = |(_, grade): &(&Person, &PersonGrade)| grade.counted.is_some();
+        // Without a score, there is no page.
+        let has_page = row.result.score().is_some();
+        let ready = |(_, grade): &(&Person, &PersonGrade)| has_page && grade.counted.is_some();
         let (ready, others): (Vec<_>, Vec<_>) = row.people().partition(ready);
         for (person, grade) in others {
             let (name, status) = (person.display_name(), row.status(grade));
@@ -133,9 +136,7 @@ impl Files {
         let mut names = std::iter::once(name.to_owned()).chain(numbered);
         let free = names.find(|name| self.used.insert(name.to_lowercase()));
         let free = free.expect("there are enough numbers");
-        // Without a time, the archive depends only on the pages.
-        let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
-        self.writer.start_file(free, options)?;
+        self.writer.start_file(free, archive::options())?;
         self.writer.write_all(bytes)
     }
 

@@ -11,9 +11,10 @@
 //! | commands | [`grade`], [`merge`]; [`output`] |
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
-//! | results | [`drift`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`shard`], [`paths`] |
+//! | results | [`drift`], [`final_grades`], [`list_memory`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`list_kind`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`shard`], [`paths`], [`archive`] |
 
+pub mod archive;
 pub mod attempts;
 pub mod cli;
 pub mod distribution;
@@ -22,6 +23,7 @@ pub mod entry;
 pub mod entry_grader;
 pub mod error;
 pub mod estimate;
+pub mod final_grades;
 pub mod grade;
 pub mod gradebook;
 pub mod groups;
@@ -31,6 +33,8 @@ pub mod input;
 pub mod input_error;
 pub mod late;
 pub mod layout;
+pub mod list_kind;
+pub mod list_memory;
 pub mod listing;
 pub mod lists;
 pub mod manual;

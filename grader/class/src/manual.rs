@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::entry::Person;
 use crate::identity::person_ids;
-use crate::outcome::ScoreSummary;
+use crate::outcome::EntryOutcome;
 use crate::table::{Table, TableError};
 
 /// The columns of the file.
@@ -130,21 +130,31 @@ impl ManualPointsList {
         own.cloned().collect()
     }
 
-    /// Checks that no task gets more points than it has, or fewer than 0.
+    /// Checks that no task gets more points than it has, or fewer than 0. `tasks` has the maximum of
+    /// each task in the exam. If the grader or the machine failed, what was earned is not known yet.
     pub fn check_range(
         &self,
         points: &[ManualPoints],
-        score: &ScoreSummary,
+        outcome: &EntryOutcome,
+        tasks: &BTreeMap<String, u32>,
     ) -> Result<(), ManualPointsError> {
         for ManualPoints {
             row, task, delta, ..
         } in points
         {
-            let Some(graded) = score.tasks.iter().find(|graded| graded.id == *task) else {
+            let known = match outcome {
+                EntryOutcome::Graded(score) => score
+                    .tasks
+                    .iter()
+                    .find(|graded| graded.id == *task)
+                    .map(|graded| (graded.points, graded.max_points)),
+                EntryOutcome::NothingToGrade(_) => tasks.get(task).map(|most| (0, *most)),
+                EntryOutcome::Fault(_) => continue,
+            };
+            let Some((earned, most)) = known else {
                 let problem = format!("the exam has no items of the task {task}: remove the row");
                 return Err(self.error(*row, problem));
             };
-            let (earned, most) = (graded.points, graded.max_points);
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
                 let problem = format!(
@@ -338,7 +348,7 @@ mod tests {
             let list = read(&[&format!("Kim,Ann,{task},,{delta}")]).unwrap();
             let result = result("a", &["Ann"], graded(80));
             let own = list.of(&result.info.people[0]);
-            let checked = list.check_range(&own, result.score().unwrap());
+            let checked = list.check_range(&own, &result.outcome, &BTreeMap::new());
             checked.map_err(|error| without_folder(&error))
         };
         for delta in [20, -80, 0] {

@@ -150,6 +150,15 @@ impl EntryResult {
     }
 }
 
+/// Returns the id of an entry and, if they are others, the names of its people.
+pub fn id_and_names(id: &str, names: &str) -> String {
+    if names == id {
+        id.to_owned()
+    } else {
+        format!("{id} ({names})")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,10 +5,12 @@ use grader::printing::{print, print_line};
 use crate::cli::Lists;
 use crate::drift::Changes;
 use crate::error::Error;
+use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::hand_back::{ARCHIVE, hand_back};
 use crate::model::GradedClass;
 use crate::report::{grades, page, text};
+use crate::run::Run;
 use crate::store::{Store, json};
 use crate::summary::ClassSummary;
 use crate::table::TableError;
@@ -18,8 +20,16 @@ pub fn write_results(
     class: &GradedClass,
     store: &Store,
     lists: &Lists,
-    changes: &Changes,
+    run: &Run,
+    changes: Changes,
 ) -> Result<(), Error> {
+    // Written first: a run that is killed later is repeated, and lists the same changes again.
+    let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
+    store.write(final_grades::FILE, json(&history))?;
+    let changes = &Changes {
+        grades: history.changes(),
+        ..changes
+    };
     let summary = ClassSummary::new(class);
     for row in &class.rows {
         let id = &row.result.id;
@@ -38,6 +48,8 @@ pub fn write_results(
         print(text::render_regrade(regrade));
     }
     print(text::render_resubmitted(&changes.resubmitted));
+    let grades = changes.grades.iter().map(text::render_grade_changes);
+    print(grades.collect::<String>());
     print(text::render_removed(&changes.removed));
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.

@@ -1,10 +1,12 @@
 //! The settings that all scores in an output folder depend on. They are stored with the scores, so
 //! that scores from different settings are never mixed.
 
+use std::collections::BTreeMap;
 use std::ops::Not;
 
 use serde::{Deserialize, Serialize};
 
+use crate::list_kind::KeptLists;
 use crate::shard::Shard;
 
 /// The contents of `run.json`.
@@ -25,9 +27,12 @@ pub struct Run {
     /// The part of the class that is graded; `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
-    /// The text of the policy file; `None` for the default policy.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub policy: Option<String>,
+    /// The policy, the roster and the other lists. The folder has copies of them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub lists: KeptLists,
+    /// The maximum points of each task of the exam.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub tasks: BTreeMap<String, u32>,
     /// The ids of the entries. The folder may have others, of students who are no longer in the
     /// input.
     #[serde(default)]
@@ -73,7 +78,8 @@ impl Run {
             was_finished: false,
             must_save_previous: false,
             shard: None,
-            policy: None,
+            lists: KeptLists::new(),
+            tasks: BTreeMap::new(),
             entries: Vec::new(),
             class: String::new(),
             settings,
@@ -97,7 +103,8 @@ impl Run {
             was_finished: false,
             must_save_previous,
             shard: None,
-            policy: None,
+            lists: KeptLists::new(),
+            tasks: BTreeMap::new(),
             entries: Vec::new(),
             class: String::new(),
             settings,

@@ -1,7 +1,9 @@
 //! The seam between a class and the processes that grade a submission. A class needs nothing else of
 //! the grader than this trait, so that its handling of results can be tested without compiling.
 
+use std::collections::BTreeMap;
 use std::env;
+use std::path;
 
 use grader::error::Error;
 use grader::files;
@@ -16,6 +18,7 @@ use grader::submission::Submission;
 use judging::content_hash::file_hash;
 
 use crate::run::Settings;
+use crate::store::SUBMISSION;
 
 /// Grades submissions, each with the same exam and the same options.
 pub trait SubmissionGrader: Sync {
@@ -27,6 +30,9 @@ pub trait SubmissionGrader: Sync {
 
     /// Returns everything that scores depend on, apart from the submissions.
     fn settings(&self) -> Result<Settings, Error>;
+
+    /// Returns the maximum points of each task of the exam, by its id.
+    fn task_points(&self) -> BTreeMap<String, u32>;
 
     /// Grades a submission, and writes its score and its page for staff. `show_status` is called with
     /// the progress. Returns the score, and the page that the student may see.
@@ -62,6 +68,14 @@ impl SubmissionGrader for Grader<'_> {
         })
     }
 
+    fn task_points(&self) -> BTreeMap<String, u32> {
+        let mut points = BTreeMap::new();
+        for item in &self.exam().items {
+            *points.entry(item.task.id().to_owned()).or_default() += item.points;
+        }
+        points
+    }
+
     fn grade(
         &self,
         submission: &Submission,
@@ -73,6 +87,10 @@ impl SubmissionGrader for Grader<'_> {
         let exam = self.exam();
         let count = exam.items.len();
         let mut score = self.pending_score(submission, &built);
+        // The input may be an archive that is unpacked for this run only, or loose files.
+        let archive = files.folder.join(SUBMISSION);
+        let archive = path::absolute(&archive).unwrap_or(archive);
+        score.rerun_command.submission = Some(archive);
         let mut done = 0;
         self.run_exam(exam, &built, &mut score, |score, answers| {
             done += 1;

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::distribution::Distribution;
 use crate::model::{ClassRow, GradeProblem, GradedClass};
-use crate::outcome::{EntryOutcome, ScoreSummary};
+use crate::outcome::{EntryOutcome, ScoreSummary, id_and_names};
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
@@ -100,15 +100,6 @@ impl Outlier {
     /// Returns the id and, if they are others, the names of the people.
     pub fn title(&self) -> String {
         id_and_names(&self.id, &self.names)
-    }
-}
-
-/// Returns the id of an entry and, if they are others, the names of its people.
-pub fn id_and_names(id: &str, names: &str) -> String {
-    if names == id {
-        id.to_owned()
-    } else {
-        format!("{id} ({names})")
     }
 }
 

@@ -102,6 +102,8 @@ impl EntryGrader<'_> {
         entry: &Entry,
         submission: &Submission,
     ) -> Result<ScoreSummary, String> {
+        let saved = self.store.save_submission(&entry.id, submission);
+        saved.map_err(|error| error.to_string())?;
         let mut files = ReportFiles::new(&self.store.entry_folder(&entry.id), Reload::Never);
         let show_status = |status: &str| self.progress.set_status(slot, &entry.id, status);
         let graded = self.grader.grade(submission, &mut files, &show_status);

@@ -1,5 +1,6 @@
 //! Tests of what is graded, what is taken from earlier runs, and what becomes of faults.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -35,6 +36,10 @@ impl SubmissionGrader for FailingGrader {
         Ok(run().settings)
     }
 
+    fn task_points(&self) -> BTreeMap<String, u32> {
+        BTreeMap::new()
+    }
+
     fn grade(
         &self,
         _: &Submission,
@@ -64,6 +69,10 @@ impl SubmissionGrader for WatchingGrader<'_> {
 
     fn settings(&self) -> Result<Settings, Error> {
         self.inner.settings()
+    }
+
+    fn task_points(&self) -> BTreeMap<String, u32> {
+        self.inner.task_points()
     }
 
     fn grade(

@@ -8,8 +8,7 @@ use std::time::{Duration, Instant};
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
 use grader::options::GradeOptions;
-use grader::policy::{Policy, PolicyError};
-use grader::printing::{print, print_error_line};
+use grader::printing::print;
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
@@ -22,6 +21,7 @@ use crate::estimate::Estimate;
 use crate::input::Input;
 use crate::late::warn_about_extensions;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
+use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
 use crate::manual::{ManualPointsError, ManualPointsList};
 use crate::model::{GradedClass, count_points};
@@ -52,17 +52,28 @@ pub fn grade_class(
     arguments: &ClassArguments,
     options: &GradeOptions,
 ) -> Result<Completion, Error> {
-    grade_class_with(arguments, options, |options| Ok(Grader::for_many(options)?))
+    let prepare: &PrepareGrader = &|options| Ok(Box::new(Grader::for_many(options)?));
+    grade_class_with(arguments, options, prepare)
 }
+
+/// A function that returns the grader with these options.
+pub type PrepareGrader<'p> =
+    dyn for<'a> Fn(&'a GradeOptions) -> Result<Box<dyn SubmissionGrader + 'a>, Error> + 'p;
 
 /// Like [`grade_class`], with the grader that `prepare` returns. It is called when the input and the
 /// lists have been read.
-pub fn grade_class_with<'a, G: SubmissionGrader>(
+pub fn grade_class_with(
     arguments: &ClassArguments,
-    options: &'a GradeOptions,
-    prepare: impl FnOnce(&'a GradeOptions) -> Result<G, Error>,
+    options: &GradeOptions,
+    prepare: &PrepareGrader,
 ) -> Result<Completion, Error> {
-    check_lists(&arguments.lists)?;
+    let used = choose_lists(arguments, options)?;
+    let given = &used.files.lists;
+    check_lists(given)?;
+    let options = &GradeOptions {
+        policy: used.files.policy.clone(),
+        ..options.clone()
+    };
     let workspace = Workspace::find().map_err(GraderError::from)?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
     if let Some(folder) = &arguments.similarity_input {
@@ -76,11 +87,11 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
         options.handed_out,
     )?;
     let mut recognised = input.class.clone();
-    let lists = resolve_lists(&input, &arguments.lists);
+    let lists = resolve_lists(&input, given);
     let entries = recognised.entries.iter_mut();
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
     let missing = lists::complete_entries(&lists, &mut infos)?;
-    let manual = read_manual_points(&arguments.lists, options)?;
+    let manual = read_manual_points(given, options)?;
     let entries = recognised.entries.iter();
     let people: Vec<&Person> = entries.flat_map(|entry| &entry.info.people).collect();
     manual.check_students(&people)?;
@@ -103,13 +114,10 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
     let settings = grader.settings()?;
-    let policy = policy_text(options.policy.as_deref())?;
-    if store.read_run()?.is_some_and(|run| run.policy != policy) {
-        print_error_line("the policy differs from the last run's, so final points may change");
-    }
     let run = Run {
         shard: arguments.shard,
-        policy,
+        lists: used.kept.clone(),
+        tasks: grader.task_points(),
         ..start_or_resume(&store, settings, arguments.regrade)?
     };
     store.remove_temporary_files()?;
@@ -130,15 +138,17 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
         class,
         ..run
     };
+    used.save(&store)?;
     store.write_run(&run)?;
+    used.remove_others(&store)?;
     let run = save_previous_scores(&store, run)?;
     let slots = slot_count(arguments.jobs);
     if arguments.estimate {
-        let estimate = estimate(&grader, &store, &run, entries, slots)?;
+        let estimate = estimate(grader.as_ref(), &store, &run, entries, slots)?;
         print(estimate.render());
         return Ok(Completion::Complete);
     }
-    let results = grade_entries(&grader, &store, &run, &entries, slots)?;
+    let results = grade_entries(grader.as_ref(), &store, &run, &entries, slots)?;
     let run = Run {
         finished: true,
         was_finished: true,
@@ -150,8 +160,9 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
         regrade: find_regrade_changes(&store, &run, &results)?,
         resubmitted: find_resubmitted(&store, &results)?,
         removed,
+        grades: None,
     };
-    let rows = count_points(results, grader.policy(), &manual)?;
+    let rows = count_points(results, grader.policy(), &manual, &run.tasks)?;
     let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
@@ -160,11 +171,29 @@ pub fn grade_class_with<'a, G: SubmissionGrader>(
         missing,
     };
     print(warnings);
-    write_results(&class, &store, &arguments.lists, &changes)?;
+    write_results(&class, &store, given, &run, changes)?;
     Ok(match class.fault_count() {
         0 => Completion::Complete,
         _ => Completion::Incomplete,
     })
+}
+
+/// Returns the lists on the command line and those that the output folder has from the last run.
+fn choose_lists(arguments: &ClassArguments, options: &GradeOptions) -> Result<UsedLists, Error> {
+    let store = arguments.out.as_deref().map(Store::new);
+    let run = store.as_ref().map(Store::read_run).transpose()?.flatten();
+    let kept = arguments.out.as_deref().zip(run.as_ref());
+    let kept = kept.map(|(folder, run)| KeptIn {
+        folder,
+        lists: &run.lists,
+    });
+    let given = ListFiles {
+        policy: options.policy.clone(),
+        lists: arguments.lists.clone(),
+    };
+    let used = UsedLists::choose(given, kept, &[])?;
+    used.print_notes();
+    Ok(used)
 }
 
 /// Reads the manual points, if a file is given.
@@ -190,12 +219,6 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
         roster,
         ..lists.clone()
     }
-}
-
-/// Returns the text of the policy file, or `None` if no file is given. The file has already been
-/// parsed successfully.
-fn policy_text(path: Option<&Path>) -> Result<Option<String>, PolicyError> {
-    path.map(Policy::read_text).transpose()
 }
 
 /// Returns the run to resume or to start. Scores that depend on other settings are never mixed with

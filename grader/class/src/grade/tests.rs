@@ -178,13 +178,6 @@ fn a_given_number_of_slots_counts_and_otherwise_there_is_at_least_one() {
 #[test]
 fn files_that_are_not_given_are_not_read() {
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(policy_text(None).unwrap(), None);
-    let policy = folder.path().join("policy.toml");
-    assert!(policy_text(Some(&policy)).is_err());
-    fs::write(&policy, "[points]\nout_of = 50\n").unwrap();
-    let text = policy_text(Some(&policy)).unwrap();
-    assert_eq!(text.as_deref(), Some("[points]\nout_of = 50\n"));
-
     let options = GradeOptions::default();
     let none = read_manual_points(&Lists::default(), &options).unwrap();
     assert_eq!(none, ManualPointsList::default());

@@ -30,7 +30,7 @@ fn class(people: &[(&str, Person)]) -> GradedClass {
                 tasks: Vec::new(),
             })),
         };
-        ClassRow::new(row, &Policy::default(), vec![Vec::new()])
+        ClassRow::new(row, &Policy::default(), vec![Vec::new()], 100)
     };
     GradedClass {
         exam: String::new(),

@@ -12,6 +12,7 @@ use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::grade::{Completion, read_manual_points};
 use crate::late::warn_about_extensions;
+use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
 use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
@@ -38,9 +39,13 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     if !missing.is_empty() {
         return Err(Error::MissingShards(missing));
     }
-    let policy = choose_policy(arguments, &shards)?;
-
     let out = Store::new(&arguments.out);
+    let used = choose_lists(arguments, &out, &shards)?;
+    let lists = &used.files.lists;
+    let policy = match &used.files.policy {
+        Some(path) => Policy::read(path)?,
+        None => Policy::default(),
+    };
     let mut sources: BTreeMap<String, &Path> = BTreeMap::new();
     for (path, run) in &shards {
         let shard = Store::new(path);
@@ -64,21 +69,24 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let run = &Run {
         shard: None,
         entries: sources.keys().cloned().collect(),
+        lists: used.kept.clone(),
         ..run.clone()
     };
+    used.save(&out)?;
     out.write_run(run)?;
+    used.remove_others(&out)?;
 
     let rows: Vec<EntryResult> = out.results()?;
     let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
     let mut rows: Vec<EntryResult> = rows.collect();
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
-    if arguments.lists.roster.is_some() {
+    if lists.roster.is_some() {
         infos
             .iter_mut()
             .for_each(|info| info.forget_groups_and_extensions());
     }
-    let missing = lists::complete_entries(&arguments.lists, &mut infos)?;
-    let manual = read_manual_points(&arguments.lists, &GradeOptions::default())?;
+    let missing = lists::complete_entries(lists, &mut infos)?;
+    let manual = read_manual_points(lists, &GradeOptions::default())?;
     let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
     manual.check_students(&people)?;
     let all: Vec<&Person> = people.into_iter().chain(&missing).collect();
@@ -95,15 +103,16 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
         regrade: None,
         resubmitted: find_resubmitted(&out, &rows)?,
         removed,
+        grades: None,
     };
     let class = GradedClass {
         exam: run.settings.exam.clone(),
         exam_hash: run.settings.exam_hash.clone(),
         isolation: run.settings.isolation.clone(),
-        rows: count_points(rows, &policy, &manual)?,
+        rows: count_points(rows, &policy, &manual, &run.tasks)?,
         missing,
     };
-    write_results(&class, &out, &arguments.lists, &changes)?;
+    write_results(&class, &out, lists, run, changes)?;
     Ok(match class.fault_count() {
         0 => Completion::Complete,
         _ => Completion::Incomplete,
@@ -128,22 +137,29 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     }
 }
 
-/// Returns the policy that the arguments select, or else the one that all shards were graded with.
-fn choose_policy(arguments: &MergeArguments, shards: &[(&PathBuf, Run)]) -> Result<Policy, Error> {
-    let (first, run) = &shards[0];
-    if let Some(path) = &arguments.policy {
-        return Ok(Policy::read(path)?);
-    }
-    if let Some((other, _)) = shards.iter().find(|(_, other)| other.policy != run.policy) {
-        return Err(Error::DifferentPolicies {
-            one: (*first).clone(),
-            other: (*other).clone(),
-        });
-    }
-    Ok(match &run.policy {
-        Some(text) => Policy::from_text(&first.join("run.json"), text)?,
-        None => Policy::default(),
-    })
+/// Returns the lists on the command line, those that were given to the last merge, and those that all
+/// shards were graded with.
+fn choose_lists(
+    arguments: &MergeArguments,
+    out: &Store,
+    shards: &[(&PathBuf, Run)],
+) -> Result<UsedLists, Error> {
+    let given = ListFiles {
+        policy: arguments.policy.clone(),
+        lists: arguments.lists.clone(),
+    };
+    let last = out.read_run()?;
+    let last = last.as_ref().map(|run| KeptIn {
+        folder: out.folder(),
+        lists: &run.lists,
+    });
+    let parts = shards.iter().map(|(folder, run)| KeptIn {
+        folder,
+        lists: &run.lists,
+    });
+    let used = UsedLists::choose(given, last, &parts.collect::<Vec<_>>())?;
+    used.print_notes();
+    Ok(used)
 }
 
 fn read_finished_run(path: &Path) -> Result<Run, Error> {

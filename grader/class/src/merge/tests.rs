@@ -5,6 +5,7 @@ use std::fs;
 use super::*;
 use crate::cli::Lists;
 use crate::entry::ListedTime;
+use crate::list_kind::ListKind;
 use crate::model::tests::{graded, result};
 use crate::outcome::EntryOutcome;
 use crate::store::tests::run;
@@ -49,6 +50,17 @@ impl Shards {
         let store = self.store(part);
         fs::create_dir_all(store.folder()).unwrap();
         store.write_run(&run).unwrap();
+    }
+
+    /// Writes the run of a shard that was given a list.
+    fn give(&self, part: usize, kind: ListKind, text: &str) {
+        let path = self.path("given");
+        fs::write(&path, text).unwrap();
+        let mut given = ListFiles::default();
+        given.set(kind, path);
+        let used = UsedLists::choose(given, None, &[]).unwrap();
+        used.save(&self.store(part)).unwrap();
+        self.write(part, |run| run.lists = used.kept.clone());
     }
 
     fn arguments(&self) -> MergeArguments {
@@ -136,7 +148,7 @@ fn shards_that_do_not_belong_together_are_refused() {
         refused(&|shards| shards.write(2, |run| run.finished = false)),
         refused(&|shards| shards.write(2, |run| run.class.push('x'))),
         refused(&|shards| shards.write(2, |run| run.settings.exam_hash.push('x'))),
-        refused(&|shards| shards.write(2, |run| run.policy = Some(String::new()))),
+        refused(&|shards| shards.give(2, ListKind::Policy, "")),
         refused(&|shards| shards.write(2, |run| run.shard = "1/2".parse().ok())),
         refused(&|shards| {
             shards.write(2, |run| run.entries.push("ann".to_owned()));
@@ -162,14 +174,17 @@ fn a_given_policy_counts_instead_of_those_of_the_shards() {
     let shards = Shards::new();
     let halved = "[points]\nout_of = 50\n".to_owned();
     for part in [1, 2] {
-        shards.write(part, |run| run.policy = Some(halved.clone()));
+        shards.give(part, ListKind::Policy, &halved);
     }
     let out_of = |arguments: &MergeArguments| {
         let runs = arguments.shards.iter();
         let runs: Vec<(&PathBuf, Run)> = runs
             .map(|path| (path, read_finished_run(path).unwrap()))
             .collect();
-        choose_policy(arguments, &runs).unwrap().points.out_of
+        let out = Store::new(&arguments.out);
+        let used = choose_lists(arguments, &out, &runs).unwrap();
+        let policy = Policy::read(&used.files.policy.unwrap()).unwrap();
+        policy.points.out_of
     };
     let mut arguments = shards.arguments();
     assert_eq!(out_of(&arguments), Some(50));
@@ -221,6 +236,40 @@ fn the_merged_class_may_not_be_in_a_shard() {
         let error = check(out).unwrap_err();
         assert!(matches!(error, Error::MergeIntoShard { .. }), "{error}");
     }
+}
+
+#[test]
+fn the_lists_of_the_shards_count_and_a_merge_has_those_that_it_was_given() {
+    let shards = Shards::new();
+    let text = |delta| format!("student,task,delta,comment,author\nann,sphere,{delta},,Lee\n");
+    let given = |delta| {
+        let path = shards.path("manual.csv");
+        fs::write(&path, text(delta)).unwrap();
+        let mut arguments = shards.arguments();
+        arguments.lists.manual_points = Some(path);
+        arguments
+    };
+    let points = |arguments: &MergeArguments| {
+        merge_shards(arguments).unwrap();
+        let grades = fs::read_to_string(shards.path("out/grades.csv")).unwrap();
+        let ann = grades.lines().find(|line| line.starts_with("ann,"));
+        ann.unwrap().split(',').nth(6).unwrap().to_owned()
+    };
+    shards.give(1, ListKind::ManualPoints, &text(5));
+    let error = shards.merge().unwrap_err().to_string();
+    assert!(error.contains("one with --manual-points"), "{error}");
+    shards.give(2, ListKind::ManualPoints, &text(5));
+    assert_eq!(points(&shards.arguments()), "85");
+    // The parts are graded with another list.
+    for part in [1, 2] {
+        shards.give(part, ListKind::ManualPoints, &text(6));
+    }
+    assert_eq!(points(&shards.arguments()), "86");
+    assert_eq!(points(&given(7)), "87");
+    assert_eq!(points(&shards.arguments()), "87");
+    let mut dropped = shards.arguments();
+    dropped.lists.drop_list = vec![ListKind::ManualPoints];
+    assert_eq!(points(&dropped), "80");
 }
 
 #[test]

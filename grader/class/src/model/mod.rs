@@ -1,5 +1,7 @@
 //! The data of a graded class, from which all files of the class are written.
 
+use std::collections::BTreeMap;
+
 use grader::policy::{CountedPoints, Policy};
 
 use crate::attempts::apply_rule;
@@ -83,15 +85,25 @@ impl GradedClass {
 
 impl ClassRow {
     /// Creates the row of a result, and applies the policy to its points. `manual` has the manual
-    /// points of each person.
-    pub fn new(result: EntryResult, policy: &Policy, manual: Vec<Vec<ManualPoints>>) -> Self {
+    /// points of each person, and `max_points` is the maximum of the exam.
+    pub fn new(
+        result: EntryResult,
+        policy: &Policy,
+        manual: Vec<Vec<ManualPoints>>,
+        max_points: u32,
+    ) -> Self {
         let grade = |(person, manual): (&Person, Vec<ManualPoints>)| {
             let sum = manual.iter().map(|points| points.delta).sum();
-            let counted = result.score().map(|score| {
+            let earned = match &result.outcome {
+                EntryOutcome::Graded(score) => Some((score.points, score.max_points)),
+                // Staff have looked at it, and their points count without any others.
+                EntryOutcome::NothingToGrade(_) if manual.iter().any(|own| own.delta != 0) => {
+                    Some((0, max_points))
+                }
+                EntryOutcome::NothingToGrade(_) | EntryOutcome::Fault(_) => None,
+            };
+            let counted = earned.map(|(points, max_points)| {
                 let lateness = lateness(policy, &result.info, person)?;
-                let ScoreSummary {
-                    points, max_points, ..
-                } = *score;
                 Ok(policy.counted_points_with(points, max_points, sum, lateness))
             });
             let (counted, problem) = match counted.transpose() {
@@ -132,9 +144,10 @@ impl ClassRow {
             let needs_words =
                 |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
             let counted = grade.counted.filter(needs_words);
+            let counted = counted.filter(|_| grade.problem.is_none());
             let counted = counted.map(|counted| counted.explanation());
             let manual = grade.manual.iter().map(ToString::to_string);
-            problem.or(counted).into_iter().chain(manual).collect()
+            problem.into_iter().chain(counted).chain(manual).collect()
         })
     }
 
@@ -171,15 +184,13 @@ impl ClassRow {
     pub fn status(&self, grade: &PersonGrade) -> &'static str {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => "graded",
-            (
-                EntryOutcome::Graded(_),
-                Some(GradeProblem::UnclearTime(UnclearTime::Unsubmitted(_))),
-            ) => "draft",
-            (EntryOutcome::Graded(_), Some(GradeProblem::UnclearTime(_))) => "time unclear",
+            (EntryOutcome::Fault(_), None | Some(GradeProblem::UnclearTime(_))) => "not graded",
+            (_, Some(GradeProblem::UnclearTime(UnclearTime::Unsubmitted(_)))) => "draft",
+            (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
             (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
-            (EntryOutcome::NothingToGrade(_), _) => "nothing to grade",
-            (EntryOutcome::Fault(_), _) => "not graded",
+            (EntryOutcome::NothingToGrade(_), None) if grade.counted.is_some() => "points by hand",
+            (EntryOutcome::NothingToGrade(_), None) => "nothing to grade",
         }
     }
 
@@ -189,6 +200,9 @@ impl ClassRow {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => String::new(),
             (EntryOutcome::Graded(_), Some(problem)) => problem.to_string(),
+            (EntryOutcome::NothingToGrade(_), Some(GradeProblem::UnclearTime(unclear))) => {
+                unclear.to_string()
+            }
             (EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why), _) => why.clone(),
         }
     }
@@ -221,20 +235,18 @@ pub fn count_points(
     results: Vec<EntryResult>,
     policy: &Policy,
     manual: &ManualPointsList,
+    tasks: &BTreeMap<String, u32>,
 ) -> Result<Vec<ClassRow>, ManualPointsError> {
     let mut rows = Vec::new();
     for result in results {
         let people = result.info.people.iter();
         let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
-        rows.push(ClassRow::new(result, policy, own));
+        rows.push(ClassRow::new(result, policy, own, tasks.values().sum()));
     }
     apply_rule(policy, &mut rows);
     for row in &rows {
-        let Some(score) = row.result.score() else {
-            continue;
-        };
         for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
-            manual.check_range(&grade.manual, score)?;
+            manual.check_range(&grade.manual, &row.result.outcome, tasks)?;
         }
     }
     Ok(rows)

@@ -1,5 +1,7 @@
 //! Tests of what counts for each person, and of the words for it.
 
+use std::collections::BTreeMap;
+
 use super::*;
 use crate::entry::EntryInfo;
 use crate::outcome::TaskScore;
@@ -59,7 +61,12 @@ fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> C
     let names: Vec<&str> = people.iter().map(|(name, _)| *name).collect();
     let by_hand = |deltas: &&[i32]| deltas.iter().copied().map(points_by_hand).collect();
     let manual = people.iter().map(|(_, deltas)| by_hand(deltas)).collect();
-    ClassRow::new(result("a", &names, outcome), &policy(policy_text), manual)
+    ClassRow::new(
+        result("a", &names, outcome),
+        &policy(policy_text),
+        manual,
+        100,
+    )
 }
 
 fn problems() -> [GradeProblem; 3] {
@@ -98,7 +105,7 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
     another attempt counts (the submission b of the same person coun)
     several attempts (b and c of the same person could count a)
     nothing to grade (the folder is empty)
-    nothing to grade (the folder is empty)
+    time unclear (the platform says that it is late, but a)
     another attempt counts (the folder is empty)
     several attempts (the folder is empty)
     not graded (the disk is full)
@@ -137,7 +144,7 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
 
     let mut late = result("a", &["Ann"], graded(80));
     late.info.late = true;
-    let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()]);
+    let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], 100);
     let texts = [
         "80 of 100 points count towards the grade: 80 of 100 points earned, handed in 1 day late, \
          which costs nothing.",
@@ -168,7 +175,12 @@ fn notes_give_the_reason_why_there_are_no_points() {
     let by_hand = "sphere: +1 point by Lee: nice";
     assert_eq!(
         notes(nothing()),
-        ["nothing to grade: the folder is empty", by_hand]
+        [
+            "points by hand: the folder is empty",
+            "1 of 100 points count towards the grade: 0 of 100 points earned, 1 point added by \
+             hand.",
+            by_hand
+        ]
     );
     assert_eq!(notes(fault()), ["not graded: the disk is full", by_hand]);
     let mut row = row(graded(80), "", &[("Ann", &[1])]);
@@ -238,7 +250,7 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
             people: result.info.people,
             ..info
         };
-        ClassRow::new(result, &policy(due), vec![Vec::new()])
+        ClassRow::new(result, &policy(due), vec![Vec::new()], 100)
             .grades
             .remove(0)
     };
@@ -274,7 +286,8 @@ fn points_by_hand_are_added_for_their_person_and_checked() {
             result("a", &["Ann", "Bob"], graded(80)),
             result("b", &["Bob B."], nothing()),
         ];
-        let rows = count_points(results, &Policy::default(), &manual)?;
+        let tasks = BTreeMap::from([("sphere".to_owned(), 20)]);
+        let rows = count_points(results, &Policy::default(), &manual, &tasks)?;
         let points = rows.iter().flat_map(|row| &row.grades);
         let points = points.map(|grade| grade.counted.map(|counted| counted.points));
         Ok::<_, ManualPointsError>(points.collect::<Vec<_>>())
@@ -294,12 +307,13 @@ fn points_by_hand_must_fit_the_attempt_that_counts() {
     let manual = ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap();
     let results =
         || [("a", 10), ("b", 80)].map(|(id, points)| result(id, &["Ann"], graded(points)));
-    let count = |text: &str| count_points(results().into(), &policy(text), &manual);
+    let tasks = BTreeMap::new();
+    let count = |text: &str| count_points(results().into(), &policy(text), &manual, &tasks);
     let rows = count("[attempts]\ncounts = 'best'").unwrap();
     let points = rows.iter().map(|row| row.grades[0].counted);
     let points: Vec<Option<u32>> = points.map(|counted| Some(counted?.points)).collect();
     assert_eq!(points, [None, Some(60)]);
     assert!(count("").is_ok(), "nobody has chosen yet");
-    let only = count_points(results()[..1].to_vec(), &Policy::default(), &manual);
+    let only = count_points(results()[..1].to_vec(), &Policy::default(), &manual, &tasks);
     assert!(only.is_err());
 }

@@ -8,6 +8,7 @@ use judging::sanitize::sanitize_line;
 
 use crate::distribution::Distribution;
 use crate::drift::{Drift, RegradeChanges, RemovedEntry};
+use crate::final_grades::GradeChanges;
 use crate::gradebook::FilledGradebook;
 use crate::hand_back::HandBack;
 use crate::summary::ClassSummary;
@@ -168,22 +169,57 @@ pub fn render_regrade(regrade: &RegradeChanges) -> String {
         [] => "no setting changed".to_owned(),
         causes => format!("changed settings: {}", causes.join(", ")),
     };
-    let count = match regrade.drifts.len() {
+    let drifts = with_changed_points(&regrade.drifts);
+    let count = match drifts.len() {
         0 => "no score changed".to_owned(),
         1 => "1 score changed".to_owned(),
         count => format!("{count} scores changed"),
     };
     let title = format!("regraded: {count}{STRONG:#} ({causes})");
-    render_drifts(&title, &regrade.drifts) + &more(&regrade.drifts, ", in drift.json")
+    let same = match regrade.drifts.len() - drifts.len() {
+        0 => String::new(),
+        count => format!("  {count} more with the same points for other items, in drift.json\n"),
+    };
+    render_drifts(&title, &drifts) + &more(&drifts, ", in drift.json") + &same
 }
 
 /// Renders the scores that changed because their submission did.
 pub fn render_resubmitted(drifts: &[Drift]) -> String {
+    let drifts = with_changed_points(drifts);
     if drifts.is_empty() {
         return String::new();
     }
     let title = format!("changed submissions{STRONG:#} (replaced.json has the earlier score)");
-    render_drifts(&title, drifts) + &more(drifts, "")
+    render_drifts(&title, &drifts) + &more(&drifts, "")
+}
+
+/// Renders the final grades that changed, with the causes.
+pub fn render_grade_changes(grades: &GradeChanges) -> String {
+    if grades.changes.is_empty() && grades.causes.is_empty() {
+        return String::new();
+    }
+    let causes = match grades.causes.as_slice() {
+        [] => String::new(),
+        causes => format!(" (changed: {})", causes.join(", ")),
+    };
+    let mut text = format!(
+        "\n{STRONG}  {}{STRONG:#}{causes}\n",
+        count_grades(grades.changes.len())
+    );
+    // A grade that changes unnoticed is found weeks later, so all of them are listed.
+    for change in &grades.changes {
+        text += &format!("  {}\n", one_line(&change.to_string()));
+    }
+    text
+}
+
+/// Returns a title that says how many final grades changed.
+pub fn count_grades(count: usize) -> String {
+    match count {
+        0 => "no final grade changed".to_owned(),
+        1 => "1 final grade changed".to_owned(),
+        count => format!("{count} final grades changed"),
+    }
 }
 
 /// Renders the entries that are no longer in the input.
@@ -200,7 +236,13 @@ pub fn render_removed(removed: &[RemovedEntry]) -> String {
     text
 }
 
-fn render_drifts(title: &str, drifts: &[Drift]) -> String {
+/// Returns the scores whose total changed.
+pub fn with_changed_points(drifts: &[Drift]) -> Vec<&Drift> {
+    let drifts = drifts.iter();
+    drifts.filter(|drift| drift.changes_points()).collect()
+}
+
+fn render_drifts(title: &str, drifts: &[&Drift]) -> String {
     let mut text = format!("\n{STRONG}  {title}\n");
     for drift in drifts.iter().take(MAX_LINES) {
         let now = drift
@@ -220,7 +262,7 @@ fn render_drifts(title: &str, drifts: &[Drift]) -> String {
     text
 }
 
-fn more(drifts: &[Drift], location: &str) -> String {
+fn more(drifts: &[&Drift], location: &str) -> String {
     match drifts.len().saturating_sub(MAX_LINES) {
         0 => String::new(),
         more => format!("  and {more} more{location}\n"),

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use grader::files::{self, PathError};
 use grader::report::atomic_write;
 use grader::report::html::write_counted;
+use grader::submission::Submission;
 use serde::de::DeserializeOwned;
 
+use crate::archive;
 use crate::entry::Entry;
 use crate::outcome::{EntryOutcome, EntryResult, EntryState, ScoreSummary, Stamp};
 use crate::run::Run;
@@ -17,6 +19,8 @@ use crate::run::Run;
 const SCORE: &str = "score.json";
 const REPORT: &str = "report.html";
 const FEEDBACK: &str = "feedback.html";
+/// The archive with the task files that were graded, which the report's commands name.
+pub const SUBMISSION: &str = "submission.zip";
 const STAMP: &str = "entry.json";
 const PREVIOUS: &str = "previous.json";
 const REPLACED: &str = "replaced.json";
@@ -88,7 +92,7 @@ impl Store {
 
     /// Reads `run.json`; returns `None` in a new folder.
     pub fn read_run(&self) -> Result<Option<Run>, StoreError> {
-        read_json(self.folder.join(RUN))
+        self.read(RUN)
     }
 
     /// Writes `run.json`.
@@ -96,8 +100,22 @@ impl Store {
         self.write(RUN, json(run))
     }
 
+    /// Reads a JSON file of the class; returns `None` if it does not exist.
+    pub fn read<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, StoreError> {
+        read_json(self.folder.join(name))
+    }
+
+    /// Returns the paths of the files in a folder in the output folder.
+    pub fn list(&self, name: &str) -> Result<Vec<PathBuf>, StoreError> {
+        Ok(list_if_exists(&self.folder.join(name))?)
+    }
+
     /// Writes a file of the class, such as `class.json`, into the output folder.
-    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), StoreError> {
+    pub fn write(
+        &self,
+        name: impl AsRef<Path>,
+        contents: impl AsRef<[u8]>,
+    ) -> Result<(), StoreError> {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
@@ -136,7 +154,7 @@ impl Store {
         if state != EntryState::Graded {
             // The files of an earlier run must not be mistaken for those of this run. Its stamp is
             // removed first: it must not be left without a score.
-            for file in [STAMP, SCORE, REPORT, FEEDBACK] {
+            for file in [STAMP, SCORE, REPORT, FEEDBACK, SUBMISSION] {
                 files::remove_if_exists(folder.join(file))?;
             }
         }
@@ -153,6 +171,14 @@ impl Store {
     pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), StoreError> {
         let path = self.entry_folder(id).join(FEEDBACK);
         Ok(atomic_write::write(page, &path)?)
+    }
+
+    /// Writes the task files that are graded.
+    pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), StoreError> {
+        let path = self.entry_folder(id).join(SUBMISSION);
+        let files = submission.files.iter();
+        let files = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
+        Ok(atomic_write::write(archive::pack(files), &path)?)
     }
 
     /// Reads the page that the student may see.

@@ -14,7 +14,13 @@ use crate::world::{Target, World};
 pub const EXPORT: [&str; 2] = ["--hand-back", "--canvas=ROOT/gradebook.csv"];
 /// The files that say what a folder has been through, which a new folder has not. They are compared
 /// with the model.
-const HISTORY: [&str; 4] = ["run.json", "drift.json", "previous.json", "replaced.json"];
+const HISTORY: [&str; 5] = [
+    "run.json",
+    "drift.json",
+    "final-grades.json",
+    "previous.json",
+    "replaced.json",
+];
 
 /// Everything that the files of a run in a new folder depend on.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,7 +28,7 @@ struct Class {
     submissions: Vec<(&'static str, Option<u32>)>,
     exam: usize,
     policy: usize,
-    is_exported: bool,
+    options: Vec<String>,
 }
 
 type Files = BTreeMap<PathBuf, Vec<u8>>;
@@ -33,7 +39,17 @@ pub struct FreshRuns(BTreeMap<Class, Files>);
 
 impl FreshRuns {
     /// Returns the files of a run in a new folder, of the class as it is now.
-    fn files(&mut self, world: &World, is_exported: bool) -> &Files {
+    fn files(&mut self, world: &World, observed: &Observed) -> &Files {
+        // A gradebook is also a list of those who should have submitted something.
+        let exported = observed
+            .list("canvas")
+            .map(|_| EXPORT)
+            .into_iter()
+            .flatten();
+        let exported = exported.map(str::to_owned);
+        let manual = observed.list("manual-points");
+        let manual = manual.map(|name| format!("--manual-points=ROOT/{name}"));
+        let options: Vec<String> = exported.chain(manual).collect();
         let submissions = world.submissions.iter();
         let class = Class {
             submissions: submissions
@@ -41,12 +57,11 @@ impl FreshRuns {
                 .collect(),
             exam: world.exam,
             policy: world.policy,
-            is_exported,
+            options: options.clone(),
         };
         self.0.entry(class).or_insert_with(|| {
-            // A gradebook is also a list of those who should have submitted something.
-            let more: &[&str] = if is_exported { &EXPORT } else { &[] };
-            let ended = world.grade(Target::Fresh, more, DiskFault::None, ProcessFault::None);
+            let more: Vec<&str> = options.iter().map(String::as_str).collect();
+            let ended = world.grade(Target::Fresh, &more, DiskFault::None, ProcessFault::None);
             ended.result.expect("nothing goes wrong");
             let files = all_files(&world.folder(Target::Fresh));
             world.remove(Target::Fresh);
@@ -54,24 +69,28 @@ impl FreshRuns {
         })
     }
 
-    /// Compares the files in a folder with those of a fresh run. `history` is what the folder
-    /// contains, and what the folders that were merged into it contain. `is_exported` says whether the
-    /// run was made with [`EXPORT`].
+    /// Compares the files in a folder with those of a fresh run that is given all the lists that the
+    /// folder has. `history` is what the folder contains, and then what the folders that were merged
+    /// into it contain. `is_handed_back` says whether the run was made with [`EXPORT`].
     pub fn compare(
         &mut self,
         world: &World,
         target: Target,
         history: &[&Observed],
-        is_exported: bool,
+        is_handed_back: bool,
     ) -> Result<(), String> {
         let found = all_files(&world.folder(target));
-        let expected = self.files(world, is_exported);
+        let expected = self.files(world, history[0]);
         for (name, expected) in expected {
             let last = name.file_name().unwrap_or_default().to_string_lossy();
             if HISTORY.contains(&&*last) {
                 continue;
             }
             if last == "class.html" && has_changes(world, history) {
+                continue;
+            }
+            // A list is remembered, and the archive to hand back is asked for each time.
+            if last == "hand-back.zip" && !is_handed_back {
                 continue;
             }
             let Some(found) = found.get(name) else {
@@ -107,6 +126,7 @@ fn lists_changes(world: &World, observed: &Observed) -> bool {
         .run
         .as_ref()
         .is_some_and(|run| !run["before"].is_null())
+        || observed.has_changed_grades
         || entries.clone().any(|(_, files)| files.replaced.is_some())
         || entries
             .into_iter()

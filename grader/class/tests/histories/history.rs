@@ -14,7 +14,7 @@ use crate::faulty_disk::{DiskFault, Operations};
 use crate::model::Model;
 use crate::observed::{Keys, ScoreId, all_files, observe};
 use crate::recorded_grader::{EXAMS, ProcessFault};
-use crate::world::{Ended, PARTS, POLICIES, STUDENTS, Target, World};
+use crate::world::{Ended, MANUAL_POINTS, PARTS, POLICIES, STUDENTS, Target, World};
 
 /// The largest number of steps.
 const MAX_STEPS: usize = 14;
@@ -81,6 +81,14 @@ impl History {
                 self.world.exam = self.rng.usize(0..EXAMS);
                 self.log
                     .push(format!("the exam is number {}", self.world.exam));
+                Ok(())
+            }
+            18 if self.rng.bool() => {
+                self.world.manual = self.rng.usize(0..MANUAL_POINTS.len());
+                self.log.push(format!(
+                    "the points by hand are number {}",
+                    self.world.manual
+                ));
                 Ok(())
             }
             18 => {
@@ -160,7 +168,7 @@ impl History {
         disk: DiskFault,
         process: ProcessFault,
     ) -> Result<(), String> {
-        let mut more: Vec<&str> = Vec::new();
+        let mut more = self.manual_option();
         if is_regrade {
             more.push("--regrade");
         }
@@ -182,6 +190,11 @@ impl History {
             Target::Part(_) | Target::Merged | Target::Fresh => true,
         };
         let is_possible = is_possible && self.world.is_class();
+        // The points by hand need their student.
+        let has_manual =
+            !self.manual_option().is_empty() || observed.list("manual-points").is_some();
+        let has_student = self.world.submissions.contains_key(STUDENTS[0]);
+        let is_possible = is_possible && (has_student || !has_manual);
         let ended = self.world.grade(target, &more, disk, process);
         self.log.push(format!(
             "grade {target:?} {more:?} with {disk:?} and {process:?}: {}",
@@ -204,7 +217,8 @@ impl History {
         let is_possible = self.can_merge();
         // The keys of merged entries are those of the parts.
         self.models.entry(Target::Merged).or_default().keys = self.keys();
-        let ended = self.world.merge(&EXPORT, disk);
+        let more = [self.manual_option(), EXPORT.to_vec()].concat();
+        let ended = self.world.merge(&more, disk);
         self.log
             .push(format!("merge with {disk:?}: {}", text(&ended)));
         let keys = &mut self.models.get_mut(&Target::Merged).unwrap().keys;
@@ -223,7 +237,7 @@ impl History {
         if is_complete && self.parts_are_current() {
             self.check_leftovers(Target::Merged)?;
             let parts = (1..=PARTS).map(|part| &self.models[&Target::Part(part)].observed);
-            let history: Vec<_> = parts.chain([&observed]).collect();
+            let history: Vec<_> = [&observed].into_iter().chain(parts).collect();
             self.fresh
                 .compare(&self.world, Target::Merged, &history, true)?;
         }
@@ -242,16 +256,50 @@ impl History {
         let runs: Option<Vec<Value>> = runs.collect();
         runs.is_some_and(|runs| {
             let same = |name: &str| runs.iter().all(|run| run[name] == runs[0][name]);
+            let hash = |run: &Value, kind: &str| run["lists"][kind]["hash"].clone();
+            let same_list = |kind: &str| {
+                runs.iter()
+                    .all(|run| hash(run, kind) == hash(&runs[0], kind))
+            };
             let finished = runs.iter().all(|run| run["finished"] == true);
-            finished && same("settings") && same("class") && same("policy")
+            let own = self.has_own_manual_points();
+            let has_manual = own || runs[0]["lists"]["manual-points"].is_object();
+            let mut ids = runs
+                .iter()
+                .flat_map(|run| run["entries"].as_array().unwrap());
+            let has_student = ids.any(|id| id == STUDENTS[0]);
+            finished
+                && same("settings")
+                && same("class")
+                && same_list("policy")
+                && (own || same_list("manual-points"))
+                && (has_student || !has_manual)
         })
+    }
+
+    /// Returns whether the points by hand are given to the next merge, or were to an earlier one.
+    fn has_own_manual_points(&self) -> bool {
+        let merged = self.models.get(&Target::Merged);
+        let run = merged.and_then(|model| model.observed.run.as_ref());
+        let list = run.map(|run| &run["lists"]["manual-points"]);
+        let is_own = |list: &Value| list.is_object() && list["is_of_parts"].is_null();
+        self.world.manual > 0 || list.is_some_and(is_own)
+    }
+
+    /// Returns the option for points by hand, if they are given.
+    fn manual_option(&self) -> Vec<&'static str> {
+        let option = MANUAL_POINTS[self.world.manual];
+        Some(option)
+            .filter(|option| !option.is_empty())
+            .into_iter()
+            .collect()
     }
 
     fn parts_are_current(&self) -> bool {
         let class = self.expected(Target::Whole);
         let policy = match self.world.policy {
-            0 => Value::Null,
-            number => POLICIES[number].into(),
+            0 => None,
+            number => Some(format!("policy-{number}.toml")),
         };
         let mut ids = BTreeSet::new();
         for part in 1..=PARTS {
@@ -264,7 +312,7 @@ impl History {
             for id in run["entries"].as_array().unwrap() {
                 let id = id.as_str().unwrap();
                 let score = observed.entries[id].graded();
-                if class.get(id) != Some(&score) || run["policy"] != policy {
+                if class.get(id) != Some(&score) || observed.list("policy") != policy.as_deref() {
                     return false;
                 }
                 ids.insert(id.to_owned());
@@ -301,6 +349,13 @@ impl History {
         let folder = self.world.folder(target);
         let model = self.models.entry(target).or_default();
         let observed = observe(&folder, &mut model.keys)?;
+        let lists = model.observed.run.as_ref().map(|run| run["lists"].clone());
+        for kind in ["manual-points", "canvas"] {
+            let had_it = lists.as_ref().is_some_and(|lists| lists[kind].is_object());
+            if had_it && observed.list(kind).is_none() {
+                return Err(format!("{target:?} has forgotten the list {kind}"));
+            }
+        }
         model.update(observed.clone())?;
         let is_complete = matches!(ended.result, Ok(Completion::Complete));
         let had_fault = ended.had_disk_fault || had_process_fault;
@@ -341,6 +396,11 @@ impl History {
             self.world.submit(STUDENTS[0], Some(self.next_version));
         }
         let none = (DiskFault::None, ProcessFault::None);
+        // Parts with different lists cannot be merged.
+        self.world.manual = 1;
+        if !self.world.submissions.contains_key(STUDENTS[0]) {
+            self.world.submit(STUDENTS[0], Some(self.next_version));
+        }
         let model = self.models.entry(Target::Whole).or_default();
         let is_regrade = model
             .observed

@@ -55,6 +55,8 @@ pub struct Observed {
     pub run: Option<Value>,
     /// The entries.
     pub entries: BTreeMap<String, Files>,
+    /// Whether the page of the class lists final grades that changed.
+    pub has_changed_grades: bool,
 }
 
 impl Observed {
@@ -82,6 +84,12 @@ impl Observed {
         run.is_some_and(|run| !run["before"].is_null()) && !self.flag("was_finished")
     }
 
+    /// Returns the end of the path that a list was given as, if the folder has it.
+    pub fn list(&self, kind: &str) -> Option<&str> {
+        let path = self.run.as_ref()?["lists"][kind]["given_as"].as_str()?;
+        path.rsplit('/').next()
+    }
+
     fn flag(&self, name: &str) -> bool {
         self.run.as_ref().is_some_and(|run| run[name] == true)
     }
@@ -96,6 +104,8 @@ pub fn observe(folder: &Path, keys: &mut Keys) -> Result<Observed, String> {
         run: read_json(&folder.join("run.json"))?,
         ..Observed::default()
     };
+    let grades = read_json(&folder.join("final-grades.json"))?;
+    observed.has_changed_grades = grades.is_some_and(|grades| !grades["before"].is_null());
     for name in ["class.json", "drift.json"] {
         read_json(&folder.join(name))?;
     }

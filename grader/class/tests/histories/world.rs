@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 use clap::Parser;
 use class::cli::{Cli, Command};
 use class::error::Error;
-use class::grade::{Completion, grade_class_with};
+use class::grade::{Completion, PrepareGrader, grade_class_with};
 use class::merge::merge_shards;
 use grader::handed_out::RAYS;
 
@@ -24,6 +24,12 @@ pub const POLICIES: [&str; 4] = [
     "[points]\nout_of = 7\n",
     "[points]\nout_of = 50\nrounding = \"up\"\n",
     "[visibility]\npractice = \"points\"\nfinal = \"points\"\n",
+];
+/// The options for points by hand: none, and two lists with a row for the first student.
+pub const MANUAL_POINTS: [&str; 3] = [
+    "",
+    "--manual-points=ROOT/manual-1.csv",
+    "--manual-points=ROOT/manual-2.csv",
 ];
 /// The number of parts, if the class is divided.
 pub const PARTS: usize = 2;
@@ -51,6 +57,8 @@ pub struct World {
     pub exam: usize,
     /// The policy.
     pub policy: usize,
+    /// The points by hand. Number 0 leaves them out, and then those of the last run count.
+    pub manual: usize,
 }
 
 /// The end of a command.
@@ -72,10 +80,16 @@ impl World {
             submissions: BTreeMap::new(),
             exam: 0,
             policy: 0,
+            manual: 0,
         };
         fs::create_dir(world.input()).unwrap();
         for (number, text) in POLICIES.iter().enumerate() {
             fs::write(world.policy_path(number), text).unwrap();
+        }
+        for number in 1..MANUAL_POINTS.len() {
+            let row = format!("{},camera,0,list {number},Tess", STUDENTS[0]);
+            let text = format!("student,task,delta,comment,author\n{row}\n");
+            fs::write(root.join(format!("manual-{number}.csv")), text).unwrap();
         }
         let mut gradebook = "Student,ID,SIS User ID,SIS Login ID,Section,Tracer (42)\n".to_owned();
         for (number, student) in STUDENTS.iter().enumerate() {
@@ -163,9 +177,10 @@ impl World {
         if let Target::Part(part) = target {
             words.push(format!("--shard={part}/{PARTS}"));
         }
-        if self.policy > 0 {
-            words.push(format!("--policy={}", text(&self.policy_path(self.policy))));
-        }
+        words.push(match self.policy {
+            0 => "--drop-list=policy".to_owned(),
+            number => format!("--policy={}", text(&self.policy_path(number))),
+        });
         self.run(words, target, more, disk, process)
     }
 
@@ -195,7 +210,8 @@ impl World {
             Some(Command::Merge(arguments)) => merge_shards(arguments),
             None => {
                 let options = cli.class.grading.resolve();
-                let prepare = |options| Ok(RecordedGrader::new(options, self.exam, process)?);
+                let prepare: &PrepareGrader =
+                    &|options| Ok(Box::new(RecordedGrader::new(options, self.exam, process)?));
                 grade_class_with(&cli.class, &options, prepare)
             }
         };

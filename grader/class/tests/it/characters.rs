@@ -3,6 +3,7 @@
 
 use class::drift::{Changes, Drift, ItemChange, RegradeChanges, RemovedEntry};
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
+use class::final_grades::{GradeChange, GradeChanges};
 use class::gradebook::{CellChange, FilledGradebook};
 use class::hand_back::HandBack;
 use class::layout::{Layout, RecognisedClass, UnmatchedPath};
@@ -13,8 +14,8 @@ use class::report::grades::grades_table;
 use class::report::page::render_page;
 use class::report::preview::render_preview;
 use class::report::text::{
-    render_gradebook, render_hand_back, render_regrade, render_removed, render_resubmitted,
-    render_summary,
+    render_grade_changes, render_gradebook, render_hand_back, render_regrade, render_removed,
+    render_resubmitted, render_summary,
 };
 use class::summary::ClassSummary;
 use class::table::Table;
@@ -98,7 +99,7 @@ fn class_with(text: &str) -> GradedClass {
             author: text.to_owned(),
         };
         let result = EntryResult { id, info, outcome };
-        ClassRow::new(result, &Policy::default(), vec![vec![manual]])
+        ClassRow::new(result, &Policy::default(), vec![vec![manual]], 100)
     };
     GradedClass {
         exam: text.to_owned(),
@@ -153,6 +154,16 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
             names: text.to_owned(),
             points: None,
         }],
+        grades: Some(GradeChanges {
+            causes: Vec::new(),
+            changes: vec![GradeChange {
+                id: text.to_owned(),
+                who: text.to_owned(),
+                was: text.to_owned(),
+                now: "1".to_owned(),
+                why: text.to_owned(),
+            }],
+        }),
     };
     let gradebook = FilledGradebook {
         title: text.to_owned(),
@@ -177,6 +188,10 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
             render_resubmitted(&changes.resubmitted),
         ),
         ("the removed entries", render_removed(&changes.removed)),
+        (
+            "the final grades that changed",
+            render_grade_changes(changes.grades.as_ref().expect("it was just set")),
+        ),
         ("the changes of a gradebook", render_gradebook(&gradebook)),
         (
             "the archive to hand back",

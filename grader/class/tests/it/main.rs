@@ -19,6 +19,7 @@ mod resuming;
 #[cfg(unix)]
 mod runner_commands;
 mod score_files;
+mod second_run;
 mod shards;
 mod similarity;
 mod stored_class;

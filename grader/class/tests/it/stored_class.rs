@@ -125,6 +125,12 @@ pub fn write_shard(folder: &Path, class: &[StoredEntry], shard: Option<Shard>, s
         was_finished: true,
         entries: own.iter().map(|(index, _)| id(*index)).collect(),
         class: file_hash(ids.join("\n").as_bytes()),
+        tasks: RAYS
+            .assignment
+            .tasks
+            .iter()
+            .map(|task| (task.id.to_owned(), task.points))
+            .collect(),
         ..Run::first_round(Settings {
             exam: "small".to_owned(),
             exam_hash: "0123456789abcdef".to_owned(),

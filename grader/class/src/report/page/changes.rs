@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::sanitized;
 use super::submissions::report_link;
 use crate::drift::{Changes, Drift};
+use crate::report::text::with_changed_points;
 
 /// Renders the differences from earlier runs, if there are any.
 pub(super) fn sections(changes: &Changes) -> Markup {
@@ -14,13 +15,24 @@ pub(super) fn sections(changes: &Changes) -> Markup {
                 h2 #regraded { "Scores that the regrade changed" }
                 @if regrade.causes.is_empty() { p { "No setting changed." } }
                 @else { p { "Changed settings: " (regrade.causes.join(", ")) "." } }
-                (drifts(&regrade.drifts))
+                (drifts(&with_changed_points(&regrade.drifts)))
             }
         }
-        @if !changes.resubmitted.is_empty() {
+        @if let Some(grades) = &changes.grades {
+            @if !grades.changes.is_empty() || !grades.causes.is_empty() {
+                section aria-labelledby="grades" {
+                    h2 #grades { "Final grades that changed" }
+                    @if !grades.causes.is_empty() { p { "Changed: " (grades.causes.join(", ")) "." } }
+                    @if grades.changes.is_empty() { p { "No final grade changed." } }
+                    ul { @for change in &grades.changes { li { (sanitized(&change.to_string())) } } }
+                }
+            }
+        }
+        @let resubmitted = with_changed_points(&changes.resubmitted);
+        @if !resubmitted.is_empty() {
             section aria-labelledby="resubmitted" {
                 h2 #resubmitted { "Changed submissions" }
-                (drifts(&changes.resubmitted))
+                (drifts(&resubmitted))
             }
         }
         @if !changes.removed.is_empty() {
@@ -32,7 +44,7 @@ pub(super) fn sections(changes: &Changes) -> Markup {
     }
 }
 
-fn drifts(drifts: &[Drift]) -> Markup {
+fn drifts(drifts: &[&Drift]) -> Markup {
     let now = |drift: &Drift| {
         drift
             .now

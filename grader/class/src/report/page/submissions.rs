@@ -50,7 +50,7 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
                 Some(score) => (score_cells(row, score, who)),
                 None => {
                     th scope="row" { (who) }
-                    td .number { "–" }
+                    td .number { (counts(row)) }
                     td .number { "–" }
                     @for _ in 0..tasks { td {} }
                     td { (notes(row)) }
@@ -61,21 +61,26 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
 }
 
 fn score_cells(row: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
-    let counts = row.grades.iter().map(|grade| match grade.counted {
-        Some(counted) => counted.points.to_string(),
-        None => "–".to_owned(),
-    });
-    let mut counts: Vec<String> = counts.collect();
-    counts.dedup();
     html! {
         th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
-        td .number { strong { (counts.join(" / ")) } }
+        td .number { strong { (counts(row)) } }
         td .number { (score.points) }
         @for task in &score.tasks {
             td .number .less[task.points < task.max_points] { (task.points) }
         }
         td { (notes(row)) }
     }
+}
+
+/// Returns the final points of the people, once if they are equal.
+fn counts(row: &ClassRow) -> String {
+    let counts = row.grades.iter().map(|grade| match grade.counted {
+        Some(counted) => counted.points.to_string(),
+        None => "–".to_owned(),
+    });
+    let mut counts: Vec<String> = counts.collect();
+    counts.dedup();
+    counts.join(" / ")
 }
 
 /// Renders the platform's late flag, the reason why people have no final points, or else what counts,

@@ -1,0 +1,259 @@
+//! The final grades of the last run, and those that have changed since the one before: after
+//! lateness, points by hand and the policy.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::entry::Person;
+use crate::list_kind::{KeptLists, ListKind};
+use crate::model::{ClassRow, GradedClass, PersonGrade};
+use crate::outcome::{EntryOutcome, id_and_names};
+use crate::run::{Run, Settings};
+
+/// The name of the file with the final grades in the output folder.
+pub const FILE: &str = "final-grades.json";
+
+/// The final grades of the last run, and those that they are compared with. A run that changes
+/// nothing leaves both, so that a run that was killed and is repeated lists the same changes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GradeHistory {
+    /// The final grades to compare with; `None` in a new folder.
+    before: Option<FinalGrades>,
+    /// The final grades of the last run.
+    now: FinalGrades,
+}
+
+/// The final grades of a run, and what they depend on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FinalGrades {
+    /// The round: a regrade is compared with the grades before it.
+    round: u32,
+    settings: Settings,
+    lists: BTreeMap<ListKind, String>,
+    /// Whether some submissions were not graded because of a fault. Their earlier grades stay.
+    is_incomplete: bool,
+    grades: Vec<FinalGrade>,
+}
+
+/// One person's final grade for a submission.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct FinalGrade {
+    submission: String,
+    person: Person,
+    status: String,
+    /// The final points and their maximum; `None` if no points count.
+    counts: Option<[u32; 2]>,
+    /// The points that were graded.
+    graded: u32,
+    manual: i32,
+    late_days: u32,
+}
+
+/// The final grades that changed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GradeChanges {
+    /// The settings and lists that changed.
+    pub causes: Vec<&'static str>,
+    /// The changes.
+    pub changes: Vec<GradeChange>,
+}
+
+/// A final grade that changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GradeChange {
+    /// The submission's id.
+    pub id: String,
+    /// The person's name.
+    pub who: String,
+    /// The points before the change, or why there were none.
+    pub was: String,
+    /// The points after the change, or why there are none.
+    pub now: String,
+    /// The parts of the grade that changed.
+    pub why: String,
+}
+
+impl fmt::Display for GradeChange {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let GradeChange { was, now, why, .. } = self;
+        let who = id_and_names(&self.id, &self.who);
+        write!(f, "{who}: {was} → {now}")?;
+        match why.as_str() {
+            "" => Ok(()),
+            why => write!(f, ": {why}"),
+        }
+    }
+}
+
+impl GradeHistory {
+    /// Returns the history after a run.
+    pub fn after(earlier: Option<GradeHistory>, run: &Run, class: &GradedClass) -> Self {
+        let last = earlier.as_ref().map(|earlier| &earlier.now);
+        let now = FinalGrades::new(run, class, last);
+        match earlier {
+            Some(earlier) if earlier.now == now => earlier,
+            // The comparison lasts until all submissions are graded.
+            Some(GradeHistory {
+                before: Some(before),
+                now: last,
+            }) if last.is_incomplete => GradeHistory {
+                before: Some(before),
+                now,
+            },
+            Some(GradeHistory { now: before, .. }) => GradeHistory {
+                before: Some(before),
+                now,
+            },
+            None => GradeHistory { before: None, now },
+        }
+    }
+
+    /// Returns the changes; `None` if there is nothing to compare with.
+    pub fn changes(&self) -> Option<GradeChanges> {
+        let before = self.before.as_ref()?;
+        let mut causes = before.settings.differences(&self.now.settings);
+        let differs = |kind: &&ListKind| before.lists.get(kind) != self.now.lists.get(kind);
+        causes.extend(LISTS.iter().filter(differs).map(|kind| kind.title()));
+        let changes = self.now.grades.iter();
+        let changes = changes.filter_map(|now| before.change_to(now, &causes));
+        let gone = before.grades.iter().filter_map(|was| self.now.loss(was));
+        let changes = changes.chain(gone).collect();
+        Some(GradeChanges { causes, changes })
+    }
+}
+
+/// The lists that grades depend on. Gradebooks matter only for what they say about people, which
+/// shows in the grades.
+const LISTS: [ListKind; 3] = [ListKind::Policy, ListKind::Roster, ListKind::ManualPoints];
+
+impl FinalGrades {
+    fn new(run: &Run, class: &GradedClass, last: Option<&FinalGrades>) -> Self {
+        let mut grades = Vec::new();
+        for row in &class.rows {
+            if let EntryOutcome::Fault(_) = row.result.outcome {
+                grades.extend(
+                    last.iter()
+                        .flat_map(|last| last.of(&row.result.id))
+                        .cloned(),
+                );
+            } else {
+                let people = row.people();
+                grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
+            }
+        }
+        FinalGrades {
+            round: run.round,
+            settings: run.settings.clone(),
+            lists: hashes(&run.lists),
+            is_incomplete: class.fault_count() > 0,
+            grades,
+        }
+    }
+
+    fn of<'a>(&'a self, submission: &'a str) -> impl Iterator<Item = &'a FinalGrade> {
+        let grades = self.grades.iter();
+        grades.filter(move |grade| grade.submission == submission)
+    }
+
+    /// Returns the change to a later grade. A new submission is none.
+    fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<GradeChange> {
+        self.of(&now.submission).next()?;
+        match self.find(now) {
+            Some(was) if was.counts == now.counts => None,
+            Some(was) => Some(now.change(was, causes)),
+            None => now.counts.map(|_| GradeChange {
+                id: now.submission.clone(),
+                who: now.person.display_name().to_owned(),
+                was: "–".to_owned(),
+                now: now.value(false),
+                why: "the submission now counts for this person as well".to_owned(),
+            }),
+        }
+    }
+
+    /// Returns the change of an earlier grade that is not among these, whose submission still is.
+    fn loss(&self, was: &FinalGrade) -> Option<GradeChange> {
+        self.of(&was.submission).next()?;
+        (was.counts.is_some() && self.find(was).is_none()).then(|| GradeChange {
+            id: was.submission.clone(),
+            who: was.person.display_name().to_owned(),
+            was: was.value(false),
+            now: "–".to_owned(),
+            why: "the submission no longer counts for this person".to_owned(),
+        })
+    }
+
+    /// Returns this run's grade of the same person for the same submission.
+    fn find(&self, grade: &FinalGrade) -> Option<&FinalGrade> {
+        let is_same = |own: &&FinalGrade| {
+            let mut names = own.person.identifiers();
+            own.person == grade.person
+                || own.person.matches(&grade.person)
+                || names.any(|name| grade.person.identifiers().any(|other| other == name))
+        };
+        let grades = self.grades.iter();
+        let mut own = grades.filter(|own| own.submission == grade.submission);
+        own.find(is_same)
+    }
+}
+
+impl FinalGrade {
+    fn new(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Self {
+        let counted = grade.counted;
+        FinalGrade {
+            submission: row.result.id.clone(),
+            person: person.clone(),
+            status: row.status(grade).to_owned(),
+            counts: counted.map(|counted| [counted.points, counted.max_points]),
+            graded: row.result.score().map_or(0, |score| score.points),
+            manual: counted.map_or(0, |counted| counted.manual),
+            late_days: counted.map_or(0, |counted| counted.late_days),
+        }
+    }
+
+    /// Returns the points as text, or why none count.
+    fn value(&self, with_maximum: bool) -> String {
+        match self.counts {
+            Some([points, of]) if with_maximum => format!("{points} of {of}"),
+            Some([points, _]) => points.to_string(),
+            None => format!("no points ({})", self.status),
+        }
+    }
+
+    fn change(&self, was: &FinalGrade, causes: &[&str]) -> GradeChange {
+        let maximum = |grade: &FinalGrade| grade.counts.map(|[_, of]| of);
+        let maxima = [was, self].map(maximum);
+        let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
+        let mut why = Vec::new();
+        if was.graded != self.graded {
+            why.push(format!("graded {} → {}", was.graded, self.graded));
+        }
+        if was.counts.is_some() && self.counts.is_some() {
+            if was.manual != self.manual {
+                why.push(format!("by hand {:+} → {:+}", was.manual, self.manual));
+            }
+            if was.late_days != self.late_days {
+                why.push(format!("days late {} → {}", was.late_days, self.late_days));
+            }
+        }
+        if why.is_empty() {
+            why = causes.iter().map(|cause| (*cause).to_owned()).collect();
+        }
+        GradeChange {
+            id: self.submission.clone(),
+            who: self.person.display_name().to_owned(),
+            was: was.value(with_maximum),
+            now: self.value(with_maximum),
+            why: why.join(", "),
+        }
+    }
+}
+
+fn hashes(lists: &KeptLists) -> BTreeMap<ListKind, String> {
+    let counted = lists.iter().filter(|(kind, _)| LISTS.contains(kind));
+    counted
+        .map(|(kind, list)| (*kind, list.hash.clone()))
+        .collect()
+}

@@ -1,0 +1,77 @@
+//! The lists that staff give for a class: the policy, the roster, points by hand and gradebooks, and
+//! how an output folder records them.
+
+use std::collections::BTreeMap;
+use std::ops::Not;
+
+use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
+
+/// A list that staff give for a class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum ListKind {
+    /// The policy.
+    Policy,
+    /// The roster.
+    Roster,
+    /// The points by hand.
+    ManualPoints,
+    /// The gradebook from Canvas.
+    Canvas,
+    /// The worksheet from Moodle.
+    Moodle,
+    /// The grades from Gradescope.
+    Gradescope,
+}
+
+impl ListKind {
+    /// Returns the name, as it is written on the command line: the option without its dashes.
+    pub fn name(self) -> &'static str {
+        match self {
+            ListKind::Policy => "policy",
+            ListKind::Roster => "roster",
+            ListKind::ManualPoints => "manual-points",
+            ListKind::Canvas => "canvas",
+            ListKind::Moodle => "moodle",
+            ListKind::Gradescope => "gradescope",
+        }
+    }
+
+    /// Returns the title for messages.
+    pub fn title(self) -> &'static str {
+        match self {
+            ListKind::Policy => "the policy",
+            ListKind::Roster => "the roster",
+            ListKind::ManualPoints => "the table of points by hand",
+            ListKind::Canvas => "the Canvas gradebook",
+            ListKind::Moodle => "the Moodle worksheet",
+            ListKind::Gradescope => "the list from Gradescope",
+        }
+    }
+}
+
+/// A list of which the output folder has a copy.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptList {
+    /// The hash of the file.
+    pub hash: String,
+    /// The path on the command line, for messages.
+    pub given_as: String,
+    /// The column to fill in, in a gradebook from Canvas.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column: Option<String>,
+    /// Whether it is from the parts that were merged, and was not given to the merge itself.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub is_of_parts: bool,
+}
+
+/// The lists by their kinds, as `run.json` has them.
+pub type KeptLists = BTreeMap<ListKind, KeptList>;
+
+impl KeptList {
+    /// Returns whether the other list says the same.
+    pub fn is_same(&self, other: &KeptList) -> bool {
+        (&self.hash, &self.column) == (&other.hash, &other.column)
+    }
+}

@@ -1,0 +1,290 @@
+//! The lists that the results in an output folder depend on. The folder has a copy of each, so that
+//! a later run without one of them uses the copy, instead of taking back the points, extensions and
+//! names in it.
+
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use grader::files::{self, PathError};
+use grader::policy::{Policy, PolicyError};
+use judging::content_hash::file_hash;
+use judging::sanitize::sanitize_line;
+
+use crate::cli::Lists;
+use crate::list_kind::{KeptList, KeptLists, ListKind};
+use crate::store::{Store, StoreError};
+
+/// The folder of the copies, in the output folder.
+const FOLDER: &str = "lists";
+
+/// The lists that a command uses: those on its command line and the copies of others.
+#[derive(Debug, Default)]
+pub struct UsedLists {
+    /// The files, which may be copies.
+    pub files: ListFiles,
+    /// The lists to keep.
+    pub kept: KeptLists,
+    /// What staff should know, in sentences.
+    pub notes: Vec<String>,
+    copies: BTreeMap<ListKind, Vec<u8>>,
+}
+
+/// An error that prevents a list from being used.
+#[derive(Debug, thiserror::Error)]
+pub enum ListMemoryError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    File(#[from] PathError),
+    /// The policy cannot be read.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
+    /// Two shards were graded with different lists.
+    #[error(
+        "{} and {} were not graded with the same list: {title} differs, or only one has it; choose \
+         one with --{name}, or none with --drop-list {name}",
+        one.display(), other.display()
+    )]
+    DifferentParts {
+        /// The output folder of one shard.
+        one: PathBuf,
+        /// The output folder of the other shard.
+        other: PathBuf,
+        /// The list's title.
+        title: &'static str,
+        /// The list's name on the command line.
+        name: &'static str,
+    },
+    /// The copy of a list that an earlier run was given cannot be used.
+    #[error(
+        "{} is missing or has changed, and {title} of the last run is still needed: pass it again \
+         with --{name}, or drop it with --drop-list {name}",
+        path.display()
+    )]
+    Copy {
+        /// The path of the copy.
+        path: PathBuf,
+        /// The list's title.
+        title: &'static str,
+        /// The list's name on the command line.
+        name: &'static str,
+    },
+}
+
+/// An output folder and the lists in it.
+#[derive(Clone, Copy, Debug)]
+pub struct KeptIn<'a> {
+    /// The folder.
+    pub folder: &'a Path,
+    /// The lists.
+    pub lists: &'a KeptLists,
+}
+
+/// The files of a command's lists.
+#[derive(Clone, Debug, Default)]
+pub struct ListFiles {
+    /// The policy file; `None` for the default policy.
+    pub policy: Option<PathBuf>,
+    /// The other lists.
+    pub lists: Lists,
+}
+
+impl ListFiles {
+    /// Returns the file of a list.
+    pub fn get(&self, kind: ListKind) -> Option<&Path> {
+        let lists = &self.lists;
+        let path = match kind {
+            ListKind::Policy => &self.policy,
+            ListKind::Roster => &lists.roster,
+            ListKind::ManualPoints => &lists.manual_points,
+            ListKind::Canvas => &lists.canvas,
+            ListKind::Moodle => &lists.moodle,
+            ListKind::Gradescope => &lists.gradescope,
+        };
+        path.as_deref()
+    }
+
+    /// Replaces the file of a list.
+    pub fn set(&mut self, kind: ListKind, path: PathBuf) {
+        let lists = &mut self.lists;
+        let place = match kind {
+            ListKind::Policy => &mut self.policy,
+            ListKind::Roster => &mut lists.roster,
+            ListKind::ManualPoints => &mut lists.manual_points,
+            ListKind::Canvas => &mut lists.canvas,
+            ListKind::Moodle => &mut lists.moodle,
+            ListKind::Gradescope => &mut lists.gradescope,
+        };
+        *place = Some(path);
+    }
+}
+
+impl UsedLists {
+    /// Chooses each list: the one on the command line or else, unless it is dropped, the one that
+    /// the output folder has, or else the one that all merged parts were graded with.
+    pub fn choose(
+        given: ListFiles,
+        out: Option<KeptIn>,
+        parts: &[KeptIn],
+    ) -> Result<Self, ListMemoryError> {
+        let mut used = UsedLists {
+            files: given,
+            ..UsedLists::default()
+        };
+        for kind in ListKind::value_variants() {
+            used.choose_list(*kind, out, parts)?;
+        }
+        Ok(used)
+    }
+
+    fn choose_list(
+        &mut self,
+        kind: ListKind,
+        out: Option<KeptIn>,
+        parts: &[KeptIn],
+    ) -> Result<(), ListMemoryError> {
+        let (name, title) = (kind.name(), kind.title());
+        let last = out.and_then(|out| Some((out.folder, out.lists.get(&kind)?)));
+        if let Some(path) = self.files.get(kind) {
+            let bytes = read(kind, path)?;
+            let list = KeptList {
+                hash: file_hash(&bytes),
+                given_as: path.display().to_string(),
+                column: self.column(kind),
+                is_of_parts: false,
+            };
+            if last.is_some_and(|(_, last)| !last.is_same(&list)) {
+                self.notes.push(format!(
+                    "{title} differs from the last run's, so final points may change"
+                ));
+            }
+            self.copies.insert(kind, bytes);
+            self.kept.insert(kind, list);
+            return Ok(());
+        }
+        if self.files.lists.drop_list.contains(&kind) {
+            if last.is_some() {
+                self.notes
+                    .push(format!("{title} of the last run no longer counts"));
+            }
+            return Ok(());
+        }
+        let (folder, list) = match last {
+            Some((folder, list)) if !list.is_of_parts || parts.is_empty() => (folder, list.clone()),
+            Some(_) | None => match one_of_parts(kind, parts)? {
+                Some((folder, list)) => (
+                    folder,
+                    KeptList {
+                        is_of_parts: true,
+                        ..list.clone()
+                    },
+                ),
+                None => return Ok(()),
+            },
+        };
+        let path = copy_path(folder, kind, &list);
+        let bytes = match files::read(&path) {
+            Ok(bytes) if file_hash(&bytes) == list.hash => bytes,
+            Err(error) if error.source.kind() != ErrorKind::NotFound => return Err(error.into()),
+            Ok(_) | Err(_) => return Err(ListMemoryError::Copy { path, title, name }),
+        };
+        let of = if list.is_of_parts {
+            "parts"
+        } else {
+            "last run"
+        };
+        self.notes.push(format!(
+            "using {title} of the {of}, {}; --drop-list {name} drops it",
+            list.given_as
+        ));
+        if kind == ListKind::Canvas && self.files.lists.column.is_none() {
+            self.files.lists.column.clone_from(&list.column);
+        }
+        self.files.set(kind, path);
+        self.copies.insert(kind, bytes);
+        self.kept.insert(kind, list);
+        Ok(())
+    }
+
+    fn column(&self, kind: ListKind) -> Option<String> {
+        let column = self.files.lists.column.clone();
+        column.filter(|_| kind == ListKind::Canvas)
+    }
+
+    /// Writes the copies into an output folder. Their names have the hash, so that those of the last
+    /// run stay until `run.json` no longer names them.
+    pub fn save(&self, store: &Store) -> Result<(), StoreError> {
+        for (kind, list) in &self.kept {
+            let path = copy_path(store.folder(), *kind, list);
+            if files::read(&path).is_ok_and(|bytes| bytes == self.copies[kind]) {
+                continue;
+            }
+            let name = Path::new(FOLDER).join(path.file_name().unwrap_or_default());
+            store.write(name, &self.copies[kind])?;
+        }
+        Ok(())
+    }
+
+    /// Removes copies that `run.json` does not name, and what a killed run has left.
+    pub fn remove_others(&self, store: &Store) -> Result<(), StoreError> {
+        let kept = self.kept.iter();
+        let kept: Vec<PathBuf> = kept
+            .map(|(kind, list)| copy_path(store.folder(), *kind, list))
+            .collect();
+        for path in store.list(FOLDER)? {
+            if !kept.contains(&path) {
+                files::remove_if_exists(path)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Prints the notes.
+    pub fn print_notes(&self) {
+        for note in &self.notes {
+            anstream::eprintln!("{}", sanitize_line(note, 300));
+        }
+    }
+}
+
+/// Returns the list that all parts were graded with, and the folder of one of them.
+fn one_of_parts<'a>(
+    kind: ListKind,
+    parts: &[KeptIn<'a>],
+) -> Result<Option<(&'a Path, &'a KeptList)>, ListMemoryError> {
+    let Some(first) = parts.first() else {
+        return Ok(None);
+    };
+    let list = first.lists.get(&kind);
+    let is_other = |part: &&KeptIn| match (list, part.lists.get(&kind)) {
+        (Some(one), Some(other)) => !one.is_same(other),
+        (one, other) => one.is_some() != other.is_some(),
+    };
+    match parts.iter().find(is_other) {
+        Some(other) => Err(ListMemoryError::DifferentParts {
+            one: first.folder.to_owned(),
+            other: other.folder.to_owned(),
+            title: kind.title(),
+            name: kind.name(),
+        }),
+        None => Ok(list.map(|list| (first.folder, list))),
+    }
+}
+
+fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
+    let is_policy = kind == ListKind::Policy;
+    let extension = if is_policy { "toml" } else { "csv" };
+    let hash = list.hash.get(..12).unwrap_or_default();
+    folder
+        .join(FOLDER)
+        .join(format!("{}-{hash}.{extension}", kind.name()))
+}
+
+fn read(kind: ListKind, path: &Path) -> Result<Vec<u8>, ListMemoryError> {
+    if kind == ListKind::Policy {
+        Ok(Policy::read_text(path)?.into_bytes())
+    } else {
+        Ok(files::read(path)?)
+    }
+}

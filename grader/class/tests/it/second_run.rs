@@ -1,0 +1,214 @@
+//! A second run into the same folder: it has the lists of the first, lists every final grade that it
+//! changes, and the commands in its reports name the submission.
+
+use std::fs;
+use std::io::{Cursor, Read};
+
+use zip::ZipArchive;
+
+use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
+
+const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
+const POLICY: &str =
+    "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T12:00:00Z\npercent_per_day = 10\n";
+/// The roster says how late the submission is, that an extension of a day applies, and that somebody
+/// has handed in nothing.
+const ROSTER: &str = "name,username,extension,datetime\n\
+    Ann Lee,ann,1,2026-11-22T11:00:00Z\nZoe Z,zoe,,\n";
+const MANUAL: &str = "student,task,delta,comment,author\nann,camera,-1,copied,Tess\n";
+
+struct GradedTwice {
+    class: TestClass,
+    exam: String,
+}
+
+impl GradedTwice {
+    /// Grades a class with a policy, a roster and points by hand. Every list is deleted afterwards.
+    fn new() -> Self {
+        let class = TestClass::named("class")
+            .with_reference("ann")
+            .with_folder("bob");
+        let exam = class.small_exam(&ITEMS);
+        let graded = GradedTwice { class, exam };
+        let lists = [
+            ("--policy", "policy.toml", POLICY),
+            ("--roster", "roster.csv", ROSTER),
+            ("--manual-points", "manual.csv", MANUAL),
+        ];
+        let files = lists.map(|(option, name, text)| {
+            let path = graded.class.write_beside(name, text);
+            [option.to_owned(), path]
+        });
+        let words: Vec<&str> = files.iter().flatten().map(String::as_str).collect();
+        graded.run(&words);
+        files
+            .iter()
+            .for_each(|[_, path]| fs::remove_file(path).unwrap());
+        graded
+    }
+
+    /// Returns the standard output and the standard error of a run.
+    fn run(&self, more: &[&str]) -> [String; 2] {
+        let output = self.class.grade(&self.exam, more);
+        let text = successful_stdout(&output);
+        [text, String::from_utf8(output.stderr).unwrap()]
+    }
+}
+
+#[test]
+fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
+    let graded = GradedTwice::new();
+    let first = graded.class.read("grades.csv");
+    assert!(first.contains("Zoe Z"), "{first}");
+    let canvas = graded.class.write_beside(
+        "canvas-export.csv",
+        "Student,ID,SIS Login ID,Section,Path (7)\n\"Lee, Ann\",7001,ann,A,\n",
+    );
+    let [_, error] = graded.run(&["--canvas", &canvas]);
+    assert_eq!(graded.class.read("grades.csv").replace(",7001", ""), first);
+    for text in ["the policy", "the roster", "the table of points by hand"] {
+        let text = format!("using {text} of the last run");
+        assert!(error.contains(&text), "{text}: {error}");
+    }
+    let preview = graded.class.preview_of(
+        &graded.class.input(),
+        &["--out", graded.class.out().to_str().unwrap()],
+    );
+    assert!(preview.contains("Zoe Z"), "{preview}");
+
+    let dropped = ["--drop-list", "manual-points", "--drop-list", "roster"];
+    let [text, _] = graded.run(&dropped);
+    let changed = "1 final grade changed (changed: the roster, the table of points by hand)";
+    assert!(text.contains(changed), "{text}");
+    // A repeated run lists the same, and needs no flag.
+    let [again, error] = graded.run(&[]);
+    assert!(again.contains(changed), "{again}");
+    assert!(!error.contains("points by hand"), "{error}");
+    assert!(!graded.class.read("grades.csv").contains("Tess"));
+}
+
+#[test]
+fn a_copy_that_was_changed_is_not_used() {
+    let graded = GradedTwice::new();
+    let lists = fs::read_dir(graded.class.out().join("lists")).unwrap();
+    let paths = lists.map(|entry| entry.unwrap().path());
+    let is_roster = |path: &std::path::PathBuf| path.to_str().unwrap().contains("/roster-");
+    let roster = paths.into_iter().find(is_roster).unwrap();
+    fs::write(&roster, "username\nann\n").unwrap();
+    let (code, error) = exit_code_and_stderr(&graded.class.grade(&graded.exam, &[]));
+    assert_eq!(code, 2);
+    let advice = "pass it again with --roster, or drop it with --drop-list roster";
+    assert!(error.contains(advice), "{error}");
+    graded.run(&["--drop-list", "roster"]);
+}
+
+#[test]
+fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
+    let graded = GradedTwice::new();
+    let changes = |more: &[&str]| {
+        let [text, _] = graded.run(more);
+        let lines = text
+            .lines()
+            .skip_while(|line| !line.contains("final grade"));
+        let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+        let page = graded.class.read("class.html");
+        let listed = lines.iter().skip(1).map(|line| line.trim());
+        for line in listed {
+            assert!(page.contains(line), "{line}: {page}");
+        }
+        lines.join("\n")
+    };
+    let write = |name: &str, text: &str| graded.class.write_beside(name, text);
+    let all = [
+        changes(&[
+            "--manual-points",
+            &write("m.csv", &MANUAL.replace("-1", "-2")),
+        ]),
+        changes(&["--roster", &write("r.csv", &ROSTER.replace(",1,", ",2,"))]),
+        changes(&["--roster", &write("r.csv", &ROSTER.replace(",1,", ",3,"))]),
+        changes(&["--policy", &write("p.toml", "[points]\nout_of = 10\n")]),
+        changes(&["--policy", &write("p.toml", "[points]\nout_of = 20\n")]),
+        changes(&["--regrade"]),
+    ];
+    insta::assert_snapshot!(all.join("\n").trim_end(), @r"
+    1 final grade changed (changed: the table of points by hand)
+      ann (Ann Lee): 60 → 30: by hand -1 → -2
+    1 final grade changed (changed: the roster)
+      ann (Ann Lee): 30 → 33: days late 1 → 0
+    no final grade changed (changed: the roster)
+    1 final grade changed (changed: the policy)
+      ann (Ann Lee): 33 of 100 → 3 of 10: the policy
+    1 final grade changed (changed: the policy)
+      ann (Ann Lee): 3 of 10 → 7 of 20: the policy
+    ");
+}
+
+#[test]
+fn points_by_hand_count_without_anything_that_can_be_graded() {
+    let graded = GradedTwice::new();
+    let grade = |delta: &str| {
+        let text = format!("{MANUAL}bob,camera,{delta},drawn on paper,Tess\n");
+        let path = graded.class.write_beside("manual.csv", &text);
+        graded
+            .class
+            .grade(&graded.exam, &["--manual-points", &path, "--hand-back"])
+    };
+    let text = successful_stdout(&grade("1"));
+    assert!(text.contains("not in it: bob: points by hand: "), "{text}");
+    let grades = graded.class.read("grades.csv");
+    let bob = grades.lines().find(|line| line.starts_with("bob,"));
+    let cells: Vec<&str> = bob.unwrap().split(',').collect();
+    assert_eq!(cells[5], "points by hand", "{grades}");
+    assert!(cells[6].parse::<u32>().unwrap() > 0, "{grades}");
+    assert!(graded.class.read("class.html").contains("drawn on paper"));
+    let (code, error) = exit_code_and_stderr(&grade("99"));
+    assert_eq!(code, 2);
+    assert!(
+        error.contains("+99 points are out of range: 0 of"),
+        "{error}"
+    );
+}
+
+/// Canvas's loose files are in no folder of their own, and the export may be an archive.
+#[test]
+fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
+    let class = TestClass::named("export");
+    let source = "grader/starter/sphere.rs";
+    let text = fs::read(crate::harness::workspace().join(source)).unwrap();
+    let class = class.with("leeann_7001_90001_sphere.rs", &text);
+    let exam = class.small_exam(&ITEMS);
+    let out = class.path_beside("my results");
+    let mut command = class_command();
+    command
+        .arg(class.input())
+        .args([
+            "--exam",
+            &exam,
+            "--isolation",
+            "none",
+            "--hand-back",
+            "--out",
+        ])
+        .arg(&out);
+    successful_stdout(&command.output().unwrap());
+    let entries = fs::read_dir(out.join("students")).unwrap();
+    let student = entries.map(|entry| entry.unwrap().path()).next().unwrap();
+    let archive = student.join("submission.zip");
+    let report = fs::read_to_string(student.join("report.html")).unwrap();
+    let command = format!("cargo grade '{}' --exam", archive.display());
+    assert!(report.replace("&#39;", "'").contains(&command), "{report}");
+    let mut archive = ZipArchive::new(Cursor::new(fs::read(archive).unwrap())).unwrap();
+    assert_eq!(archive.len(), 1);
+    let mut packed = Vec::new();
+    archive
+        .by_name("sphere.rs")
+        .unwrap()
+        .read_to_end(&mut packed)
+        .unwrap();
+    assert_eq!(packed, text);
+    // Students get none of it.
+    for file in [student.join("feedback.html"), out.join("hand-back.zip")] {
+        let bytes = fs::read(file).unwrap();
+        assert!(!String::from_utf8_lossy(&bytes).contains("submission.zip"));
+    }
+}

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use grader::files::{self, PathError};
 use grader::policy::{Policy, PolicyError};
+use grader::printing::print_error_line;
 use judging::content_hash::file_hash;
 use judging::sanitize::sanitize_line;
 
@@ -243,7 +244,7 @@ impl UsedLists {
     /// Prints the notes.
     pub fn print_notes(&self) {
         for note in &self.notes {
-            anstream::eprintln!("{}", sanitize_line(note, 300));
+            print_error_line(sanitize_line(note, 300));
         }
     }
 }

@@ -132,14 +132,14 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ];
     insta::assert_snapshot!(all.join("\n").trim_end(), @r"
     1 final grade changed (changed: the table of points by hand)
-      ann (Ann Lee): 60 → 30: by hand -1 → -2
+    ann (Ann Lee): 60 → 30: by hand -1 → -2
     1 final grade changed (changed: the roster)
-      ann (Ann Lee): 30 → 33: days late 1 → 0
+    ann (Ann Lee): 30 → 33: days late 1 → 0
     no final grade changed (changed: the roster)
     1 final grade changed (changed: the policy)
-      ann (Ann Lee): 33 of 100 → 3 of 10: the policy
+    ann (Ann Lee): 33 of 100 → 3 of 10: the policy
     1 final grade changed (changed: the policy)
-      ann (Ann Lee): 3 of 10 → 7 of 20: the policy
+    ann (Ann Lee): 3 of 10 → 7 of 20: the policy
     ");
 }
 

@@ -39,6 +39,8 @@ pub struct Entry {
     pub kind: EntryKind,
     /// The nine permission bits of Unix.
     pub permissions: u32,
+    /// The size that the zip claims, in bytes.
+    pub size: u64,
     method: CompressionMethod,
     is_encrypted: bool,
     wayfinder: ZipArchiveEntryWayfinder,
@@ -113,6 +115,7 @@ impl Entry {
                 _ => EntryKind::Special,
             },
             permissions: mode.permissions(),
+            size: header.uncompressed_size_hint(),
             method: header.compression_method(),
             is_encrypted: header.flags().is_encrypted(),
             wayfinder: header.wayfinder(),

@@ -168,7 +168,7 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
 mod tests {
     use super::*;
     use crate::model::tests::{graded, result};
-    use crate::outcome::{EntryOutcome, TaskScore};
+    use crate::outcome::{EntryOutcome, FileNotes, TaskScore};
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
@@ -185,6 +185,7 @@ mod tests {
         ScoreSummary {
             points,
             max_points: 2 * items.len() as u32,
+            build: FileNotes::default(),
             tasks: vec![TaskScore {
                 id: String::new(),
                 title: String::new(),

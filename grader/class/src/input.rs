@@ -36,16 +36,13 @@ impl Input {
         handed_out: &'static HandedOut,
     ) -> Result<Self, ClassInputError> {
         remove_abandoned(parent);
-        let (unpacked, not_unpacked) = match fs::metadata(path) {
+        let unpacked = match fs::metadata(path) {
             Err(_) => return Err(ClassInputError::NotFound(path.to_owned())),
-            Ok(kind) if kind.is_dir() => (None, Vec::new()),
-            Ok(_) => {
-                let (build_dir, not_unpacked) = unpack(path, parent)?;
-                (Some(build_dir), not_unpacked)
-            }
+            Ok(kind) if kind.is_dir() => None,
+            Ok(_) => Some(unpack(path, parent, handed_out)?),
         };
         let folder = match &unpacked {
-            Some(build_dir) => build_dir.path().join(CLASS_FOLDER),
+            Some(unpacked) => unpacked.build_dir.path().join(CLASS_FOLDER),
             None => path.canonicalize().at("read", path)?,
         };
         let listed = list_folder(&folder)?;
@@ -54,7 +51,11 @@ impl Input {
         let metadata = metadata.transpose()?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         let mut class = layout::recognise(&root, metadata.as_deref(), handed_out)?;
-        class.unmatched.extend(not_unpacked);
+        let unpacked = unpacked.map(|unpacked| {
+            class.unmatched.extend(unpacked.problems);
+            reject_incomplete(&mut class, &folder, unpacked.incomplete);
+            unpacked.build_dir
+        });
         let hidden = hidden_names(&root.path)?;
         class
             .unmatched
@@ -70,6 +71,28 @@ impl Input {
                 root,
                 _unpacked: unpacked,
             })
+        }
+    }
+}
+
+/// Marks each entry of which a file could not be unpacked as an entry without files. Files of no entry
+/// are listed.
+fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec<UnmatchedPath>) {
+    for file in incomplete {
+        let path = folder.join(&file.name);
+        let mut entries = class.entries.iter_mut();
+        let entry = entries.find(|entry| match &entry.source {
+            Source::Path(own) => path.starts_with(own),
+            Source::Files(files) => files.iter().any(|(_, own)| *own == path),
+            Source::Missing(_) => false,
+        });
+        match entry {
+            Some(entry) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                let why = format!("{} cannot be unpacked: {}", sanitize(&name, 200), file.why);
+                entry.source = Source::Missing(why);
+            }
+            None => class.unmatched.push(file),
         }
     }
 }
@@ -99,7 +122,7 @@ pub fn collect_submission(
     let mut submission = match &entry.source {
         Source::Path(path) => collect_path(path, handed_out)?,
         Source::Files(files) => Submission::from_files(&entry.id, files, handed_out)
-            .map_err(|error| not_collected(&error, Path::new("")))?,
+            .map_err(|error| not_collected(&error, Path::new(&entry.id)))?,
         Source::Missing(why) => return Err(NotCollected::NothingToGrade(why.clone())),
     };
     submission.name.clone_from(&entry.id);
@@ -107,12 +130,7 @@ pub fn collect_submission(
 }
 
 fn collect_path(path: &Path, handed_out: &'static HandedOut) -> Result<Submission, NotCollected> {
-    let submission = if path.is_dir() {
-        Submission::collect_with_archives(path, handed_out)
-    } else {
-        Submission::collect(path, handed_out)
-    };
-    submission.map_err(|error| not_collected(&error, path))
+    Submission::collect(path, handed_out).map_err(|error| not_collected(&error, path))
 }
 
 fn not_collected(error: &SubmissionError, input: &Path) -> NotCollected {
@@ -126,12 +144,6 @@ fn not_collected(error: &SubmissionError, input: &Path) -> NotCollected {
 
 /// Returns the error's message without the path, which may be different in the next run.
 fn error_message(error: &SubmissionError, input: &Path) -> String {
-    let name = |path: &Path| {
-        path.file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned()
-    };
     match error {
         SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
             "it no longer exists".to_owned()
@@ -149,8 +161,19 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
                 "it has task files that differ, in {copies}: put those that count into one folder, without the others"
             )
         }
-        SubmissionError::TooManyFiles(_) => {
-            "it has too many files and folders: keep the task files without the rest".to_owned()
+        SubmissionError::StarterBesideCopies {
+            starters, copies, ..
+        } => {
+            let (starters, copies) = (listed(starters), listed(copies));
+            format!(
+                "it has the starter's {}, and changed copies in {}: keep the file that counts, under \
+                 the task file's name",
+                sanitize(&starters, 300),
+                sanitize(&copies, 300)
+            )
+        }
+        SubmissionError::TooMany(_, limit) => {
+            format!("it has {limit}: keep the task files without the rest")
         }
         SubmissionError::Link { link, .. } => {
             format!("{link} is a link, and links are not followed")
@@ -161,6 +184,9 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::Unreadable(error) => error.to_string(),
         SubmissionError::Machine(error) => error.to_string(),
         SubmissionError::Archive { path, why } if path == input => why.to_string(),
-        SubmissionError::Archive { path, why } => format!("{}: {why}", sanitize(&name(path), 200)),
+        SubmissionError::Archive { path, why } => {
+            let path = path.strip_prefix(input).unwrap_or(path);
+            format!("{}: {why}", sanitize(&path.to_string_lossy(), 200))
+        }
     }
 }

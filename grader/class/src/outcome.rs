@@ -37,6 +37,17 @@ pub struct ScoreSummary {
     pub max_points: u32,
     /// The tasks, in lecture order.
     pub tasks: Vec<TaskScore>,
+    /// The notes about the submission's files.
+    #[serde(default)]
+    pub build: FileNotes,
+}
+
+/// The parts of a score's build report that the class's files need.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+pub struct FileNotes {
+    /// Notes about files that look like task files or archives, and were not graded.
+    #[serde(default)]
+    pub ignored_copies: Vec<String>,
 }
 
 /// The score of a task.
@@ -141,6 +152,12 @@ impl ScoreSummary {
 }
 
 impl EntryResult {
+    /// Returns the notes about files that look like task files or archives, and were not graded.
+    pub fn ignored_copies(&self) -> &[String] {
+        self.score()
+            .map_or(&[], |score| &score.build.ignored_copies)
+    }
+
     /// Returns the score, if there is one.
     pub fn score(&self) -> Option<&ScoreSummary> {
         match &self.outcome {

@@ -94,6 +94,9 @@ pub struct Outlier {
     pub names: String,
     /// The reason why the submission needs attention.
     pub why: String,
+    /// Whether there is a report on it.
+    #[serde(skip)]
+    pub has_report: bool,
 }
 
 impl Outlier {
@@ -211,8 +214,8 @@ fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     mistakes
 }
 
-/// Returns the submissions without a score, without points, or far below the others (Tukey's
-/// fence).
+/// Returns the submissions without a score, without points, far below the others (Tukey's fence), or
+/// with files that look like task files and were not graded.
 fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let (lower, upper) = (points.lower_quartile.into(), points.upper_quartile.into());
@@ -240,10 +243,14 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         Some(_) => None,
     };
     let outlier = |row: &ClassRow| {
-        Some(Outlier {
+        let copies = row.result.ignored_copies().iter().cloned();
+        let copies = copies.filter(|_| !row.is_superseded());
+        let all: Vec<String> = why(row).into_iter().chain(copies).collect();
+        (!all.is_empty()).then(|| Outlier {
             id: row.result.id.clone(),
             names: row.result.info.display_names(),
-            why: why(row)?,
+            why: all.join("; "),
+            has_report: row.result.score().is_some(),
         })
     };
     class.rows.iter().filter_map(outlier).collect()

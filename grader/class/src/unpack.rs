@@ -2,14 +2,16 @@
 //! empty, so that they do not fill the disk. A file that cannot be unpacked is reported, and does
 //! not affect the others.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Component, Path};
 
 use grader::build::build_dir::BuildDir;
 use grader::files::{self, AtPath, PathError};
-use grader::submission::{Archive, ArchiveError, Member, is_archive_name};
+use grader::handed_out::HandedOut;
+use grader::submission::{
+    Archive, ArchiveError, ArchiveLimits, Member, is_archive_name, may_be_task_file,
+};
 
 use crate::input_error::ClassInputError;
 use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
@@ -32,19 +34,29 @@ const SKIPPED: [&str; 4] = [".git", "target", "node_modules", "__MACOSX"];
 /// contains a lock file.
 pub const CLASS_FOLDER: &str = "class";
 
-/// Unpacks an archive into a temporary folder in `parent`. Also returns the paths that were not
-/// unpacked.
+/// The unpacked files of an archive.
+pub struct Unpacked {
+    /// The temporary folder, which has the files in [`CLASS_FOLDER`].
+    pub build_dir: BuildDir,
+    /// The members that were not unpacked, and cannot be.
+    pub problems: Vec<UnmatchedPath>,
+    /// The files that are needed and could not be unpacked: they are empty. Each has its path in the
+    /// folder.
+    pub incomplete: Vec<UnmatchedPath>,
+}
+
+/// Unpacks an archive into a temporary folder in `parent`.
 pub fn unpack(
     path: &Path,
     parent: &Path,
-) -> Result<(BuildDir, Vec<UnmatchedPath>), ClassInputError> {
+    handed_out: &HandedOut,
+) -> Result<Unpacked, ClassInputError> {
     let archive_error = |why| ClassInputError::Archive {
         path: path.to_owned(),
         why,
     };
     let bytes = fs::metadata(path).at("read", path)?.len();
-    let max_total = MAX_TOTAL_BYTES + MAX_EXPANSION * bytes;
-    let mut archive = Archive::open(path).map_err(archive_error)?;
+    let mut archive = Archive::open(path, ArchiveLimits::class()).map_err(archive_error)?;
     let listing = archive.listing().map_err(archive_error)?;
     let build_dir = BuildDir::new_in(parent)?;
     let folder = &build_dir.path().join(CLASS_FOLDER);
@@ -54,55 +66,119 @@ pub fn unpack(
         name: name.clone().into_owned(),
         why,
     };
-    let mut others: Vec<UnmatchedPath> = listing
-        .errors
-        .iter()
-        .map(|why| unmatched(why.to_string()))
-        .collect();
-
+    let errors = listing.errors.iter();
+    let mut problems: Vec<UnmatchedPath> = errors.map(|why| unmatched(why.to_string())).collect();
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
         let put = extract_to(folder, path, |target| files::create_dir_all(target));
-        others.extend(put?.map(unmatched));
+        problems.extend(put?.map(unmatched));
     }
-    // Grouped by the maximum size, so that a tar archive is read once per group and not once per
-    // file.
-    let mut by_max_bytes: BTreeMap<u64, Vec<&Member>> = BTreeMap::new();
-    for member in listing.members.iter().filter(|m| is_wanted(&m.path)) {
-        by_max_bytes
-            .entry(max_bytes(&member.path))
-            .or_default()
-            .push(member);
+
+    let members = listing
+        .members
+        .iter()
+        .filter(|member| is_wanted(&member.path));
+    let selected = select(members, MAX_TOTAL_BYTES + MAX_EXPANSION * bytes, handed_out);
+    let mut incomplete = Vec::new();
+    let mut put = |member: &Member, bytes: Result<&[u8], String>| {
+        if let Err(why) = &bytes {
+            let (name, why) = (member.path.clone(), why.clone());
+            incomplete.push(UnmatchedPath { name, why });
+        }
+        let put = extract_to(folder, &member.path, |target| {
+            files::write_with_parents(target, bytes.as_deref().unwrap_or_default())
+        });
+        problems.extend(put?.map(unmatched));
+        Ok::<_, UnpackError>(())
+    };
+    let mut not_read = selected.not_read.iter();
+    let put_empty = not_read.try_for_each(|(member, why)| match why {
+        Some(why) => put(member, Err(why.clone())),
+        None => put(member, Ok(&[])),
+    });
+    let put_all = put_empty.and_then(|()| {
+        archive.read_each(&selected.read, |slot, bytes| {
+            let bytes = bytes.map_err(|why| why.to_string());
+            put(
+                selected.read[slot].0,
+                bytes.as_deref().map_err(Clone::clone),
+            )
+        })
+    });
+    put_all.map_err(|error| match error {
+        UnpackError::Archive(why) => archive_error(why),
+        UnpackError::File(error) => error.into(),
+    })?;
+    Ok(Unpacked {
+        build_dir,
+        problems,
+        incomplete,
+    })
+}
+
+/// A reason why the rest of an archive cannot be unpacked.
+enum UnpackError {
+    Archive(ArchiveError),
+    File(PathError),
+}
+
+impl From<ArchiveError> for UnpackError {
+    fn from(error: ArchiveError) -> Self {
+        UnpackError::Archive(error)
     }
+}
+
+impl From<PathError> for UnpackError {
+    fn from(error: PathError) -> Self {
+        UnpackError::File(error)
+    }
+}
+
+/// The members of an archive that are unpacked.
+struct Selection<'a> {
+    /// The members that are read, with the maximum number of bytes.
+    read: Vec<(&'a Member, u64)>,
+    /// The members that become empty files, with the reason if they are needed.
+    not_read: Vec<(&'a Member, Option<String>)>,
+}
+
+/// Selects the members whose contents are needed, the smallest first, so that those that do not fit
+/// are the largest, whosever they are. No member can have more bytes than it claims.
+fn select<'a>(
+    members: impl Iterator<Item = &'a Member>,
+    max_total: u64,
+    handed_out: &HandedOut,
+) -> Selection<'a> {
+    let needed =
+        |member: &'a Member| (member, max_bytes(&member.path, handed_out).min(member.size));
+    let mut needed: Vec<_> = members.map(needed).collect();
+    needed.sort_by_key(|(_, bytes)| *bytes);
+    let mut selection = Selection {
+        read: Vec::new(),
+        not_read: Vec::new(),
+    };
     let mut total = 0;
-    for (max_bytes, members) in by_max_bytes {
-        // Only a few files are read at a time, so that a large export needs little memory.
-        for some in members.chunks(archive.batch_size()) {
-            let contents = match max_bytes {
-                0 => vec![Vec::new(); some.len()],
-                max_bytes => archive.read(some, max_bytes).map_err(archive_error)?,
-            };
-            for (member, bytes) in some.iter().zip(contents) {
-                total += bytes.len() as u64;
-                if total > max_total {
-                    return Err(archive_error(ArchiveError::TooLarge(max_total)));
-                }
-                if max_bytes == MAX_FILE_BYTES && bytes.len() as u64 > MAX_FILE_BYTES {
-                    let mib = MAX_FILE_BYTES >> 20;
-                    let path = &member.path;
-                    others.push(unmatched(format!(
-                        "{path} in it is longer than {mib} MiB and was cut off: unpack the archive \
-                         yourself, and pass the folder"
-                    )));
-                }
-                let put = extract_to(folder, &member.path, |target| {
-                    files::write_with_parents(target, &bytes)
-                });
-                others.extend(put?.map(unmatched));
-            }
+    for (member, bytes) in needed {
+        total += bytes;
+        let size = member.size >> 20;
+        if bytes == 0 {
+            selection.not_read.push((member, None));
+        } else if bytes == MAX_FILE_BYTES && member.size > MAX_FILE_BYTES {
+            let most = MAX_FILE_BYTES >> 20;
+            let why = format!(
+                "it has {size} MiB, and more than {most} MiB are not unpacked: ask for the task files alone"
+            );
+            selection.not_read.push((member, Some(why)));
+        } else if total > max_total {
+            let why = format!(
+                "it has {size} MiB, for which there is no room beside the smaller files of the class: unpack the archive yourself, and pass the folder"
+            );
+            selection.not_read.push((member, Some(why)));
+        } else {
+            selection.read.push((member, bytes));
         }
     }
-    Ok((build_dir, others))
+    selection
 }
 
 fn is_wanted(path: &str) -> bool {
@@ -111,12 +187,12 @@ fn is_wanted(path: &str) -> bool {
 
 /// Returns the maximum number of bytes of a file that are needed later. For most files, it is 0,
 /// since only their names matter.
-fn max_bytes(path: &str) -> u64 {
+fn max_bytes(path: &str, handed_out: &HandedOut) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name {
         METADATA | CLASSROOM50_SCORES => MAX_FILE_BYTES,
         name if is_archive_name(name) => MAX_FILE_BYTES,
-        name if name.ends_with(".rs") => MAX_TEXT_BYTES,
+        name if name.ends_with(".rs") || may_be_task_file(name, handed_out) => MAX_TEXT_BYTES,
         _ => 0,
     }
 }

@@ -61,7 +61,7 @@ fn hint_text(hints: &[Hint], context: &FormatContext) -> Option<String> {
 pub fn build_report(view: &StudentView) -> String {
     let build = &view.visible.build;
     let files = build.not_compiled.iter().map(|file| file.message.clone());
-    let notes = build.notes.iter().map(|note| format!("note: {note}"));
+    let notes = build.all_notes().map(|note| format!("note: {note}"));
     files.chain(notes).collect::<Vec<_>>().join("\n\n")
 }
 

@@ -124,10 +124,14 @@ fn sanitized_build(build: &BuildReport) -> BuildReport {
         line: file.line,
         message: sanitize(&file.message, usize::MAX),
     };
-    let notes = build.notes.iter();
+    let notes = |notes: &[String]| {
+        let notes = notes.iter();
+        notes.map(|note| sanitize_line(note, usize::MAX)).collect()
+    };
     BuildReport {
         not_compiled: build.not_compiled.iter().map(file).collect(),
-        notes: notes.map(|note| sanitize_line(note, usize::MAX)).collect(),
+        ignored_copies: notes(&build.ignored_copies),
+        notes: notes(&build.notes),
     }
 }
 

@@ -62,7 +62,8 @@ pub fn score() -> Score {
                 line: Some(7),
                 message: "error: expected `;`\n --> bbox.rs:7:1\u{1b}[0m".to_owned(),
             }],
-            notes: vec!["old/bvh.rs differs from bvh.rs, and is ignored".to_owned()],
+            ignored_copies: vec!["old/bvh.rs differs from bvh.rs, and is ignored".to_owned()],
+            notes: Vec::new(),
         },
         timings: Timings {
             build_ms: 300,

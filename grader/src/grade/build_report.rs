@@ -14,14 +14,14 @@ pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     });
     BuildReport {
         not_compiled: not_compiled.collect(),
+        ignored_copies: submission.ignored_copies.clone(),
         notes: notes(submission, build),
     }
 }
 
 /// Returns notes on the submission's files that do not affect points.
 fn notes(submission: &Submission, build: &Build) -> Vec<String> {
-    let mut notes = submission.ignored_copies.clone();
-    notes.extend(submission.notes.iter().cloned());
+    let mut notes = submission.notes.clone();
     let compiled = submission
         .files
         .iter()

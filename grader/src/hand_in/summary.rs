@@ -29,7 +29,7 @@ impl fmt::Display for HandIn {
             writeln!(f, "  {:14}{}", file.name, self.state(file, text))?;
         }
         writeln!(f)?;
-        for note in &self.build.notes {
+        for note in self.build.all_notes() {
             writeln!(f, "  note: {}", sanitize_line(note, usize::MAX))?;
         }
         if let Some(kept) = &self.kept {

@@ -270,8 +270,17 @@ impl Verdict {
 pub struct BuildReport {
     /// Files that could not be used, and were replaced with the starter's versions.
     pub not_compiled: Vec<FileReport>,
-    /// Notes that do not affect points.
+    /// Notes on files that look like task files or archives, and were not graded.
+    pub ignored_copies: Vec<String>,
+    /// Other notes that do not affect points.
     pub notes: Vec<String>,
+}
+
+impl BuildReport {
+    /// Returns all notes, those on files that were not graded first.
+    pub fn all_notes(&self) -> impl Iterator<Item = &String> + Clone {
+        self.ignored_copies.iter().chain(&self.notes)
+    }
 }
 
 /// A file that could not be used.

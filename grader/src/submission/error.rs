@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::archive::ArchiveError;
+use super::budget::Limit;
 use super::choice::AmbiguousSource;
 use super::display_name;
 use crate::files::PathError;
@@ -89,9 +90,23 @@ pub enum SubmissionError {
         /// Two of the folders or files. The empty path is the top level.
         copies: Vec<String>,
     },
-    /// The folder has more files, or folders inside each other, than are searched.
-    #[error("{0} has too many files and folders: hand in the task files without the rest")]
-    TooManyFiles(PathBuf),
+    /// Task files are as they were handed out, and there are changed copies of them.
+    #[error(
+        "{path} has the starter's {}, and changed copies in {}: keep the file that counts, under the task file's name",
+        listed(starters),
+        listed(copies)
+    )]
+    StarterBesideCopies {
+        /// The path of the folder or archive.
+        path: PathBuf,
+        /// The names of the task files.
+        starters: Vec<String>,
+        /// The paths of the copies.
+        copies: Vec<String>,
+    },
+    /// The submission has more than is read.
+    #[error("{0} has {1}: hand in the task files without the rest")]
+    TooMany(PathBuf, Limit),
     /// The path is a file, but not an archive that can be read.
     #[error("{path}: {why}")]
     Archive {
@@ -100,6 +115,19 @@ pub enum SubmissionError {
         /// The reason why the archive is rejected.
         why: ArchiveError,
     },
+}
+
+impl TaskFileError {
+    /// Returns the same reason for another file: the one that a copy counts as.
+    pub(super) fn of(self, name: &'static str) -> Self {
+        match self {
+            TaskFileError::Missing(_) => TaskFileError::Missing(name),
+            TaskFileError::NotRegular(_) => TaskFileError::NotRegular(name),
+            TaskFileError::TooLong(_) => TaskFileError::TooLong(name),
+            TaskFileError::NotText { line, .. } => TaskFileError::NotText { name, line },
+            TaskFileError::Unreadable { why, .. } => TaskFileError::Unreadable { name, why },
+        }
+    }
 }
 
 impl SubmissionError {
@@ -114,7 +142,8 @@ impl SubmissionError {
             | SubmissionError::Link { .. }
             | SubmissionError::Unreadable(_)
             | SubmissionError::Ambiguous { .. }
-            | SubmissionError::TooManyFiles(_) => false,
+            | SubmissionError::StarterBesideCopies { .. }
+            | SubmissionError::TooMany(..) => false,
         }
     }
 }
@@ -159,11 +188,22 @@ pub fn listed(names: &[String]) -> String {
     }
 }
 
-/// Returns the error for copies of which each could be meant.
-pub(super) fn ambiguous(path: &Path, AmbiguousSource(copies): AmbiguousSource) -> SubmissionError {
-    SubmissionError::Ambiguous {
-        path: path.to_owned(),
-        copies: copies.iter().map(|copy| display_name(copy)).collect(),
+/// Returns the error for files of which a person has to choose one.
+pub(super) fn ambiguous(path: &Path, source: AmbiguousSource) -> SubmissionError {
+    let path = path.to_owned();
+    let shown = |paths: Vec<String>| paths.iter().map(|path| display_name(path)).collect();
+    match source {
+        AmbiguousSource::Several(copies) => SubmissionError::Ambiguous {
+            path,
+            copies: shown(copies),
+        },
+        AmbiguousSource::StarterBesideCopies { starters, copies } => {
+            SubmissionError::StarterBesideCopies {
+                path,
+                starters: shown(starters),
+                copies: shown(copies),
+            }
+        }
     }
 }
 
@@ -203,7 +243,7 @@ mod tests {
             SubmissionError::Unreadable(path_error(ErrorKind::NotFound)),
             archive(ArchiveError::Empty),
             SubmissionError::NotFound("ann".into()),
-            SubmissionError::TooManyFiles("ann".into()),
+            SubmissionError::TooMany("ann".into(), Limit::Files),
         ];
         assert!(!others.iter().any(SubmissionError::is_machine_fault));
     }
@@ -236,7 +276,7 @@ mod tests {
     fn the_top_of_a_submission_has_a_name() {
         let paths = [String::new(), "old".to_owned()];
         assert_eq!(places(&paths), "its top level and old");
-        let error = ambiguous("ann".as_ref(), AmbiguousSource(paths.into()));
+        let error = ambiguous("ann".as_ref(), AmbiguousSource::Several(paths.into()));
         assert!(
             error
                 .to_string()

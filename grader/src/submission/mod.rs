@@ -3,9 +3,14 @@
 //! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
 mod archive;
+mod budget;
 mod choice;
 mod error;
 mod folder;
+mod found;
+mod limited_reader;
+mod names;
+mod search;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,11 +19,14 @@ use judging::sanitize::sanitize_line;
 
 use crate::handed_out::{HandedOut, TaskFile};
 
+use choice::Lookalike;
 use error::{ambiguous, no_task_files};
-use folder::Search;
+use search::Search;
 
-pub use archive::{Archive, ArchiveError, Listing, Member, is_archive_name};
+pub use archive::{Archive, ArchiveError, ArchiveLimits, Listing, Member};
+pub use budget::Limit;
 pub use error::{SubmissionError, TaskFileError, listed, places};
+pub use names::{is_archive_name, may_be_task_file};
 
 /// The maximum length of a file that is read, in bytes. The reference's files are about 10,000
 /// bytes long.
@@ -37,22 +45,22 @@ pub struct Submission {
     pub name: String,
     /// The text of each task file, or the reason why it has none, in lecture order.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
-    /// Notes about copies of the task files that differ from the graded ones.
+    /// Notes about files that look like task files or archives, and are not graded.
     pub ignored_copies: Vec<String>,
     /// Notes about other files that were found, which are not graded.
     pub notes: Vec<String>,
 }
 
 impl Submission {
-    /// Reads the task files of a folder or archive, at any depth. The folder in it with most of the
-    /// task files counts; copies that are ignored are named in a note.
+    /// Reads the task files of a folder or archive, at any depth, and from the archives in it. The
+    /// folder in it with most of the task files counts; copies that are ignored are named in a note.
     pub fn collect(path: &Path, handed_out: &'static HandedOut) -> Result<Self, SubmissionError> {
         if path.is_dir() {
             let search = folder::search(path, handed_out)?;
             return Submission::choose(&folder_name(path), path, search, handed_out);
         }
         if path.is_file() {
-            let search = Search::in_archive(path, handed_out)?;
+            let search = folder::search_archive(path, handed_out)?;
             let name = archive::without_extension(&folder_name(path));
             return Submission::choose(&name, path, search, handed_out);
         }
@@ -72,21 +80,13 @@ impl Submission {
         let source = path.join("src");
         let mut files = handed_out.file_names().map(|file| source.join(file));
         if files.any(|file| file.is_file()) {
-            let search = folder::search_one(&source, handed_out)?;
-            return Submission::choose(&folder_name(path), path, search, handed_out);
+            let mut search = folder::search_one(&source, handed_out)?;
+            let copies = std::mem::take(&mut search.lookalikes);
+            let mut own = Submission::choose(&folder_name(path), path, search, handed_out)?;
+            own.ignored_copies = own.notes_on_own_copies(&copies);
+            return Ok(own);
         }
         Submission::collect(path, handed_out)
-    }
-
-    /// Reads the task files of a folder that a platform has made, like [`Submission::collect`], but
-    /// also from the archives in it.
-    pub fn collect_with_archives(
-        path: &Path,
-        handed_out: &'static HandedOut,
-    ) -> Result<Self, SubmissionError> {
-        let mut search = folder::search(path, handed_out)?;
-        search.add_archives(path, handed_out);
-        Submission::choose(&folder_name(path), path, search, handed_out)
     }
 
     /// Reads the task files among these files, each given by its submitted name and its path on
@@ -115,17 +115,26 @@ impl Submission {
         let (faults, errors): (Vec<_>, Vec<_>) = search
             .errors
             .into_iter()
-            .partition(SubmissionError::is_machine_fault);
+            .partition(|(_, error)| error.is_machine_fault());
         // What the machine did not read could be what counts.
-        if let Some(fault) = faults.into_iter().next() {
+        if let Some((_, fault)) = faults.into_iter().next() {
             return Err(fault);
         }
-        let choice = choice::choose(search.candidates, handed_out);
+        let mut found: Vec<String> = search
+            .lookalikes
+            .iter()
+            .map(|file| file.path.clone())
+            .collect();
+        let choice = choice::choose(search.candidates, search.lookalikes, handed_out);
         let choice = choice.map_err(|error| ambiguous(path, error))?;
-        let mut errors = errors.into_iter();
-        let Some(choice) = choice else {
+        let Some(mut choice) = choice else {
+            let mut errors = errors.into_iter().map(|(_, error)| error);
             let error = errors.next().or_else(|| search.links.first().map(link));
-            return Err(error.unwrap_or_else(|| no_task_files(path, &search.names, handed_out)));
+            return Err(error.unwrap_or_else(|| {
+                found.extend(search.names);
+                found.dedup();
+                no_task_files(path, &found, handed_out)
+            }));
         };
         // A link could lead to another person's files.
         let files = handed_out.file_names();
@@ -137,12 +146,14 @@ impl Submission {
         if !choice.is_complete {
             let mut links = search.links.iter();
             let leads_to_files = |path: &&String| may_lead_to_files(path, handed_out);
-            let error = errors
-                .next()
-                .or_else(|| links.find(leads_to_files).map(link));
+            let error = errors.into_iter().map(|(_, error)| error).next();
+            let error = error.or_else(|| links.find(leads_to_files).map(link));
             if let Some(error) = error {
                 return Err(error);
             }
+        } else {
+            let notes = errors.iter().map(|(path, error)| not_graded(path, error));
+            choice.notes.extend(notes.take(MAX_NOTES));
         }
         Ok(Submission::from_contents(
             name.to_owned(),
@@ -150,6 +161,26 @@ impl Submission {
             choice.notes,
             handed_out,
         ))
+    }
+
+    /// Returns notes about copies of one's own task files, of which Cargo compiles none. Those that
+    /// `cargo grade --reset` makes are left out.
+    fn notes_on_own_copies(&self, copies: &[Lookalike]) -> Vec<String> {
+        let differs = |copy: &&Lookalike| {
+            let mut files = self.files.iter();
+            let graded = files.find(|(file, _)| file.name == copy.file);
+            let graded = graded.and_then(|(_, text)| text.as_deref().ok());
+            !copy.path.contains(".bak-")
+                && graded.map(str::as_bytes) != copy.contents.as_deref().ok()
+        };
+        let copies = copies.iter().filter(differs).take(MAX_NOTES);
+        let note = |copy: &Lookalike| {
+            display_name(&format!(
+                "{} is not graded: only {} is",
+                copy.path, copy.file
+            ))
+        };
+        copies.map(note).collect()
     }
 
     /// Returns whether the assignment has not been started: every task file is the starter's, token
@@ -197,8 +228,22 @@ struct SubmissionFiles {
 fn may_lead_to_files(link: &str, handed_out: &HandedOut) -> bool {
     let name = link.rsplit('/').next().unwrap_or(link);
     let mut folders = handed_out.assignment.folders.iter();
-    handed_out.task_file(name).is_some()
+    may_be_task_file(name, handed_out)
         || folders.any(|folder| folder.split('/').any(|part| part == name))
+}
+
+/// Returns a note about a folder or an archive that was not read.
+fn not_graded(path: &str, error: &SubmissionError) -> String {
+    let why = if let SubmissionError::Archive { why, .. } = error {
+        why.to_string()
+    } else if let SubmissionError::Unreadable(error) = error {
+        error.reason()
+    } else if let SubmissionError::TooMany(_, limit) = error {
+        format!("it has {limit}")
+    } else {
+        error.to_string()
+    };
+    format!("{} is not graded: {why}", display_name(path))
 }
 
 /// Returns a name that is safe to print: shortened, and with control characters escaped.

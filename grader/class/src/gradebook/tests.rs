@@ -4,7 +4,7 @@ use grader::policy::Policy;
 
 use super::*;
 use crate::entry::EntryInfo;
-use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
+use crate::outcome::{EntryOutcome, EntryResult, FileNotes, ScoreSummary};
 
 fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
     Person {
@@ -27,6 +27,7 @@ fn class(people: &[(&str, Person)]) -> GradedClass {
             outcome: EntryOutcome::Graded(Box::new(ScoreSummary {
                 points: 80,
                 max_points: 100,
+                build: FileNotes::default(),
                 tasks: Vec::new(),
             })),
         };

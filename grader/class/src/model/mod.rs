@@ -132,10 +132,10 @@ impl ClassRow {
         self.merge(PersonGrade::explanation)
     }
 
-    /// Returns notes for staff: the reason why there are no final points, or else what counts, and
-    /// the manual points.
+    /// Returns notes for staff: the reason why there are no final points, or else what counts, the
+    /// manual points, and the files that look like task files and were not graded.
     pub fn notes(&self) -> Vec<String> {
-        self.merge(|grade| {
+        let mut notes = self.merge(|grade| {
             let problem = match self.why(grade) {
                 why if why.is_empty() => None,
                 why => Some(format!("{}: {why}", self.status(grade))),
@@ -148,7 +148,9 @@ impl ClassRow {
             let counted = counted.map(|counted| counted.explanation());
             let manual = grade.manual.iter().map(ToString::to_string);
             problem.into_iter().chain(counted).chain(manual).collect()
-        })
+        });
+        notes.extend_from_slice(self.result.ignored_copies());
+        notes
     }
 
     /// Returns the texts about all grades, with names in front if they differ.

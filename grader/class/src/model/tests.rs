@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::*;
 use crate::entry::EntryInfo;
-use crate::outcome::TaskScore;
+use crate::outcome::{FileNotes, TaskScore};
 
 /// Returns the result of a submission by these people, with this outcome.
 pub(crate) fn result(id: &str, people: &[&str], outcome: EntryOutcome) -> EntryResult {
@@ -23,6 +23,7 @@ pub(crate) fn graded(points: u32) -> EntryOutcome {
     EntryOutcome::Graded(Box::new(ScoreSummary {
         points,
         max_points: 100,
+        build: FileNotes::default(),
         tasks: vec![TaskScore {
             id: "sphere".to_owned(),
             title: "Spheres".to_owned(),

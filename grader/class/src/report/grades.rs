@@ -15,7 +15,7 @@ const COLUMNS_BEFORE_TASKS: [&str; 9] = [
     "points",
     "max_points",
 ];
-const COLUMNS_AFTER_TASKS: [&str; 8] = [
+const COLUMNS_AFTER_TASKS: [&str; 9] = [
     "manual",
     "late_days",
     "submitted",
@@ -24,6 +24,7 @@ const COLUMNS_AFTER_TASKS: [&str; 8] = [
     "comments",
     "report",
     "late_flag",
+    "ignored_copies",
 ];
 
 /// The mark of a submission that the platform marks as late.
@@ -86,6 +87,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
         safe_cell(&comments.join("; ")),
         safe_cell(&report.unwrap_or_default()),
         if info.is_late() { LATE } else { "" }.to_owned(),
+        safe_cell(&class_row.result.ignored_copies().join("; ")),
     ]);
     row
 }

@@ -10,7 +10,7 @@ use crate::input::{NotCollected, collect_submission};
 use crate::layout::{RecognisedClass, UnmatchedPath};
 
 /// The maximum length of a name or reason, in characters.
-const MAX_CHARS: usize = 200;
+const MAX_CHARS: usize = 1_000;
 
 /// Renders the entries with the files that each would be graded from.
 pub fn render_preview(

@@ -17,6 +17,8 @@ const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
 /// The characters for the columns of a bar chart, from the lowest to the highest.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+/// The maximum length of the reasons why a submission needs attention, which may name many files.
+const MAX_WHY_CHARS: usize = 1_000;
 /// The maximum number of changes to list for a gradebook or a regrade.
 const MAX_LINES: usize = 40;
 
@@ -82,7 +84,7 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
             out,
             "  {}: {}",
             one_line(&outlier.title()),
-            one_line(&outlier.why)
+            sanitize_line(&outlier.why, MAX_WHY_CHARS)
         )?;
     }
     writeln!(out)

@@ -9,7 +9,9 @@ use class::hand_back::HandBack;
 use class::layout::{Layout, RecognisedClass, UnmatchedPath};
 use class::manual::ManualPoints;
 use class::model::{ClassRow, GradedClass};
-use class::outcome::{EntryOutcome, EntryResult, Hint, ItemScore, ScoreSummary, TaskScore};
+use class::outcome::{
+    EntryOutcome, EntryResult, FileNotes, Hint, ItemScore, ScoreSummary, TaskScore,
+};
 use class::report::grades::grades_table;
 use class::report::page::render_page;
 use class::report::preview::render_preview;
@@ -71,6 +73,7 @@ fn score(text: &str) -> ScoreSummary {
     ScoreSummary {
         points: 0,
         max_points: 1,
+        build: FileNotes::default(),
         tasks: vec![TaskScore {
             id: "sphere".to_owned(),
             title: text.to_owned(),

@@ -24,3 +24,4 @@ mod shards;
 mod similarity;
 mod stored_class;
 mod times;
+mod ungraded_files;

@@ -14,7 +14,7 @@ use crate::score::{ItemScore, Score, TaskScore};
 /// Renders the files that did not compile, and the notes. Returns nothing if there are neither.
 pub(super) fn files(score: &Score) -> Markup {
     let build = &score.build;
-    if build.not_compiled.is_empty() && build.notes.is_empty() {
+    if build.not_compiled.is_empty() && build.all_notes().next().is_none() {
         return html! {};
     }
     html! {
@@ -24,9 +24,9 @@ pub(super) fn files(score: &Score) -> Markup {
                 h3 { code { (plain_text(&file.file)) } " was not used" }
                 pre { (plain_text(&file.message)) }
             }
-            @if !build.notes.is_empty() {
+            @if build.all_notes().next().is_some() {
                 ul .notes {
-                    @for note in &build.notes { li { (plain_text(note)) } }
+                    @for note in build.all_notes() { li { (plain_text(note)) } }
                 }
             }
         }

@@ -137,7 +137,7 @@ fn write_parts(
         write_compiler_message(out, &file.message)?;
     }
     // Before the items, because a note can be why they fail.
-    for note in &score.build.notes {
+    for note in score.build.all_notes() {
         let note = sanitize_line(note, usize::MAX);
         writeln!(out, "\n  note: {note}")?;
     }

@@ -2,30 +2,65 @@
 //! never unpacked. The sizes and counts in its headers are not trusted: limits apply to the bytes
 //! that are actually read and inflated.
 
-mod candidates;
-mod limited_reader;
+mod paths;
+mod search;
 mod tarball;
 mod zip_reader;
 
-use std::collections::BTreeMap;
+use std::fmt;
 use std::fs::File;
-use std::io::{self, Read};
-use std::path::Path;
+use std::io::{self, BufReader, Cursor, Read};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
-use unicode_normalization::UnicodeNormalization;
+use rawzip::{FileReader, ReaderAt};
 
 use super::display_name;
 use super::error::is_about_submission;
+use super::limited_reader::{ByteBudget, LimitedReader};
 use crate::disk::{self, Operation};
 
-pub(super) use candidates::candidates;
+pub(super) use paths::without_extension;
+pub(super) use search::search;
 
-use limited_reader::LimitedReader;
+use paths::{check_special, duplicate_paths, normalize_path};
 use tarball::Tarball;
 use zip_reader::ZipReader;
 
-/// The maximum number of files in an archive. A checkout with its `target/` has several thousand.
-pub const MAX_MEMBERS: usize = 50_000;
+/// The maximum number of archives inside each other that are opened.
+const MAX_LEVELS: usize = 3;
+
+/// The limits on what is read from an archive.
+#[derive(Clone, Debug)]
+pub struct ArchiveLimits {
+    /// The maximum number of members. A checkout with its `target/` has several thousand.
+    members: usize,
+    /// The maximum size of an uncompressed tar in bytes, including members that are skipped.
+    tar_bytes: u64,
+    /// The bytes that may still be read, compressed and inflated, from this archive and others.
+    total: ByteBudget,
+}
+
+impl ArchiveLimits {
+    /// Returns the limits for an archive of one submission.
+    pub(super) fn submission(total: &ByteBudget) -> Self {
+        ArchiveLimits {
+            members: 50_000,
+            tar_bytes: 256 << 20,
+            total: total.clone(),
+        }
+    }
+
+    /// Returns the limits for the archive of a whole class: so large that one submission in it
+    /// hardly reaches them.
+    pub fn class() -> Self {
+        ArchiveLimits {
+            members: 2_000_000,
+            tar_bytes: 64 << 30,
+            total: ByteBudget::new(u64::MAX),
+        }
+    }
+}
 
 /// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
@@ -54,11 +89,14 @@ pub enum ArchiveError {
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
     DuplicatePath(String, String),
     /// There are too many members.
-    #[error("it has more than {MAX_MEMBERS} files: pack the task files, without target/")]
-    TooManyFiles,
+    #[error("it has more than {0} files: pack the task files, without target/")]
+    TooManyFiles(usize),
     /// The contents are too large.
     #[error("its contents are larger than {} MiB: pack the task files, without target/", .0 >> 20)]
     TooLarge(u64),
+    /// The archive is inside too many others.
+    #[error("it is inside {MAX_LEVELS} other archives, and not opened: unpack them")]
+    TooDeep,
     /// A member's path leads out of the archive.
     #[error("the path {0} in it leads outside the archive: pack it again")]
     PathOutside(String),
@@ -78,6 +116,8 @@ pub enum ArchiveError {
 pub struct Member {
     /// The path, with `/` and without `.` components. It is relative and stays inside the archive.
     pub path: String,
+    /// The size that the archive claims, in bytes.
+    pub size: u64,
     /// The index of the file among the members of the archive.
     index: usize,
 }
@@ -105,34 +145,77 @@ impl Listing {
     }
 }
 
+/// The location of an archive's bytes.
+#[derive(Clone, Debug)]
+pub(super) enum ArchiveBytes {
+    /// A file on disk.
+    File(PathBuf),
+    /// A member of another archive.
+    Member(Rc<[u8]>),
+}
+
+impl ArchiveBytes {
+    fn reader(&self) -> Result<Box<dyn Read>, ArchiveError> {
+        Ok(match self {
+            ArchiveBytes::File(path) => {
+                Box::new(BufReader::new(File::open(path).map_err(io_error)?))
+            }
+            ArchiveBytes::Member(bytes) => Box::new(Cursor::new(Rc::clone(bytes))),
+        })
+    }
+
+    /// Returns a reader, and the number of bytes.
+    fn reader_at(&self) -> Result<(Box<dyn ReaderAt>, u64), ArchiveError> {
+        Ok(match self {
+            ArchiveBytes::File(path) => {
+                let file = File::open(path).map_err(io_error)?;
+                let length = file.metadata().map_err(io_error)?.len();
+                (Box::new(FileReader::from(file)), length)
+            }
+            ArchiveBytes::Member(bytes) => {
+                (Box::new(Cursor::new(Rc::clone(bytes))), bytes.len() as u64)
+            }
+        })
+    }
+}
+
 /// An open archive.
-#[derive(Debug)]
 pub struct Archive(ArchiveReader);
 
-#[derive(Debug)]
 enum ArchiveReader {
     Zip(Box<ZipReader>),
     Tar(Tarball),
 }
 
+impl fmt::Debug for Archive {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("Archive")
+    }
+}
+
 impl Archive {
+    /// Opens an archive on disk.
+    pub fn open(path: &Path, limits: ArchiveLimits) -> Result<Self, ArchiveError> {
+        disk::before(Operation::Read(path)).map_err(io_error)?;
+        Archive::open_bytes(ArchiveBytes::File(path.to_owned()), limits)
+    }
+
     /// Opens an archive. Its kind is determined from its first bytes.
-    pub fn open(path: &Path) -> Result<Self, ArchiveError> {
+    fn open_bytes(bytes: ArchiveBytes, limits: ArchiveLimits) -> Result<Self, ArchiveError> {
         let mut head = Vec::new();
-        let file = disk::before(Operation::Read(path)).and_then(|()| File::open(path));
-        let file = file.map_err(io_error)?;
-        file.take(8).read_to_end(&mut head).map_err(io_error)?;
+        let read = bytes.reader()?.take(8).read_to_end(&mut head);
+        read.map_err(io_error)?;
         Ok(Archive(match head.as_slice() {
             [] => return Err(ArchiveError::Empty),
             [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => {
-                ArchiveReader::Zip(Box::new(ZipReader::open(path)?))
+                ArchiveReader::Zip(Box::new(ZipReader::open(&bytes, &limits)?))
             }
             [b'R', b'a', b'r', b'!', ..] => return Err(ArchiveError::UnsupportedKind(".rar")),
             [b'7', b'z', 0xbc, 0xaf, ..] => return Err(ArchiveError::UnsupportedKind(".7z")),
             [0xfd, b'7', b'z', b'X', ..] => return Err(ArchiveError::UnsupportedKind(".xz")),
             [b'B', b'Z', b'h', ..] => return Err(ArchiveError::UnsupportedKind(".bz2")),
             [0x28, 0xb5, 0x2f, 0xfd, ..] => return Err(ArchiveError::UnsupportedKind(".zst")),
-            [_, ..] => ArchiveReader::Tar(Tarball::open(path)?),
+            [_, ..] => ArchiveReader::Tar(Tarball::open(bytes, limits)?),
         }))
     }
 
@@ -164,94 +247,32 @@ impl Archive {
         members: &[&Member],
         longest: u64,
     ) -> Result<Vec<Vec<u8>>, ArchiveError> {
+        let members: Vec<_> = members.iter().map(|member| (*member, longest)).collect();
+        let mut all = vec![Vec::new(); members.len()];
+        self.read_each(&members, |slot, bytes| {
+            all[slot] = bytes?;
+            Ok::<_, ArchiveError>(())
+        })?;
+        Ok(all)
+    }
+
+    /// Calls `each` with the index and the contents of each of these members, of which a single one is
+    /// in memory at a time. Of a member that has more bytes than the number beside it, one byte more
+    /// than that is read. A tar is scanned once. In a zip, a damaged member affects no other.
+    pub fn read_each<E: From<ArchiveError>>(
+        &mut self,
+        members: &[(&Member, u64)],
+        mut each: impl FnMut(usize, Result<Vec<u8>, ArchiveError>) -> Result<(), E>,
+    ) -> Result<(), E> {
         match &mut self.0 {
-            ArchiveReader::Zip(zip) => zip.read(members, longest),
-            ArchiveReader::Tar(tar) => tar.read(members, longest),
+            ArchiveReader::Zip(zip) => {
+                let mut members = members.iter().enumerate();
+                members.try_for_each(|(slot, (member, longest))| {
+                    each(slot, zip.read(member, *longest))
+                })
+            }
+            ArchiveReader::Tar(tar) => tar.read_each(members, each),
         }
-    }
-
-    /// Returns the number of members that should be read in one call. A tar is scanned from the
-    /// start on each call, so all its members should be read at once.
-    pub fn batch_size(&self) -> usize {
-        match &self.0 {
-            ArchiveReader::Zip(_) => 1,
-            ArchiveReader::Tar(_) => MAX_MEMBERS,
-        }
-    }
-}
-
-/// Returns whether this is the name of an archive, even if its kind is not supported.
-pub fn is_archive_name(name: &str) -> bool {
-    const ENDINGS: [&str; 12] = [
-        ".zip", ".tar", ".tar.gz", ".tgz", ".rar", ".7z", ".tar.xz", ".txz", ".tar.bz2",
-        ".tar.zst", ".gz", ".xz",
-    ];
-    let lower = name.to_lowercase();
-    ENDINGS.iter().any(|ending| lower.ends_with(ending))
-}
-
-/// Returns the archive's name without its extension.
-pub(super) fn without_extension(file: &str) -> String {
-    let endings = [".tar.gz", ".tgz", ".tar", ".zip"];
-    let lower = file.to_ascii_lowercase();
-    let ending = endings.iter().find(|ending| lower.ends_with(**ending));
-    let length = file.len() - ending.map_or(0, |ending| ending.len());
-    match &file[..length] {
-        "" => file.to_owned(),
-        stem => stem.to_owned(),
-    }
-}
-
-/// Returns a member's path with `/` and without `.` components. Fails if it leads outside.
-fn normalize_path(path: &str) -> Result<String, ArchiveError> {
-    // Some programs on Windows write `\`, against the standard.
-    let path = path.replace('\\', "/");
-    let is_absolute = path.starts_with('/') || path.get(1..2) == Some(":");
-    if is_absolute || path.split('/').any(|part| part == "..") {
-        return Err(ArchiveError::PathOutside(display_name(&path)));
-    }
-    let parts = path
-        .split('/')
-        .filter(|part| !part.is_empty() && *part != ".");
-    Ok(parts.collect::<Vec<_>>().join("/"))
-}
-
-/// Returns an error for each Rust file with the same path as an earlier one. Which of the two files
-/// is used would depend on the program that unpacks the archive.
-fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
-    let mut known: BTreeMap<String, &str> = BTreeMap::new();
-    let mut errors = Vec::new();
-    for member in members {
-        let folded = folded_path(&member.path);
-        if !folded.ends_with(".rs") {
-            continue;
-        }
-        if let Some(first) = known.insert(folded, &member.path) {
-            let (path, first) = (display_name(&member.path), display_name(first));
-            errors.push(ArchiveError::DuplicatePath(path, first));
-        }
-    }
-    errors
-}
-
-/// Normalises a path for comparison: two paths become equal if any common file system treats them
-/// as the same. The result is in lower case (macOS, Windows) and in Unicode's composed form, NFC
-/// (macOS), and its names have no trailing dots or spaces (Windows).
-fn folded_path(path: &str) -> String {
-    let folded: String = path.to_lowercase().nfc().collect();
-    let names = folded
-        .split('/')
-        .map(|name| name.trim_end_matches(['.', ' ']));
-    names.collect::<Vec<_>>().join("/")
-}
-
-/// Rejects a link or device, except in `target/`: Cargo makes hard links there, and nothing in it
-/// is read.
-fn check_special(path: &str) -> Result<(), ArchiveError> {
-    if path.split('/').any(|part| part == "target") {
-        Ok(())
-    } else {
-        Err(ArchiveError::NotRegular(display_name(path)))
     }
 }
 

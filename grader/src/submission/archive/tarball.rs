@@ -1,35 +1,30 @@
 //! `.tar` and `.tar.gz` archives. Unlike zip, tar has no central directory, so every access scans
 //! the archive from the start.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::io::{self, Read};
 
 use flate2::read::MultiGzDecoder;
 use tar::{Archive, EntryType};
 
-use super::limited_reader::ByteBudget;
 use super::{
-    ArchiveError, LimitedReader, Listing, MAX_MEMBERS, Member, display_name, io_error,
-    normalize_path,
+    ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member,
+    display_name, io_error, normalize_path,
 };
 
-/// The maximum size of an uncompressed tar in bytes, including members that are skipped.
-const MAX_BYTES: u64 = 256 << 20;
 /// The offset and the bytes of the magic number in a tar header.
 const MAGIC: (usize, &[u8]) = (257, b"ustar");
 
 /// A tar archive, possibly compressed with gzip.
 #[derive(Debug)]
 pub(super) struct Tarball {
-    path: PathBuf,
+    bytes: ArchiveBytes,
+    limits: ArchiveLimits,
 }
 
 impl Tarball {
-    pub(super) fn open(path: &Path) -> Result<Self, ArchiveError> {
-        let tarball = Tarball {
-            path: path.to_owned(),
-        };
+    pub(super) fn open(bytes: ArchiveBytes, limits: ArchiveLimits) -> Result<Self, ArchiveError> {
+        let tarball = Tarball { bytes, limits };
         let (reader, _) = tarball.reader()?;
         let mut head = Vec::new();
         let read = reader.take(512).read_to_end(&mut head);
@@ -44,32 +39,34 @@ impl Tarball {
     }
 
     fn reader(&self) -> Result<(LimitedReader<Box<dyn Read>>, ByteBudget), ArchiveError> {
-        let file = || File::open(&self.path).map(BufReader::new).map_err(io_error);
         let mut magic = [0; 2];
         // A file of fewer than two bytes is not an archive. It is rejected later, because it has no
         // magic number.
-        let _ = file()?.read(&mut magic).map_err(io_error)?;
+        let _ = self.bytes.reader()?.read(&mut magic).map_err(io_error)?;
         let inner: Box<dyn Read> = match magic {
-            [0x1f, 0x8b] => Box::new(MultiGzDecoder::new(file()?)),
-            _ => Box::new(file()?),
+            [0x1f, 0x8b] => Box::new(MultiGzDecoder::new(self.bytes.reader()?)),
+            _ => self.bytes.reader()?,
         };
-        Ok(LimitedReader::new(inner, MAX_BYTES))
+        let budget = self.limits.total.part(self.limits.tar_bytes);
+        Ok((LimitedReader::new(inner, &budget), budget))
     }
 
     pub(super) fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = Listing::default();
         let mut count = 0;
-        self.for_each_member(|index, kind, path, _| {
+        let most = self.limits.members;
+        self.for_each_member(|index, kind, path, entry| {
             count = index + 1;
-            if count > MAX_MEMBERS {
-                return Err(ArchiveError::TooManyFiles);
+            if count > most {
+                return Err(ArchiveError::TooManyFiles(most));
             }
             match normalize_path(path) {
                 Err(why) => listing.errors.push(why),
                 Ok(path) if is_link_or_device(kind) => listing.add_special(&path),
                 Ok(path) if kind.is_dir() => listing.folders.push(path),
                 Ok(path) if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() => {
-                    listing.members.push(Member { path, index });
+                    let size = entry.size();
+                    listing.members.push(Member { path, size, index });
                 }
                 // Other entries are metadata, such as the header in which Git stores the commit id.
                 Ok(_) => {}
@@ -82,32 +79,40 @@ impl Tarball {
         }
     }
 
-    pub(super) fn read(
+    pub(super) fn read_each<E: From<ArchiveError>>(
         &mut self,
-        members: &[&Member],
-        longest: u64,
-    ) -> Result<Vec<Vec<u8>>, ArchiveError> {
-        let mut all = vec![Vec::new(); members.len()];
+        members: &[(&Member, u64)],
+        mut each: impl FnMut(usize, Result<Vec<u8>, ArchiveError>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let slots = members.iter().enumerate();
+        let slots: BTreeMap<usize, (usize, u64)> = slots
+            .map(|(slot, (member, longest))| (member.index, (slot, *longest)))
+            .collect();
         self.for_each_member(|index, _, _, entry| {
-            let slot = members.iter().position(|member| member.index == index);
-            if let Some(slot) = slot {
-                let read = entry.take(longest + 1).read_to_end(&mut all[slot]);
-                read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
-            }
-            Ok(())
-        })?;
-        Ok(all)
+            let Some((slot, longest)) = slots.get(&index) else {
+                return Ok(());
+            };
+            let mut bytes = Vec::new();
+            let read = entry.take(longest + 1).read_to_end(&mut bytes);
+            read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
+            each(*slot, Ok(bytes))
+        })
     }
 
     /// Calls `each` with the index, kind, recorded path, and content of every member.
-    fn for_each_member(
+    fn for_each_member<E: From<ArchiveError>>(
         &self,
-        mut each: impl FnMut(usize, EntryType, &str, &mut dyn Read) -> Result<(), ArchiveError>,
-    ) -> Result<(), ArchiveError> {
+        mut each: impl FnMut(
+            usize,
+            EntryType,
+            &str,
+            &mut tar::Entry<'_, LimitedReader<Box<dyn Read>>>,
+        ) -> Result<(), E>,
+    ) -> Result<(), E> {
         let (reader, budget) = self.reader()?;
         let damaged = |error: io::Error| {
             if budget.is_exhausted() {
-                ArchiveError::TooLarge(MAX_BYTES)
+                ArchiveError::TooLarge(self.limits.tar_bytes)
             } else {
                 ArchiveError::Damaged(display_name(&error.to_string()))
             }

@@ -1,39 +1,38 @@
 //! `.zip` archives. The central directory at the end lists the contents, and only requested members
 //! are inflated.
 
-use std::fs::File;
 use std::io::Read;
-use std::path::Path;
 
-use rawzip::FileReader;
+use rawzip::ReaderAt;
 
 use crate::zipfile::{EntryKind, Zip, ZipError};
 
-use super::limited_reader::ByteBudget;
 use super::{
-    ArchiveError, LimitedReader, Listing, MAX_MEMBERS, Member, display_name, io_error,
-    normalize_path,
+    ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member,
+    display_name, normalize_path,
 };
 
-/// The maximum number of bytes to read for a list of the contents. This is about the size of a
-/// central directory with 50,000 members.
-const MAX_DIRECTORY_BYTES: u64 = 8 << 20;
+/// The maximum number of bytes to read for a list of the contents, per member. This is about the size
+/// of its entry in the central directory.
+const DIRECTORY_BYTES: u64 = 168;
+
+/// The maximum number of bytes to read for the headers of a member.
+const HEADER_BYTES: u64 = 1 << 20;
 
 /// A zip archive whose central directory has been read.
-#[derive(Debug)]
 pub(super) struct ZipReader {
-    zip: Zip<LimitedReader<FileReader>>,
+    zip: Zip<LimitedReader<Box<dyn ReaderAt>>>,
     budget: ByteBudget,
 }
 
 impl ZipReader {
-    pub(super) fn open(path: &Path) -> Result<Self, ArchiveError> {
-        let file = File::open(path).map_err(io_error)?;
-        let length = file.metadata().map_err(io_error)?.len();
-        let (reader, budget) = LimitedReader::new(FileReader::from(file), MAX_DIRECTORY_BYTES);
-        let zip = Zip::open(reader, length, MAX_MEMBERS).map_err(|error| {
+    pub(super) fn open(bytes: &ArchiveBytes, limits: &ArchiveLimits) -> Result<Self, ArchiveError> {
+        let (reader, length) = bytes.reader_at()?;
+        let budget = limits.total.part(DIRECTORY_BYTES * limits.members as u64);
+        let reader = LimitedReader::new(reader, &budget);
+        let zip = Zip::open(reader, length, limits.members).map_err(|error| {
             if budget.is_exhausted() {
-                ArchiveError::TooManyFiles
+                ArchiveError::TooManyFiles(limits.members)
             } else {
                 archive_error(&error, "")
             }
@@ -48,33 +47,27 @@ impl ZipReader {
             return Err(ArchiveError::Empty);
         }
         for (index, entry) in entries.iter().enumerate() {
+            let size = entry.size;
             match (normalize_path(&entry.name), entry.kind) {
                 (Err(why), _) => listing.errors.push(why),
                 (Ok(path), EntryKind::Folder) => listing.folders.push(path),
-                (Ok(path), EntryKind::File) => listing.members.push(Member { path, index }),
+                (Ok(path), EntryKind::File) => listing.members.push(Member { path, size, index }),
                 (Ok(path), EntryKind::Special) => listing.add_special(&path),
             }
         }
         Ok(listing)
     }
 
-    pub(super) fn read(
-        &mut self,
-        members: &[&Member],
-        longest: u64,
-    ) -> Result<Vec<Vec<u8>>, ArchiveError> {
-        let mut all = Vec::new();
-        for member in members {
-            // Compressed text is shorter than the text itself, and its headers are short.
-            self.budget.reset(2 * longest);
-            let mut bytes = Vec::new();
-            let entry = self.zip.read(&self.zip.entries[member.index]);
-            let entry = entry.map_err(|error| archive_error(&error, &member.path))?;
-            let read = entry.take(longest + 1).read_to_end(&mut bytes);
-            read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
-            all.push(bytes);
-        }
-        Ok(all)
+    pub(super) fn read(&self, member: &Member, longest: u64) -> Result<Vec<u8>, ArchiveError> {
+        // Compressed text is hardly longer than the text itself.
+        self.budget.reset(2 * longest + HEADER_BYTES);
+        let mut bytes = Vec::new();
+        let entry = self.zip.read(&self.zip.entries[member.index]);
+        let entry = entry.map_err(|error| archive_error(&error, &member.path))?;
+        let read = entry.take(longest + 1).read_to_end(&mut bytes);
+        self.budget.spend(bytes.len() as u64);
+        read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
+        Ok(bytes)
     }
 }
 
@@ -83,7 +76,7 @@ fn archive_error(error: &ZipError, path: &str) -> ArchiveError {
     match error {
         ZipError::Encrypted => ArchiveError::Encrypted(display_name(path)),
         ZipError::UnsupportedMethod => ArchiveError::UnsupportedCompression(display_name(path)),
-        ZipError::TooManyEntries(_) => ArchiveError::TooManyFiles,
+        ZipError::TooManyEntries(most) => ArchiveError::TooManyFiles(*most),
         ZipError::Damaged(_) | ZipError::WrongCount => {
             ArchiveError::Damaged(display_name(&error.to_string()))
         }

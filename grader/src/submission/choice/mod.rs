@@ -5,14 +5,39 @@
 //! as long as they could not be what is meant; otherwise a person has to choose.
 
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use super::{MAX_NOTES, SubmissionFiles, TaskFileError, display_name};
-use crate::handed_out::{HandedOut, TaskFile};
+use crate::handed_out::HandedOut;
 
-/// Names of folders that never hold what is handed in: metadata of systems and tools, and compiled
-/// files. Those of the project itself are in the assignment's table.
-const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
+/// Names of folders that never hold what is handed in: metadata of systems and tools, old versions
+/// that tools keep, and compiled files. Those of the project itself are in the assignment's table.
+const SKIPPED: [&str; 24] = [
+    "__MACOSX",
+    "target",
+    "node_modules",
+    ".git",
+    ".github",
+    ".gitlab",
+    ".svn",
+    ".hg",
+    ".jj",
+    ".cargo",
+    ".vscode",
+    ".vs",
+    ".idea",
+    ".fleet",
+    ".zed",
+    ".history",
+    ".devcontainer",
+    ".cache",
+    ".Trash",
+    ".Trashes",
+    ".fseventsd",
+    ".Spotlight-V100",
+    ".TemporaryItems",
+    ".DS_Store",
+];
 
 /// A folder, or an archive in it, that has task files.
 #[derive(Debug, Default)]
@@ -34,51 +59,39 @@ pub(super) struct Choice {
     pub(super) is_complete: bool,
 }
 
-/// The error for several folders that could be meant. Holds two of them.
+/// A file that resembles a task file, in a folder or an archive, and is not graded as it.
+#[derive(Debug)]
+pub(super) struct Lookalike {
+    /// The path of the file below the submission, with `/`.
+    pub(super) path: String,
+    /// The name of the task file.
+    pub(super) file: &'static str,
+    /// Whether the file has exactly the name of the task file.
+    pub(super) is_exact: bool,
+    /// Whether the name is that of a copy, which would count as the task file if nothing else could be
+    /// meant.
+    pub(super) is_copy: bool,
+    /// The contents of the file.
+    pub(super) contents: FileContents,
+}
+
+/// Files of which a person has to choose one.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct AmbiguousSource(pub(super) Vec<String>);
+pub(super) enum AmbiguousSource {
+    /// Two folders, or files, that could be meant.
+    Several(Vec<String>),
+    /// Files as they were handed out, and changed copies of them.
+    StarterBesideCopies {
+        /// The names of the files.
+        starters: Vec<String>,
+        /// The paths of the copies.
+        copies: Vec<String>,
+    },
+}
 
 /// Returns whether nothing in a folder of this name is handed in.
 pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
-    name.starts_with('.')
-        || SKIPPED.contains(&name)
-        || handed_out.assignment.other_folders.contains(&name)
-}
-
-/// Finds the task files among the names in one folder, and returns them with their own names. A
-/// browser's copy such as `bvh (1).rs` counts as `bvh.rs` if it is the only one.
-pub(super) fn task_files<'a>(
-    names: &[&'a str],
-    handed_out: &HandedOut,
-) -> Result<BTreeMap<&'static str, &'a str>, AmbiguousSource> {
-    let mut found: BTreeMap<&'static str, &str> = BTreeMap::new();
-    for TaskFile { name: file, .. } in handed_out.files {
-        if names.contains(file) {
-            found.insert(file, file);
-            continue;
-        }
-        let copies: Vec<&str> = names
-            .iter()
-            .copied()
-            .filter(|name| is_numbered_copy(name, file))
-            .collect();
-        match copies[..] {
-            [] => {}
-            [only] => _ = found.insert(file, only),
-            [..] => return Err(AmbiguousSource(copies.iter().map(|&n| n.into()).collect())),
-        }
-    }
-    Ok(found)
-}
-
-/// Returns whether a browser would give this name to another download of the file: `bvh (1).rs`.
-fn is_numbered_copy(name: &str, file: &str) -> bool {
-    let stem = file.trim_end_matches(".rs");
-    let number = name
-        .strip_prefix(stem)
-        .and_then(|rest| rest.strip_prefix(" ("))
-        .and_then(|rest| rest.strip_suffix(").rs"));
-    number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+    SKIPPED.contains(&name) || handed_out.assignment.other_folders.contains(&name)
 }
 
 /// Chooses the folder with most task files that differ from the starter's. `None` if there are no
@@ -86,9 +99,11 @@ fn is_numbered_copy(name: &str, file: &str) -> bool {
 ///
 /// A folder whose files are all in the chosen one as well is ignored, with a note if they differ
 /// there. A folder that has as much as the chosen one, or a file that the chosen one lacks, could
-/// be what is meant: then the result is an error.
+/// be what is meant: then the result is an error. So could a changed copy of a file that is as it was
+/// handed out; other files that resemble task files are noted.
 pub(super) fn choose(
     mut candidates: Vec<Candidate>,
+    lookalikes: Vec<Lookalike>,
     handed_out: &HandedOut,
 ) -> Result<Option<Choice>, AmbiguousSource> {
     candidates.sort_by_cached_key(|candidate| {
@@ -100,9 +115,21 @@ pub(super) fn choose(
             candidate.folder.clone(),
         )
     });
+    let starters: BTreeSet<&str> = candidates
+        .iter()
+        .flat_map(|candidate| &candidate.files.task_files)
+        .filter(|(name, contents)| is_starter(name, contents, handed_out))
+        .map(|(name, _)| *name)
+        .collect();
     let mut candidates = candidates.into_iter();
     let Some(chosen) = candidates.next() else {
-        return Ok(None);
+        let copies = lookalikes.into_iter().filter(|file| file.is_copy);
+        let copies: Vec<String> = copies.map(|file| file.path).collect();
+        return if copies.is_empty() {
+            Ok(None)
+        } else {
+            Err(AmbiguousSource::Several(copies))
+        };
     };
     let written: Vec<&str> = chosen.written(handed_out).map(|(name, _)| name).collect();
     let mut notes = Vec::new();
@@ -121,14 +148,21 @@ pub(super) fn choose(
         }
         let is_less = files.len() < written.len() && files.iter().all(|(n, _)| written.contains(n));
         if !is_less {
-            return Err(AmbiguousSource(vec![chosen.folder, other.folder]));
+            return Err(AmbiguousSource::Several(vec![chosen.folder, other.folder]));
         }
         notes.extend(differing.into_iter().map(|name| {
             let (ignored, used) = (other.path_of(name), chosen.path_of(name));
             display_name(&format!("{ignored} differs from {used}, and is ignored"))
         }));
     }
-    notes.truncate(MAX_NOTES);
+    notes.extend(lookalike_notes(&chosen, lookalikes, &starters, handed_out)?);
+    let more = notes.len().saturating_sub(MAX_NOTES);
+    if more > 0 {
+        notes.truncate(MAX_NOTES);
+        notes.push(format!(
+            "and {more} more files that resemble task files are not graded"
+        ));
+    }
     Ok(Some(Choice {
         is_complete: written.len() == handed_out.files.len(),
         notes,
@@ -137,7 +171,65 @@ pub(super) fn choose(
 }
 
 /// The bytes of a task file, or the reason why it has none.
-type FileContents = Result<Vec<u8>, TaskFileError>;
+pub(super) type FileContents = Result<Vec<u8>, TaskFileError>;
+
+/// Returns notes about files that resemble task files, and differ from those of the chosen folder.
+/// `starters` are the task files that are as they were handed out in any folder.
+fn lookalike_notes(
+    chosen: &Candidate,
+    mut lookalikes: Vec<Lookalike>,
+    starters: &BTreeSet<&str>,
+    handed_out: &HandedOut,
+) -> Result<Vec<String>, AmbiguousSource> {
+    lookalikes.sort_by(|one, other| one.path.cmp(&other.path));
+    lookalikes.retain(|copy| {
+        let is_graded = chosen.files.task_files.get(copy.file) == Some(&copy.contents);
+        !is_graded && !is_starter(copy.file, &copy.contents, handed_out)
+    });
+    let is_untouched = |copy: &&Lookalike| match chosen.files.task_files.get(copy.file) {
+        Some(graded) => is_starter(copy.file, graded, handed_out),
+        None => starters.contains(copy.file),
+    };
+    let copies: Vec<&Lookalike> = lookalikes.iter().filter(is_untouched).collect();
+    if !copies.is_empty() {
+        let starters: BTreeSet<&str> = copies.iter().map(|copy| copy.file).collect();
+        let copies: BTreeSet<&str> = copies.iter().map(|copy| copy.path.as_str()).collect();
+        return Err(AmbiguousSource::StarterBesideCopies {
+            starters: starters.into_iter().map(str::to_owned).collect(),
+            copies: copies.into_iter().map(str::to_owned).collect(),
+        });
+    }
+    let is_missing = |copy: &&Lookalike| !chosen.files.task_files.contains_key(copy.file);
+    let missing = |copy: &&Lookalike| is_missing(copy) && copy.is_copy;
+    if let Some(copy) = lookalikes.iter().find(missing) {
+        let all = lookalikes.iter().filter(|other| other.file == copy.file);
+        return Err(AmbiguousSource::Several(
+            all.map(|copy| copy.path.clone()).collect(),
+        ));
+    }
+    let note = |copy: &Lookalike| {
+        let Lookalike { path, file, .. } = copy;
+        let end = if is_missing(&copy) {
+            format!(
+                "is not graded, since its name is not {file}: this costs {} points",
+                points(file, handed_out)
+            )
+        } else {
+            format!("differs from {}, and is ignored", chosen.path_of(file))
+        };
+        display_name(&format!("{path} {end}"))
+    };
+    Ok(lookalikes.iter().map(note).collect())
+}
+
+/// Returns the points of the tasks in a file.
+fn points(file: &str, handed_out: &HandedOut) -> u32 {
+    let tasks = handed_out.assignment.tasks.iter();
+    tasks
+        .filter(|task| task.file == file)
+        .map(|task| task.points)
+        .sum()
+}
 
 impl Candidate {
     /// Returns the task files that differ from the starter's.
@@ -156,7 +248,8 @@ impl Candidate {
     }
 }
 
-fn is_starter(name: &str, contents: &FileContents, handed_out: &HandedOut) -> bool {
+/// Returns whether a task file is as it was handed out.
+pub(super) fn is_starter(name: &str, contents: &FileContents, handed_out: &HandedOut) -> bool {
     let text = contents
         .as_ref()
         .ok()

@@ -1,15 +1,20 @@
-//! Reads the task files in a folder on disk and in all folders below it. Links are not followed, and
-//! only regular files are read.
+//! Reads the task files in a folder on disk and in all folders below it, and in the archives there.
+//! Links are not followed, and only regular files are read.
 
+use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::archive::{self, is_archive_name};
-use super::choice::{self, Candidate, join};
-use super::error::{ambiguous, is_about_submission};
-use super::{MAX_FILE_BYTES, SubmissionError, SubmissionFiles, TaskFileError, display_name};
+use super::archive::{self, ArchiveBytes};
+use super::budget::Limit;
+use super::choice::{self, join};
+use super::error::is_about_submission;
+use super::found::{FoundFolder, is_read};
+use super::names::is_archive_name;
+use super::search::Search;
+use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, display_name};
 use crate::disk::{self, Operation};
 use crate::files::PathError;
 use crate::handed_out::HandedOut;
@@ -17,36 +22,16 @@ use crate::system::{self, EntryKind, Folder};
 
 /// The maximum number of levels of folders that are searched.
 const MAX_DEPTH: usize = 12;
-/// The maximum number of files and folders that are listed.
-const MAX_ENTRIES: usize = 20_000;
-/// The maximum number of folders with task files.
-const MAX_CANDIDATES: usize = 32;
 
-/// The contents of a submission's folder.
-#[derive(Debug, Default)]
-pub(super) struct Search {
-    /// The folders and archives that have task files.
-    pub(super) candidates: Vec<Candidate>,
-    /// The names at the top level, in which what is not UTF-8 is replaced.
-    pub(super) names: Vec<String>,
-    /// The paths of links below the folder, with `/`.
-    pub(super) links: Vec<String>,
-    /// Folders and archives that cannot be read, or are below too many others.
-    pub(super) errors: Vec<SubmissionError>,
-    /// The names at the top level, as the system has them.
-    top_level: Vec<OsString>,
-    /// The number of files and folders that were listed.
-    entries: usize,
-}
-
-/// Looks for task files in a folder and everything below it.
+/// Looks for task files in a folder and everything below it, and in the archives there.
 pub(super) fn search(
     path: &Path,
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
     let folder = Folder::open(path).map_err(|error| unreadable(path, error))?;
-    let mut search = Search::default();
-    search.visit(&folder, path, "", handed_out)?;
+    let mut search = Search::new(path);
+    search.visit(&folder, "", handed_out)?;
+    search.open_archives(handed_out)?;
     Ok(search)
 }
 
@@ -58,12 +43,10 @@ pub(super) fn search_one(
     let io = |error: io::Error| unreadable(path, error);
     let folder = Folder::open(path).map_err(io)?;
     let names = list(&folder, path).map_err(io)?;
-    let mut search = Search {
-        names: names.iter().map(|name| shown(name)).collect(),
-        ..Search::default()
-    };
-    let open = |name: &str| open(&folder, path, name);
-    search.add_candidate(path, "", &utf8(&names), open, handed_out)?;
+    let mut search = Search::new(path);
+    search.names = names.iter().map(|name| shown(name)).collect();
+    let open = |name: &OsStr| open(&folder, path, name);
+    search.read_folder("", &names, open, handed_out)?;
     Ok(search)
 }
 
@@ -74,57 +57,61 @@ pub(super) fn search_files(
     files: &[(String, PathBuf)],
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let mut search = Search {
-        names: files.iter().map(|(name, _)| name.clone()).collect(),
-        ..Search::default()
-    };
+    let mut search = Search::new(path);
+    search.names = files.iter().map(|(name, _)| name.clone()).collect();
     // Of several files with the same name, the last one counts.
-    let open = |name: &str| {
-        let file = files.iter().rfind(|(other, _)| other == name);
+    let open = |name: &OsStr| {
+        let file = files.iter().rfind(|(other, _)| OsStr::new(other) == name);
         file.map_or(Ok(None), |(_, path)| {
             disk::before(Operation::Read(path))?;
             system::open_regular_file(path)
         })
     };
-    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    search.add_candidate(path, "", &names, open, handed_out)?;
-    for (name, path) in files {
-        search.add_archive(name, path, handed_out);
-    }
+    let names: BTreeSet<OsString> = files.iter().map(|(name, _)| name.into()).collect();
+    let names: Vec<OsString> = names.into_iter().collect();
+    search.spend(Limit::Files, files.len())?;
+    search.read_folder("", &names, open, handed_out)?;
+    let archives = files
+        .iter()
+        .filter(|(name, path)| is_archive_name(name) && path.is_file());
+    search.archives = archives.cloned().collect();
+    search.open_archives(handed_out)?;
+    Ok(search)
+}
+
+/// Looks for task files in a single archive.
+pub(super) fn search_archive(
+    path: &Path,
+    handed_out: &'static HandedOut,
+) -> Result<Search, SubmissionError> {
+    let mut search = Search::new(path);
+    search.names = search.open_archive("", path, handed_out)?;
     Ok(search)
 }
 
 impl Search {
-    /// Looks for task files in a single archive.
-    pub(super) fn in_archive(
+    /// Opens the archives that were found.
+    fn open_archives(&mut self, handed_out: &'static HandedOut) -> Result<(), SubmissionError> {
+        let mut archives = std::mem::take(&mut self.archives);
+        archives.sort();
+        for (name, path) in archives {
+            let found = self.open_archive(&name, &path, handed_out);
+            self.keep_error(&name, found)?;
+        }
+        Ok(())
+    }
+
+    fn open_archive(
+        &mut self,
+        name: &str,
         path: &Path,
         handed_out: &'static HandedOut,
-    ) -> Result<Self, SubmissionError> {
-        let (candidates, names) = archive::candidates(path, "", handed_out)?;
-        Ok(Search {
-            candidates,
-            names,
-            ..Search::default()
-        })
-    }
-
-    /// Adds the archives at the top level of the folder at `path`.
-    pub(super) fn add_archives(&mut self, path: &Path, handed_out: &'static HandedOut) {
-        for name in std::mem::take(&mut self.top_level) {
-            let shown = shown(&name);
-            if !self.links.contains(&shown) {
-                self.add_archive(&shown, &path.join(&name), handed_out);
-            }
-        }
-    }
-
-    fn add_archive(&mut self, name: &str, path: &Path, handed_out: &'static HandedOut) {
-        if is_archive_name(name) && path.is_file() {
-            match archive::candidates(path, name, handed_out) {
-                Ok((candidates, _)) => self.candidates.extend(candidates),
-                Err(error) => self.errors.push(error),
-            }
-        }
+    ) -> Result<Vec<String>, SubmissionError> {
+        let read = disk::before(Operation::Read(path));
+        read.map_err(|error| unreadable(path, error))?;
+        let found = archive::search(ArchiveBytes::File(path.to_owned()), name, self, handed_out);
+        self.check_bytes()?;
+        found
     }
 
     /// Looks for task files in a folder, whose path is `below` the submission's, and everything
@@ -132,96 +119,89 @@ impl Search {
     fn visit(
         &mut self,
         folder: &Folder,
-        submission: &Path,
         below: &str,
         handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        let io = |error: io::Error| unreadable(&submission.join(below), error);
-        let names = list(folder, &submission.join(below)).map_err(io)?;
-        self.entries += names.len();
-        if self.entries > MAX_ENTRIES {
-            return Err(SubmissionError::TooManyFiles(submission.to_owned()));
-        }
+        let path = self.submission.join(below);
+        let io = |error: io::Error| unreadable(&path, error);
+        let names = list(folder, &path).map_err(io)?;
+        self.spend(Limit::Files, names.len())?;
+        let mut files = Vec::new();
         for name in &names {
             let shown = shown(name);
-            let path = join(below, &shown);
+            let below = join(below, &shown);
             match folder.kind(name).map_err(io)? {
-                EntryKind::Link => self.links.push(path),
-                EntryKind::Folder if !choice::is_skipped(&shown, handed_out) => {
-                    self.visit_subfolder(folder, name, submission, &path, handed_out)?;
+                EntryKind::Link => {
+                    self.links.push(below);
+                    files.push(name.clone());
                 }
-                EntryKind::Folder | EntryKind::File | EntryKind::Other => {}
+                EntryKind::Folder if !choice::is_skipped(&shown, handed_out) => {
+                    self.visit_subfolder(folder, name, &below, handed_out)?;
+                    files.push(name.clone());
+                }
+                EntryKind::File if is_archive_name(&shown) => {
+                    self.archives.push((below, path.join(name)));
+                }
+                EntryKind::Folder => {}
+                EntryKind::File | EntryKind::Other => files.push(name.clone()),
             }
         }
         if below.is_empty() {
             self.names = names.iter().map(|name| shown(name)).collect();
-            self.top_level.clone_from(&names);
         }
-        let open = |name: &str| open(folder, &submission.join(below), name);
-        self.add_candidate(submission, below, &utf8(&names), open, handed_out)
+        let open = |name: &OsStr| open(folder, &path, name);
+        self.read_folder(below, &files, open, handed_out)
     }
 
     fn visit_subfolder(
         &mut self,
         folder: &Folder,
         name: &OsStr,
-        submission: &Path,
         path: &str,
         handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        if path.matches('/').count() >= MAX_DEPTH {
-            let too_deep = SubmissionError::TooManyFiles(submission.to_owned());
-            self.errors.push(too_deep);
-            return Ok(());
-        }
-        match folder.subfolder(name) {
-            Ok(Some(subfolder)) => self.visit(&subfolder, submission, path, handed_out),
-            Ok(None) => Ok(()),
-            Err(error) => {
-                self.errors.push(unreadable(Path::new(path), error));
-                Ok(())
+        let found = if path.matches('/').count() >= MAX_DEPTH {
+            Err(SubmissionError::TooMany(
+                self.submission.clone(),
+                Limit::Levels,
+            ))
+        } else {
+            match folder.subfolder(name) {
+                Ok(Some(subfolder)) => return self.visit(&subfolder, path, handed_out),
+                Ok(None) => Ok(()),
+                Err(error) => Err(unreadable(Path::new(path), error)),
             }
-        }
+        };
+        self.keep_error(path, found)
     }
 
-    /// Reads the files with these names if there is a task file among them.
-    fn add_candidate(
+    /// Reads the files with these names that may be task files.
+    fn read_folder(
         &mut self,
-        submission: &Path,
-        folder: &str,
-        names: &[&str],
-        open: impl Fn(&str) -> io::Result<Option<File>>,
+        path: &str,
+        names: &[OsString],
+        open: impl Fn(&OsStr) -> io::Result<Option<File>>,
         handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        let found = choice::task_files(names, handed_out);
-        let found = found.map_err(|error| ambiguous(submission, error))?;
-        if found.is_empty() {
-            return Ok(());
-        }
-        let mut files = SubmissionFiles::default();
-        for (name, found_as) in &found {
-            let read = read_file(open(found_as), name);
-            let read = read.map_err(|error| unreadable(&submission.join(folder), error))?;
-            files.task_files.insert(*name, read);
-        }
-        for &name in names {
-            if name.ends_with(".rs") && !found.values().any(|used| *used == name) {
-                let is_compared = handed_out.given_file(name).is_some();
-                let bytes = is_compared.then(|| read_file(open(name), "a given file"));
-                let bytes = bytes.transpose();
-                let bytes = bytes.map_err(|error| unreadable(&submission.join(folder), error))?;
-                let bytes = bytes.and_then(Result::ok).unwrap_or_default();
-                files.other_files.insert(name.to_owned(), bytes);
+        let mut folder = FoundFolder::new(path.to_owned());
+        for name in names {
+            let shown = shown(name);
+            if is_archive_name(&shown) {
+            } else if is_read(&shown, handed_out) {
+                self.spend(Limit::Copies, 1)?;
+                let read = read_file(
+                    open(name),
+                    handed_out
+                        .task_file(&shown)
+                        .map_or("a copy", |file| file.name),
+                );
+                let read = read.map_err(|error| unreadable(&self.submission.join(path), error))?;
+                folder.read.push((shown, read));
+            } else {
+                folder.others.push(shown);
             }
         }
-        self.candidates.push(Candidate {
-            folder: folder.to_owned(),
-            files,
-        });
-        if self.candidates.len() > MAX_CANDIDATES {
-            return Err(SubmissionError::TooManyFiles(submission.to_owned()));
-        }
-        Ok(())
+        self.add_folder(folder, handed_out)
     }
 }
 
@@ -230,19 +210,14 @@ fn shown(name: &OsStr) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// Returns the names that are UTF-8, as all names of task files are.
-fn utf8(names: &[OsString]) -> Vec<&str> {
-    names.iter().filter_map(|name| name.to_str()).collect()
-}
-
 fn list(folder: &Folder, path: &Path) -> io::Result<Vec<OsString>> {
     disk::before(Operation::List(path))?;
     folder.names()
 }
 
-fn open(folder: &Folder, path: &Path, name: &str) -> io::Result<Option<File>> {
+fn open(folder: &Folder, path: &Path, name: &OsStr) -> io::Result<Option<File>> {
     disk::before(Operation::Read(&path.join(name)))?;
-    folder.file(OsStr::new(name))
+    folder.file(name)
 }
 
 fn unreadable(path: &Path, error: io::Error) -> SubmissionError {

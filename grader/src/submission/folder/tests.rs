@@ -63,41 +63,25 @@ fn folders_are_searched_down_to_a_limit() {
     assert!(search.candidates.is_empty());
     assert!(matches!(
         search.errors[..],
-        [SubmissionError::TooManyFiles(_)]
+        [(_, SubmissionError::TooMany(_, Limit::Levels))]
     ));
 }
 
 #[test]
 fn files_are_counted_up_to_a_limit() {
     let three = folder(&[("a", b""), ("b", b""), ("c", b"")]);
-    let visit = |entries: usize| {
-        let mut search = Search {
-            entries,
-            ..Search::default()
-        };
+    let visit = |left: usize| {
+        let mut search = Search::new(three.path());
+        search.spend(Limit::Files, 50_000 - left).unwrap();
         let folder = Folder::open(three.path()).unwrap();
-        search.visit(&folder, three.path(), "", &RAYS)
+        search.visit(&folder, "", &RAYS)
     };
-    assert!(visit(MAX_ENTRIES - 3).is_ok());
+    assert!(visit(3).is_ok());
+    let refused = visit(2);
     assert!(matches!(
-        visit(MAX_ENTRIES - 2),
-        Err(SubmissionError::TooManyFiles(_))
+        refused,
+        Err(SubmissionError::TooMany(_, Limit::Files))
     ));
-}
-
-#[test]
-fn folders_with_task_files_are_counted_up_to_a_limit() {
-    let copies = |count: usize| {
-        let paths: Vec<String> = (0..count).map(|n| format!("{n}/bvh.rs")).collect();
-        let files: Vec<(&str, &[u8])> = paths
-            .iter()
-            .map(|path| (path.as_str(), &b"new"[..]))
-            .collect();
-        search(folder(&files).path(), &RAYS).map(|search| search.candidates.len())
-    };
-    assert_eq!(copies(MAX_CANDIDATES).unwrap(), MAX_CANDIDATES);
-    let refused = copies(MAX_CANDIDATES + 1);
-    assert!(matches!(refused, Err(SubmissionError::TooManyFiles(_))));
 }
 
 #[test]
@@ -139,11 +123,8 @@ fn archives_in_a_platforms_folder_are_read_like_folders() {
         ("notes.txt", b"neither code nor an archive"),
         ("old.zip/readme", b"a folder"),
     ]);
-    let submission = Submission::collect_with_archives(folder.path(), &RAYS).unwrap();
+    let submission = Submission::collect(folder.path(), &RAYS).unwrap();
     assert_eq!(texts(&submission), ["new"]);
-    // Without them, there is nothing to grade.
-    let none = Submission::collect(folder.path(), &RAYS);
-    assert!(matches!(none, Err(SubmissionError::NoTaskFiles { .. })));
 }
 
 #[test]
@@ -164,7 +145,7 @@ fn nothing_is_noted_of_task_files() {
 #[test]
 fn an_archive_that_cannot_be_read_could_have_what_is_missing() {
     let folder = folder(&[("bvh.rs", b"new"), ("rest.zip", b"PK\x03\x04")]);
-    let refused = Submission::collect_with_archives(folder.path(), &RAYS);
+    let refused = Submission::collect(folder.path(), &RAYS);
     assert!(matches!(refused, Err(SubmissionError::Archive { .. })));
 }
 
@@ -175,7 +156,7 @@ fn archives_behind_links_are_not_read() {
     let folder = folder(&[("sphere.rs", b"new")]);
     let link = folder.path().join("work.tar");
     system::symlink(&elsewhere.path().join("work.tar"), &link).unwrap();
-    let submission = Submission::collect_with_archives(folder.path(), &RAYS).unwrap();
+    let submission = Submission::collect(folder.path(), &RAYS).unwrap();
     assert_eq!(texts(&submission), ["new"]);
 }
 
@@ -210,7 +191,7 @@ fn folders_and_archives_whose_names_are_not_utf8_are_searched() {
     fs::write(named(b"L\xf6sung.tar"), tar(&[("bvh.rs", b"newer")])).unwrap();
     // It is no task file, and only named.
     fs::write(named(b"b\xf6x.rs"), b"").unwrap();
-    let error = Submission::collect_with_archives(folder.path(), &RAYS).unwrap_err();
+    let error = Submission::collect(folder.path(), &RAYS).unwrap_err();
     let SubmissionError::Ambiguous { copies, .. } = error else {
         panic!("{error}");
     };

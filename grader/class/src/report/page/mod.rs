@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 use crate::distribution::Distribution;
 use crate::drift::Changes;
 use crate::model::GradedClass;
-use crate::summary::ClassSummary;
+use crate::summary::{ClassSummary, Outlier};
 
 const STYLE: &str = include_str!("page.css");
 /// The script that sorts the table of submissions.
@@ -165,7 +165,7 @@ fn mistake_sections(summary: &ClassSummary) -> Markup {
                 h2 #look { "Submissions that need attention" }
                 ul {
                     @for outlier in &summary.outliers {
-                        li { strong { (sanitized(&outlier.title())) } ": " (sanitized(&outlier.why)) }
+                        li { strong { (outlier_title(outlier)) } ": " (sanitized(&outlier.why)) }
                     }
                 }
             }
@@ -173,8 +173,20 @@ fn mistake_sections(summary: &ClassSummary) -> Markup {
     }
 }
 
+/// Renders the title of a submission, with a link to its report if there is one.
+fn outlier_title(outlier: &Outlier) -> Markup {
+    let title = sanitized(&outlier.title());
+    html! {
+        @if outlier.has_report {
+            a href=(submissions::report_link(&outlier.id)) { (title) }
+        } @else {
+            (title)
+        }
+    }
+}
+
 /// Returns untrusted text, shortened and without control characters that could affect the text
 /// around it.
 fn sanitized(text: &str) -> Markup {
-    html! { (sanitize(text, 300)) }
+    html! { (sanitize(text, 1_000)) }
 }

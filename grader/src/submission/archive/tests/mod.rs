@@ -14,7 +14,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use super::*;
 use crate::handed_out::RAYS;
-use crate::submission::{Submission, SubmissionError, TaskFileError};
+use crate::submission::{Limit, Submission, SubmissionError, TaskFileError};
 
 type Files<'a> = &'a [(&'a str, &'a [u8])];
 
@@ -141,16 +141,6 @@ fn accepts_windows_path_separators() {
 }
 
 #[test]
-fn recognises_archives_by_their_names_in_any_case() {
-    for name in ["a.zip", "a.TAR.GZ", "a.rar", "a.7z"] {
-        assert!(is_archive_name(name), "{name}");
-    }
-    for name in ["a.rs", "zip", "a.zip.txt"] {
-        assert!(!is_archive_name(name), "{name}");
-    }
-}
-
-#[test]
 fn a_name_is_without_the_extension_of_an_archive() {
     let names = [
         "alice.tar.gz",
@@ -183,7 +173,10 @@ fn paths_are_relative_and_without_dots() {
 fn lists_folders_and_only_regular_files() {
     let listing = |bytes: &[u8]| {
         let archive = write_archive("a.tar", bytes);
-        let listing = Archive::open(&archive.path).unwrap().listing().unwrap();
+        let listing = Archive::open(&archive.path, ArchiveLimits::class())
+            .unwrap()
+            .listing()
+            .unwrap();
         let paths: Vec<String> = listing
             .members
             .into_iter()
@@ -211,16 +204,6 @@ fn lists_folders_and_only_regular_files() {
 }
 
 #[test]
-fn a_tar_is_read_at_once_and_a_zip_file_by_file() {
-    let batch_size = |bytes: &[u8]| {
-        let archive = write_archive("a", bytes);
-        Archive::open(&archive.path).unwrap().batch_size()
-    };
-    assert_eq!(batch_size(&zip(FILES)), 1);
-    assert_eq!(batch_size(&tar(FILES)), MAX_MEMBERS);
-}
-
-#[test]
 fn a_file_as_long_as_the_limit_is_read_in_full() {
     const LIMIT: usize = 1 << 20;
     // A file that cannot be compressed takes more bytes in the archive than by itself.
@@ -239,10 +222,8 @@ fn a_file_as_long_as_the_limit_is_read_in_full() {
     }
     let longer = vec![b' '; LIMIT + 1];
     for bytes in [zip(&[("bvh.rs", &longer)]), tar(&[("bvh.rs", &longer)])] {
-        let archive = write_archive("a", &bytes);
-        let (found, _) = candidates(&archive.path, "", &RAYS).unwrap();
         let too_long = Err(TaskFileError::TooLong("bvh.rs"));
-        assert_eq!(found[0].files.task_files["bvh.rs"], too_long);
+        assert_eq!(*text(&collect("a", &bytes).unwrap(), "bvh.rs"), too_long);
     }
 }
 
@@ -265,14 +246,78 @@ fn only_rust_files_in_folders_that_are_handed_in_count() {
 
 #[test]
 fn the_folders_in_an_archive_are_named_with_it() {
-    let archive = write_archive("a.zip", &zip(&[("bvh.rs", b"1"), ("old/bvh.rs", b"2")]));
-    let (found, names) = candidates(&archive.path, "a.zip", &RAYS).unwrap();
-    let folders: Vec<&str> = found
+    let inner = zip(&[("old/bvh.rs", b"2")]);
+    let folder = TempDir::new().unwrap();
+    let archive = tar(&[("bvh.rs", b"1"), ("more/inner.zip", &inner)]);
+    std::fs::write(folder.path().join("a.tar"), archive).unwrap();
+    let error = Submission::collect(folder.path(), &RAYS).unwrap_err();
+    let SubmissionError::Ambiguous { copies, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!(copies, ["a.tar", "a.tar/more/inner.zip/old"]);
+}
+
+#[test]
+fn archives_in_archives_are_opened_down_to_a_level() {
+    let nested = |levels: usize| {
+        let work = zip(&[("src/bvh.rs", b"tree")]);
+        (1..levels).fold(work, |inner, _| tar(&[("hw.zip", &inner)]))
+    };
+    let submission = collect("hw.zip", &nested(MAX_LEVELS)).unwrap();
+    assert_eq!(*text(&submission, "bvh.rs"), Ok("tree".to_owned()));
+    assert_eq!(
+        collect_error(&nested(MAX_LEVELS + 1)),
+        ArchiveError::TooDeep
+    );
+}
+
+/// All archives of a submission share one budget, however small each of them is.
+#[test]
+fn archives_share_one_budget() {
+    let too_many = |archives: usize, archive: &[u8]| {
+        let folder = TempDir::new().unwrap();
+        std::fs::write(folder.path().join("bvh.rs"), "tree").unwrap();
+        for number in 0..archives {
+            std::fs::write(folder.path().join(format!("{number}.zip")), archive).unwrap();
+        }
+        match Submission::collect(folder.path(), &RAYS) {
+            Ok(_) => None,
+            Err(SubmissionError::TooMany(_, limit)) => Some(limit),
+            Err(other) => panic!("{other}"),
+        }
+    };
+    let work = zip(&[("bvh.rs", b"tree")]);
+    assert_eq!(too_many(31, &work), None);
+    assert_eq!(too_many(33, &work), Some(Limit::Archives));
+    // Archives that cannot be read count, too, and so do those in archives.
+    assert_eq!(too_many(33, b"Rar!\x1a\x07"), Some(Limit::Archives));
+    let names: Vec<String> = (0..10).map(|n| format!("{n}.zip")).collect();
+    let ten: Vec<(&str, &[u8])> = names
         .iter()
-        .map(|candidate| candidate.folder.as_str())
+        .map(|name| (name.as_str(), &work[..]))
         .collect();
-    assert_eq!(folders, ["a.zip", "a.zip/old"]);
-    assert_eq!(names, ["bvh.rs", "old"]);
+    assert_eq!(too_many(3, &zip(&ten)), Some(Limit::Archives));
+    let names: Vec<String> = (0..20_000).map(|n| format!("{n}.txt")).collect();
+    let files: Vec<(&str, &[u8])> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
+    assert_eq!(too_many(3, &zip(&files)), Some(Limit::Files));
+    let zeros = vec![0; 200 << 20];
+    let large = gzip(&tar(&[("film.mp4", &zeros), ("bvh.rs", b"tree")]));
+    assert_eq!(too_many(3, &large), Some(Limit::Bytes));
+    assert_eq!(too_many(2, &large), None);
+}
+
+#[test]
+fn copies_of_task_files_are_counted_up_to_a_limit() {
+    let names: Vec<String> = (0..=200).map(|n| format!("{n}/my_bvh_{n}.rs")).collect();
+    let files: Vec<(&str, &[u8])> = names
+        .iter()
+        .map(|name| (name.as_str(), &b"x"[..]))
+        .collect();
+    let refused = collect("a.zip", &zip(&files));
+    assert!(matches!(
+        refused,
+        Err(SubmissionError::TooMany(_, Limit::Copies))
+    ));
 }
 
 #[test]
@@ -283,10 +328,11 @@ fn folders_with_task_files_are_counted_up_to_a_limit() {
             .iter()
             .map(|path| (path.as_str(), &b"x"[..]))
             .collect();
-        let archive = write_archive("a.zip", &zip(&files));
-        candidates(&archive.path, "", &RAYS).map(|(found, _)| found.len())
+        collect("a.zip", &zip(&files))
     };
-    assert_eq!(count(32).unwrap(), 32);
-    let why = ArchiveError::TooManyFiles;
-    assert!(matches!(count(33), Err(SubmissionError::Archive { why: found, .. }) if found == why));
+    assert!(count(64).is_ok());
+    assert!(matches!(
+        count(65),
+        Err(SubmissionError::TooMany(_, Limit::Folders))
+    ));
 }

@@ -77,7 +77,9 @@ fn rejects_links_and_devices_except_under_target() {
         &tar_with("hw/target/debug/hw", EntryType::Link, b""),
     );
     assert_eq!(
-        Archive::open(&built.path).unwrap().members(),
+        Archive::open(&built.path, ArchiveLimits::class())
+            .unwrap()
+            .members(),
         Ok(Vec::new())
     );
 
@@ -162,13 +164,17 @@ fn limits_how_much_an_archive_bomb_inflates() {
 
 #[test]
 fn rejects_archives_with_too_many_files() {
-    let names: Vec<String> = (0..=MAX_MEMBERS).map(|n| format!("{n}")).collect();
+    const MOST: usize = 50_000;
+    let names: Vec<String> = (0..=MOST).map(|n| format!("{n}")).collect();
     let files: Vec<(&str, &[u8])> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
     assert_eq!(
         collect_error(&gzip(&tar(&files))),
-        ArchiveError::TooManyFiles
+        ArchiveError::TooManyFiles(MOST)
     );
-    assert_eq!(collect_error(&zip(&files)), ArchiveError::TooManyFiles);
+    assert_eq!(
+        collect_error(&zip(&files)),
+        ArchiveError::TooManyFiles(MOST)
+    );
 }
 
 #[test]

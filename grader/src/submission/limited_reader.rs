@@ -16,17 +16,52 @@ pub(super) struct LimitedReader<R> {
 /// The number of bytes that may still be read. Clones share the number, so that the owner of a
 /// reader can check and reset it.
 #[derive(Clone, Debug)]
-pub(super) struct ByteBudget(Rc<Cell<u64>>);
+pub(super) struct ByteBudget {
+    left: Rc<Cell<u64>>,
+    /// The budget that this one is part of, if any.
+    total: Option<Rc<Cell<u64>>>,
+}
 
 impl ByteBudget {
-    /// Returns whether no bytes are left.
-    pub(super) fn is_exhausted(&self) -> bool {
-        self.0.get() == 0
+    /// Returns a budget of its own.
+    pub(super) fn new(bytes: u64) -> Self {
+        ByteBudget {
+            left: Rc::new(Cell::new(bytes)),
+            total: None,
+        }
     }
 
-    /// Sets the number of bytes left.
+    /// Returns a budget for a part of what this one is for. What is read is deducted from both.
+    pub(super) fn part(&self, bytes: u64) -> Self {
+        ByteBudget {
+            left: Rc::new(Cell::new(bytes)),
+            total: Some(Rc::clone(&self.left)),
+        }
+    }
+
+    /// Returns whether no bytes are left.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.left() == 0
+    }
+
+    /// Sets the number of bytes left, which the total limits, too.
     pub(super) fn reset(&self, bytes: u64) {
-        self.0.set(bytes);
+        self.left.set(bytes);
+    }
+
+    /// Deducts bytes that were read, or inflated.
+    pub(super) fn spend(&self, bytes: u64) {
+        for left in [Some(&self.left), self.total.as_ref()]
+            .into_iter()
+            .flatten()
+        {
+            left.set(left.get().saturating_sub(bytes));
+        }
+    }
+
+    fn left(&self) -> u64 {
+        let total = self.total.as_ref().map_or(u64::MAX, |total| total.get());
+        self.left.get().min(total)
     }
 
     /// Reads into as much of the buffer as the budget allows, and deducts the bytes read.
@@ -38,25 +73,22 @@ impl ByteBudget {
         if self.is_exhausted() && !buffer.is_empty() {
             return Err(io::Error::other("it has more bytes than may be read"));
         }
-        let left = self.0.get();
-        let most = usize::try_from(left)
+        let most = usize::try_from(self.left())
             .unwrap_or(usize::MAX)
             .min(buffer.len());
         let count = read(&mut buffer[..most])?;
-        self.reset(left - count as u64);
+        self.spend(count as u64);
         Ok(count)
     }
 }
 
 impl<R> LimitedReader<R> {
-    /// Limits `inner` to `bytes` bytes in total, at any offsets. Also returns the budget.
-    pub(super) fn new(inner: R, bytes: u64) -> (Self, ByteBudget) {
-        let budget = ByteBudget(Rc::new(Cell::new(bytes)));
-        let reader = LimitedReader {
+    /// Limits `inner` to the bytes of a budget in total, at any offsets.
+    pub(super) fn new(inner: R, budget: &ByteBudget) -> Self {
+        LimitedReader {
             inner,
             budget: budget.clone(),
-        };
-        (reader, budget)
+        }
     }
 }
 
@@ -80,7 +112,8 @@ mod tests {
 
     #[test]
     fn reads_as_many_bytes_as_the_budget_has() {
-        let (mut reader, budget) = LimitedReader::new(&b"hello"[..], 3);
+        let budget = ByteBudget::new(3);
+        let mut reader = LimitedReader::new(&b"hello"[..], &budget);
         let mut buffer = [0; 2];
         assert_eq!(reader.read(&mut buffer).unwrap(), 2);
         assert_eq!(&buffer, b"he");
@@ -97,13 +130,14 @@ mod tests {
     }
 
     #[test]
-    fn bytes_count_at_any_offset() {
-        let (reader, budget) = LimitedReader::new(&b"hello"[..], 4);
+    fn bytes_count_at_any_offset_and_in_the_total() {
+        let total = ByteBudget::new(4);
+        let reader = LimitedReader::new(&b"hello"[..], &total.part(9));
         let mut buffer = [0; 3];
         assert_eq!(reader.read_at(&mut buffer, 2).unwrap(), 3);
         assert_eq!(&buffer, b"llo");
         assert_eq!(reader.read_at(&mut buffer, 0).unwrap(), 1);
         assert_eq!(buffer[0], b'h');
-        assert!(budget.is_exhausted() && reader.read_at(&mut buffer, 0).is_err());
+        assert!(total.is_exhausted() && reader.read_at(&mut buffer, 0).is_err());
     }
 }

@@ -1,0 +1,222 @@
+//! Tests that each file that looks like a task file or an archive, and is not graded, is named where
+//! people look, and that an untouched starter file beside a changed copy is never graded.
+
+use std::io::{Cursor, Write};
+
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use crate::harness::{TestClass, successful_stdout, workspace};
+
+const WORK: &str = "// finished";
+
+fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in files {
+        let options = SimpleFileOptions::default();
+        writer.start_file(*name, options).unwrap();
+        writer.write_all(bytes).unwrap();
+    }
+    writer.finish().unwrap().into_inner()
+}
+
+/// Returns the line of an entry in the output of `--dry-run`.
+fn line<'a>(preview: &'a str, who: &str) -> &'a str {
+    let begin = format!("{who}: ");
+    let line = preview.lines().map(str::trim);
+    let mut line = line.filter(|line| line.starts_with(&begin));
+    line.next().unwrap_or_else(|| panic!("{who}: {preview}"))
+}
+
+#[test]
+fn a_starter_file_beside_a_changed_copy_is_left_to_a_person() {
+    let work = zip(&[("hw/camera.rs", WORK.as_bytes())]);
+    let inner = zip(&[("work.zip", &work)]);
+    let copies = [
+        "camera (1).rs",
+        "camera(1).rs",
+        "camera - Copy.rs",
+        "camera 2.rs",
+        "camera-1.rs",
+        "Camera.rs",
+        "CAMERA.RS",
+        "camera_final.rs",
+        "camera.rs.txt",
+        "camera.rs.bak",
+        "camera.rs~",
+        "camera.txt",
+        "mycamera.rs",
+        "Kopie von camera.rs",
+        "camera (conflicted copy 2026-11-20).rs",
+        "#camera.rs#",
+        ".camera.rs.swp",
+        "old/camera_v2.rs",
+        "camera.rs.rs",
+        "CAMERA (2).RS.orig",
+    ];
+    // Of files with the exact name, those that were changed count.
+    let archives = [
+        ("sub/work.zip", &work),
+        ("work (1).zip", &work),
+        ("outer.zip", &inner),
+    ];
+    let mut class = TestClass::named("class");
+    for (number, copy) in copies.iter().enumerate() {
+        let who = format!("s{number}");
+        class = class
+            .with_starter(&who)
+            .with(&format!("{who}/{copy}"), WORK);
+    }
+    for (number, (archive, bytes)) in archives.iter().enumerate() {
+        let who = format!("a{number}");
+        class = class
+            .with_starter(&who)
+            .with(&format!("{who}/{archive}"), bytes);
+    }
+    let preview = class.preview();
+    for (number, copy) in copies.iter().enumerate() {
+        let who = format!("s{number}");
+        let expected = format!(
+            "{who}: nothing to grade: it has the starter's camera.rs, and changed copies in {copy}: keep"
+        );
+        let line = line(&preview, &who);
+        assert!(line.starts_with(&expected), "{line}");
+    }
+    for number in 0..archives.len() {
+        let line = line(&preview, &format!("a{number}"));
+        assert!(
+            line.contains(": 1 of 5 files; triangle.rs is missing"),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn a_copy_counts_only_if_no_other_file_could_be_meant() {
+    let copies = [
+        ("firefox", "camera(1).rs"),
+        ("finder", "camera 2.rs"),
+        ("explorer", "camera - Copy.rs"),
+        ("capital", "Camera.rs"),
+        ("named", "camera_final.rs"),
+        ("two", "camera (1).rs"),
+    ];
+    let input = |class: TestClass, (who, copy): (&str, &str)| {
+        let class = class
+            .with_reference(who)
+            .with(&format!("{who}/{copy}"), WORK);
+        std::fs::remove_file(class.input().join(who).join("camera.rs")).unwrap();
+        class
+    };
+    let class = copies.into_iter().fold(TestClass::named("class"), input);
+    let class = class.with("two/camera (2).rs", "// another");
+    let preview = class.preview();
+    for who in ["firefox", "finder", "explorer"] {
+        assert_eq!(line(&preview, who), format!("{who}: all 5 files"));
+    }
+    for (who, copy) in &copies[3..5] {
+        let expected = format!(
+            "{who}: 4 of 5 files; camera.rs is missing; {copy} is not graded, since its name is not \
+             camera.rs: this costs 15 points"
+        );
+        assert_eq!(line(&preview, who), expected);
+    }
+    let two =
+        "two: nothing to grade: it has task files that differ, in camera (1).rs and camera (2).rs";
+    assert!(line(&preview, "two").starts_with(two), "{preview}");
+}
+
+#[test]
+fn files_that_are_not_graded_are_named_on_every_page() {
+    let reference = std::fs::read(workspace().join("reference/src/camera.rs")).unwrap();
+    let class = TestClass::named("class")
+        .with_reference("ann")
+        .with_replaced(
+            "ann/camera.rs",
+            "pixel.as_vec2() + offset",
+            "pixel.as_vec2() + 0.5",
+        )
+        .with("ann/camera (1).rs", reference)
+        .with("ann/old/pictures.rar", "Rar!\x1a\x07\x01\0")
+        .with_reference("bob");
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    let printed = successful_stdout(&class.grade(&exam, &[]));
+    let notes = [
+        "camera (1).rs differs from camera.rs, and is ignored",
+        "old/pictures.rar is not graded: it is a .rar archive",
+    ];
+    let page = class.read("class.html");
+    let (_, attention) = page.split_once("Submissions that need attention").unwrap();
+    let (attention, _) = attention.split_once("</section>").unwrap();
+    assert!(
+        attention.contains("href=\"students/ann/report.html\""),
+        "{attention}"
+    );
+    assert!(!attention.contains("bob"), "{attention}");
+    for note in notes {
+        for file in [
+            "grades.csv",
+            "students/ann/report.html",
+            "students/ann/feedback.html",
+        ] {
+            assert!(
+                class.read(file).contains(note),
+                "{file}: {}",
+                class.read(file)
+            );
+        }
+        assert!(attention.contains(note), "{attention}");
+        assert!(printed.contains(&note[..20]), "{printed}");
+        assert!(class.preview().contains(note), "{}", class.preview());
+    }
+}
+
+/// A class's archive in which one entry is a bomb, one has too many files, and one has too many
+/// archives.
+#[test]
+fn a_submission_that_is_too_large_affects_no_other() {
+    let class = TestClass::named("class");
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    let mut add = |name: &str, bytes: &[u8]| {
+        writer
+            .start_file(name, SimpleFileOptions::default())
+            .unwrap();
+        writer.write_all(bytes).unwrap();
+    };
+    for who in ["ann", "bomb", "many", "archives"] {
+        for file in ["camera", "triangle", "sphere", "bbox", "bvh"] {
+            add(&format!("{who}/{file}.rs"), b"text");
+        }
+    }
+    let zeros = vec![0; 1 << 20];
+    for number in 0..50_001 {
+        add(&format!("many/{number}.txt"), b"");
+    }
+    for number in 0..200 {
+        add(&format!("archives/{number}.zip"), &zip(&[("a.txt", b"")]));
+    }
+    writer
+        .start_file("bomb/work.zip", SimpleFileOptions::default())
+        .unwrap();
+    for _ in 0..257 {
+        writer.write_all(&zeros).unwrap();
+    }
+    let archive = class.path_beside("class.zip");
+    std::fs::write(&archive, writer.finish().unwrap().into_inner()).unwrap();
+    let preview = class.preview_of(&archive, &[]);
+    assert_eq!(line(&preview, "ann"), "ann: all 5 files");
+    for (who, why) in [
+        ("bomb", "work.zip cannot be unpacked: it has 257 MiB"),
+        (
+            "many",
+            "it has too many files and folders (more than 50000): keep the task files",
+        ),
+        (
+            "archives",
+            "it has too many archives (more than 32): keep the task files",
+        ),
+    ] {
+        let line = line(&preview, who);
+        assert!(line.contains(&format!("nothing to grade: {why}")), "{line}");
+    }
+}

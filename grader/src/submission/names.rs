@@ -1,0 +1,285 @@
+//! Decides by its name what a file could be: a task file, a copy of one, or an archive. People,
+//! browsers, file managers and editors rename files, so that a name is compared without what they
+//! add.
+
+use unicode_normalization::UnicodeNormalization;
+
+use crate::handed_out::HandedOut;
+
+/// Words that browsers, file managers and web storage put around the name of a copy, in the languages
+/// of common systems. A number is such a word, too.
+const COPY_WORDS: [&str; 27] = [
+    "copy",
+    "of",
+    "another",
+    "kopie",
+    "von",
+    "copie",
+    "de",
+    "copia",
+    "di",
+    "cópia",
+    "kopi",
+    "kopia",
+    "kopio",
+    "kopya",
+    "af",
+    "av",
+    "van",
+    "st",
+    "nd",
+    "rd",
+    "th",
+    "másolat",
+    "копия",
+    "副本",
+    "拷贝",
+    "コピー",
+    "のコピー",
+];
+/// Extensions of texts that could be source code, in a name without `rs`.
+const TEXT_EXTENSIONS: [&str; 14] = [
+    "txt", "text", "rust", "bak", "old", "orig", "save", "tmp", "swp", "rtf", "doc", "docx", "odt",
+    "pages",
+];
+/// Extensions of archives, most of which cannot be read.
+const ARCHIVE_EXTENSIONS: [&str; 30] = [
+    "zip", "tar", "gz", "tgz", "rar", "7z", "xz", "txz", "bz2", "tbz", "tbz2", "zst", "tzst", "lz",
+    "lz4", "lzma", "lzh", "z", "z01", "zipx", "arj", "ace", "cab", "iso", "dmg", "sit", "sitx",
+    "cpio", "wim", "xar",
+];
+/// The beginning of the names in which macOS stores metadata of other files.
+const MACOS_METADATA: &str = "._";
+
+/// How a name resembles that of a task file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Resemblance {
+    /// It is the task file's name.
+    Exact,
+    /// It is the task file's name with what a browser or a file manager adds to a copy:
+    /// `bvh (1).rs`, `Copy of bvh.rs`. Without a task file of the exact name, it counts as that file.
+    Copy,
+    /// It contains the task file's name, such as `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
+    Similar,
+}
+
+/// Returns how the name of a file resembles that of a task file, or `None` if it does not.
+pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
+    if name == task_file {
+        return Some(Resemblance::Exact);
+    }
+    if name.starts_with(MACOS_METADATA) {
+        return None;
+    }
+    let name: String = name.nfc().collect();
+    let (stem, extension) = task_file.rsplit_once('.')?;
+    if let Some(stem_of_name) = name.strip_suffix(&format!(".{extension}")) {
+        let is_added = |word: &&str| {
+            let word = word.to_lowercase();
+            COPY_WORDS.contains(&word.as_str()) || word.bytes().all(|byte| byte.is_ascii_digit())
+        };
+        let mut others = words(stem_of_name)
+            .into_iter()
+            .filter(|word| !is_added(word));
+        // Names of hidden files begin with a dot, and those of editors' files with other characters.
+        let is_plain = name.starts_with(char::is_alphanumeric);
+        if is_plain && others.next() == Some(stem) && others.next().is_none() {
+            return Some(Resemblance::Copy);
+        }
+    }
+    let name = name.to_lowercase();
+    let is_text = match name.rsplit_once('.') {
+        Some((_, last)) => TEXT_EXTENSIONS.contains(&words(last).first().copied().unwrap_or("")),
+        None => true,
+    };
+    let words = words(&name);
+    let is_similar =
+        words.contains(&extension) && name.contains(stem) || is_text && words.contains(&stem);
+    is_similar.then_some(Resemblance::Similar)
+}
+
+/// Returns whether a file of this name may be a task file or a copy of one.
+pub fn may_be_task_file(name: &str, handed_out: &HandedOut) -> bool {
+    let mut files = handed_out.file_names();
+    files.any(|file| resemblance(name, file).is_some())
+}
+
+/// Returns whether this is the name of an archive, or of a copy of one, even if its kind is not
+/// supported.
+pub fn is_archive_name(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let mut extensions = lower.split('.').skip(1);
+    let is_archives = |extension: &str| {
+        // Without what is added to the whole name, such as ` (1)` or `~`.
+        let end = extension.find(|c: char| !c.is_alphanumeric());
+        ARCHIVE_EXTENSIONS.contains(&&extension[..end.unwrap_or(extension.len())])
+    };
+    !name.starts_with(MACOS_METADATA) && extensions.any(is_archives)
+}
+
+/// Splits a name into runs of letters and runs of digits.
+fn words(name: &str) -> Vec<&str> {
+    let parts = name.split(|c: char| !c.is_alphanumeric());
+    let mut words = Vec::new();
+    for mut part in parts.filter(|part| !part.is_empty()) {
+        let is_digit = |c: char| c.is_ascii_digit();
+        while let Some(first) = part.chars().next() {
+            let end = part.find(|c: char| is_digit(c) != is_digit(first));
+            let (word, rest) = part.split_at(end.unwrap_or(part.len()));
+            words.push(word);
+            part = rest;
+        }
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::handed_out::RAYS;
+
+    fn all(names: &[&str], expected: Option<Resemblance>) {
+        for name in names {
+            assert_eq!(resemblance(name, "camera.rs"), expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn copies_are_recognised_as_systems_name_them() {
+        let copies = [
+            "camera (1).rs",
+            "camera(1).rs",
+            "camera 2.rs",
+            "camera-1.rs",
+            "camera_2.rs",
+            "camera2.rs",
+            "camera - Copy.rs",
+            "camera - Copy (2).rs",
+            "camera copy.rs",
+            "camera copy 2.rs",
+            "Copy of camera.rs",
+            "Kopie von camera.rs",
+            "camera - Kopie (2).rs",
+            "camera (3rd copy).rs",
+            "camera (another copy).rs",
+            "Copie de camera.rs",
+            "camera - cópia.rs",
+            "camera - co\u{301}pia.rs",
+            "camera - 副本.rs",
+            "camera のコピー.rs",
+        ];
+        all(&copies, Some(Resemblance::Copy));
+        all(&["camera.rs"], Some(Resemblance::Exact));
+    }
+
+    #[test]
+    fn names_that_people_and_editors_give_are_similar() {
+        let similar = [
+            "Camera.rs",
+            "CAMERA.RS",
+            "camera.RS",
+            "Camera (1).rs",
+            "camera_final.rs",
+            "camera_v2.rs",
+            "mycamera.rs",
+            "old_camera.rs",
+            "cameraNew.rs",
+            "camera.rs.txt",
+            "camera.rs.rs",
+            "camera.txt",
+            "camera (1).txt",
+            "camera",
+            "camera.rs.bak",
+            "camera.rs~",
+            "camera.rs.orig",
+            "#camera.rs#",
+            ".#camera.rs",
+            ".camera.rs.swp",
+            "camera.rs.1",
+            "camera.rs.crdownload",
+            "camera.rust",
+            "camera (conflicted copy 2026-11-20).rs",
+            "camera.sync-conflict-20261120.rs",
+            "ａcamera.rs",
+        ];
+        all(&similar, Some(Resemblance::Similar));
+        let others = [
+            "sphere.rs",
+            "cam.rs",
+            "camera.png",
+            "camera.obj",
+            "camera.md",
+            "camera.zip",
+            "lib.rs",
+            "notes.txt",
+            "._camera.rs",
+            "cameraman.txt",
+            "",
+        ];
+        all(&others, None);
+    }
+
+    #[test]
+    fn archives_are_recognised_by_their_names_in_any_case() {
+        for name in [
+            "a.zip",
+            "a.TAR.GZ",
+            "a.rar",
+            "a.7z",
+            "a.zip.txt",
+            "a.zip (1)",
+            "a.zip~",
+            "a (1).tar.zst",
+        ] {
+            assert!(is_archive_name(name), "{name}");
+        }
+        for name in ["a.rs", "zip", "a.zipped", "._a.zip", "a.b"] {
+            assert!(!is_archive_name(name), "{name}");
+        }
+    }
+
+    fn copy_mark() -> impl Strategy<Value = (String, String)> {
+        let number = "[0-9]{1,4}";
+        let word = prop::sample::select(&COPY_WORDS[..]);
+        prop_oneof![
+            number.prop_map(|n| (String::new(), format!("({n})"))),
+            number.prop_map(|n| (String::new(), format!("-{n}"))),
+            word.clone()
+                .prop_map(|word| (format!("{word} "), String::new())),
+            word.prop_map(|word| (String::new(), format!(" - {word}"))),
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Whatever is added around the name of a task file, the file is still recognised. Marks of
+        /// copies alone leave a copy.
+        #[test]
+        fn no_addition_hides_a_task_file(
+            marks in prop::collection::vec(copy_mark(), 1..4),
+            (before, after) in ("[a-z#_ -]{0,6}", "(|~|#|[._ -][a-z]{1,5}|\\.(txt|bak|orig))"),
+            file in prop::sample::select(RAYS.file_names().collect::<Vec<_>>()),
+        ) {
+            let stem = file.trim_end_matches(".rs");
+            let name = marks.iter().fold(stem.to_owned(), |name, (before, after)| format!("{before}{name}{after}"));
+            let copy = format!("{name}.rs");
+            prop_assert_eq!(resemblance(&copy, file), Some(Resemblance::Copy), "{}", copy);
+            let other = format!("{before}{name}.rs{after}");
+            prop_assert!(resemblance(&other, file).is_some(), "{}", other);
+            let shouted = other.to_uppercase();
+            prop_assert!(resemblance(&shouted, file).is_some(), "{}", shouted);
+        }
+
+        #[test]
+        fn any_name_can_be_compared(name: String) {
+            for file in RAYS.file_names() {
+                let is_exact = resemblance(&name, file) == Some(Resemblance::Exact);
+                prop_assert_eq!(is_exact, name == file);
+            }
+            let _ = is_archive_name(&name);
+        }
+    }
+}

@@ -36,6 +36,8 @@ pub enum Packaging {
     Bomb,
     /// A zip with more files than the limit.
     ManyFiles,
+    /// A folder with more archives than the limit.
+    ManyArchives,
     /// A tar with a file name that contains escape sequences, line breaks and right-to-left text.
     OddNames,
     /// An empty file.
@@ -97,6 +99,14 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
             let names = (0..1 << 16).map(|n| format!("{n}.txt"));
             let many: Vec<_> = names.map(|name| (name, Vec::new())).collect();
             write_zip(folder, &[files, many].concat(), None)
+        }
+        Packaging::ManyArchives => {
+            let archive = write_zip(&folder.join("0"), &files, None);
+            for number in 1..200 {
+                let copy = folder.join(format!("{number}.zip"));
+                fs::copy(&archive, copy).expect("the file can be copied");
+            }
+            folder.to_owned()
         }
         Packaging::Empty => write_archive(folder, "zip", b""),
         Packaging::OtherKind => write_archive(folder, "zip", b"Rar!\x1a\x07\x01\x00"),

@@ -1,5 +1,7 @@
 //! Several submissions of one person: which of them counts, by the policy's rule.
 
+use std::collections::BTreeSet;
+
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
 use crate::identity::{Attempt, attempts_by_person};
@@ -11,37 +13,43 @@ use crate::outcome::EntryOutcome;
 pub fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
     let people = rows.iter().map(|row| row.result.info.people.as_slice());
     for attempts in attempts_by_person(people) {
-        if attempts.len() < 2 {
+        // A submission may list a person twice, or several people with one email address.
+        let submissions: BTreeSet<usize> = attempts.iter().map(|(row, _)| *row).collect();
+        if submissions.len() < 2 {
             continue;
         }
-        let ids = attempts.iter().map(|(row, _)| rows[*row].result.id.clone());
-        let ids: Vec<String> = ids.collect();
-        let chosen = choose(policy, rows, &attempts);
-        for (row, person) in &attempts {
-            if chosen == Some((*row, *person)) {
-                continue;
+        let id = |row: &usize| rows[*row].result.id.clone();
+        let chosen = choose(policy, rows, &attempts, &submissions);
+        let problem = |row: &usize| match chosen {
+            Some(chosen) => GradeProblem::OtherAttempt(id(&chosen)),
+            None => {
+                let others = submissions.iter().filter(|other| *other != row);
+                GradeProblem::SeveralAttempts(others.map(id).collect())
             }
-            let own = rows[*row].result.id.clone();
-            let problem = match chosen {
-                Some((chosen, _)) => GradeProblem::OtherAttempt(rows[chosen].result.id.clone()),
-                None => {
-                    let others = ids.iter().filter(|id| **id != own).cloned();
-                    GradeProblem::SeveralAttempts(others.collect())
-                }
-            };
-            let grade = &mut rows[*row].grades[*person];
+        };
+        let set_aside = attempts.iter().filter(|(row, _)| chosen != Some(*row));
+        let problems: Vec<(Attempt, GradeProblem)> = set_aside
+            .map(|attempt| (*attempt, problem(&attempt.0)))
+            .collect();
+        for ((row, person), problem) in problems {
+            let grade = &mut rows[row].grades[person];
             grade.counted = None;
             grade.problem = Some(problem);
         }
     }
 }
 
-/// Returns the attempt that counts, or `None` if a person has to choose.
-fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<Attempt> {
+/// Returns the submission that counts, or `None` if a person has to choose.
+fn choose(
+    policy: &Policy,
+    rows: &[ClassRow],
+    attempts: &[Attempt],
+    submissions: &BTreeSet<usize>,
+) -> Option<usize> {
     let mut candidates = Vec::new();
-    for (row, person) in attempts {
+    for row in submissions {
         match &rows[*row].result.outcome {
-            EntryOutcome::Graded(_) => candidates.push((*row, *person)),
+            EntryOutcome::Graded(_) => candidates.push(*row),
             EntryOutcome::NothingToGrade(_) => {}
             // It is graded in the next run, and may then be the one that counts.
             EntryOutcome::Fault(_) => return None,
@@ -53,8 +61,7 @@ fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<At
     match policy.attempts.counts {
         AttemptRule::Ask => None,
         AttemptRule::Latest => {
-            let time =
-                |(row, _): &Attempt| submission_time(policy, &rows[*row].result.info).ok()?;
+            let time = |row: &usize| submission_time(policy, &rows[*row].result.info).ok()?;
             let times: Option<Vec<_>> = candidates.iter().map(time).collect();
             let times = times?;
             let (earliest, latest) = (times.iter().min()?, times.iter().max()?);
@@ -68,8 +75,12 @@ fn choose(policy: &Policy, rows: &[ClassRow], attempts: &[Attempt]) -> Option<At
             last.next().is_none().then_some(*chosen)
         }
         AttemptRule::Best => {
-            let points =
-                |(row, person): &Attempt| rows[*row].grades[*person].counted.map(|c| c.points);
+            let points = |row: &usize| {
+                let own = attempts.iter().filter(|attempt| attempt.0 == *row);
+                let points = own.map(|(row, person)| rows[*row].grades[*person].counted);
+                let points: Option<Vec<u32>> = points.map(|c| Some(c?.points)).collect();
+                points?.into_iter().max()
+            };
             let points: Option<Vec<u32>> = candidates.iter().map(points).collect();
             let points = points?;
             let most = points.iter().max()?;
@@ -213,5 +224,37 @@ mod tests {
         let before = rows.clone();
         apply_rule(&policy, &mut rows);
         assert_eq!(rows, before);
+    }
+
+    #[test]
+    fn a_submission_that_lists_a_person_twice_is_one_attempt() {
+        let twice = |mut row: ClassRow| {
+            let person = Person {
+                email: "a@x.edu".to_owned(),
+                ..Person::named("Ann")
+            };
+            let partner = Person {
+                name: "Bob".to_owned(),
+                ..person.clone()
+            };
+            row.result.info.people = vec![person, partner];
+            row.grades.push(row.grades[0].clone());
+            row
+        };
+        let policy = Policy::default();
+        let rows = rows(&policy, &three()[..2]);
+        let mut rows: Vec<ClassRow> = rows.into_iter().map(twice).collect();
+        let before = rows[0].clone();
+        apply_rule(&policy, &mut rows[..1]);
+        assert_eq!(rows[0], before);
+        // Another submission is named, and not the same one.
+        apply_rule(&policy, &mut rows);
+        let others = |ids: &[&str]| {
+            let ids = ids.iter().map(|id| (*id).to_owned());
+            Some(GradeProblem::SeveralAttempts(ids.collect()))
+        };
+        for grade in &rows[0].grades {
+            assert_eq!(grade.problem, others(&["b"]));
+        }
     }
 }

@@ -121,6 +121,10 @@ pub struct Lists {
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 
+    /// Grade although more than half of the submissions match nobody in the roster or gradebook
+    #[arg(long)]
+    pub accept_unlisted: bool,
+
     /// Points and comments by hand, with the columns student, task, delta, comment and author; they
     /// are added before lateness is considered
     #[arg(long, value_name = "CSV")]

@@ -4,8 +4,12 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::names::{are_alike, are_equal};
+
 /// The mark for the names of the people in [`EntryInfo::hand_back_as`].
 pub const WHO: &str = "{who}";
+/// The mark for a person's own number in [`EntryInfo::hand_back_as`]: each person gets a page.
+pub const NUMBER: &str = "{number}";
 
 /// One submission of a class, before its files are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,9 +42,14 @@ pub struct EntryInfo {
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
     /// The file name under which the platform accepts a page for the people, in which `{who}` is
-    /// replaced by their names. `None` if the platform has no such rule.
+    /// replaced by their names, and `{number}` by the number of each. `None` if the platform has no
+    /// such rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
+    /// The name of the group that the submission is named after, if its people are those whom a list
+    /// has in this group.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub team: Option<String>,
 }
 
 /// The time of a submission in a roster or in a platform's list.
@@ -69,7 +78,8 @@ pub struct Person {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
     /// The platform's own number for the person: the user id in Canvas, the participant number in
-    /// Moodle.
+    /// Moodle. In a file name of Moodle, it can also be the number of a group, which may be equal to
+    /// somebody's. So it counts only together with the name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// The group in the roster.
@@ -87,6 +97,9 @@ pub struct Person {
     /// Whether the person is known to belong to the submission only from the roster's groups.
     #[serde(skip_serializing_if = "is_false")]
     pub is_from_group: bool,
+    /// Whether a list has the person, so that `number` is not a group's.
+    #[serde(skip_serializing_if = "is_false")]
+    pub is_listed: bool,
 }
 
 #[expect(
@@ -95,15 +108,6 @@ pub struct Person {
 )]
 fn is_false(flag: &bool) -> bool {
     !flag
-}
-
-/// Returns whether two texts are equal, apart from upper and lower case.
-pub fn equals_ignoring_case(one: &str, other: &str) -> bool {
-    if one.is_ascii() && other.is_ascii() {
-        one.eq_ignore_ascii_case(other)
-    } else {
-        one.to_lowercase() == other.to_lowercase()
-    }
 }
 
 /// The location of an entry's files.
@@ -129,15 +133,37 @@ impl Person {
     /// Returns everything that is known to identify the person, without empty texts.
     pub fn identifiers(&self) -> impl Iterator<Item = &str> + Clone {
         let all = [
-            &self.email,
+            self.email.as_str(),
             &self.sid,
             &self.login,
-            &self.number,
+            self.own_number(),
             &self.name,
         ];
-        all.into_iter()
-            .map(String::as_str)
-            .filter(|text| !text.is_empty())
+        all.into_iter().filter(|text| !text.is_empty())
+    }
+
+    /// Returns the platform's number, or an empty text if it may be a group's.
+    pub fn own_number(&self) -> &str {
+        if self.is_listed { &self.number } else { "" }
+    }
+
+    /// Returns whether the person has this number, and a name like that of the number in a list. A
+    /// list without names has the number in its place, such as `Participant 51`.
+    pub fn has_number(&self, number: &str, name: &str) -> bool {
+        let numbered = || format!("{}{}", self.name, self.number);
+        let is_alike = || {
+            self.name.is_empty()
+                || name.is_empty()
+                || are_alike(&self.name, name)
+                || are_alike(name, &self.name)
+                || are_alike(&numbered(), name)
+        };
+        !number.is_empty() && self.number == number && is_alike()
+    }
+
+    /// Returns whether this is the student as whom teachers see their course in Canvas.
+    pub fn is_test_student(&self) -> bool {
+        !self.name.is_empty() && are_alike(&self.name, "Test Student")
     }
 
     /// Returns a person of whom only the name is known.
@@ -161,6 +187,7 @@ impl Person {
             self.name.clear();
             self.is_named_by_file = false;
         }
+        self.is_listed |= other.is_listed;
         let pairs = [
             (&mut self.name, &other.name),
             (&mut self.email, &other.email),
@@ -179,18 +206,28 @@ impl Person {
     }
 
     /// Returns whether both records describe the same person. Only unique identifiers are compared,
-    /// never names, since two people may have the same name.
+    /// never names alone, since two people may have the same name; and never numbers alone.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = [
             (&self.email, &other.email),
             (&self.sid, &other.sid),
             (&self.login, &other.login),
-            (&self.number, &other.number),
         ];
-        let same = |(mine, theirs): &(&String, &String)| {
-            !mine.is_empty() && equals_ignoring_case(mine, theirs)
+        let same =
+            |(mine, theirs): &(&String, &String)| !mine.is_empty() && are_equal(mine, theirs);
+        pairs.iter().any(same) || self.has_number(&other.number, &other.name)
+    }
+
+    /// Returns whether both records describe the same person, or there is nothing but an equal name.
+    pub fn is_same(&self, other: &Person) -> bool {
+        let bare = |person: &Person| {
+            let known = [&person.email, &person.sid, &person.login, &person.number];
+            known.iter().all(|text| text.is_empty())
         };
-        pairs.iter().any(same)
+        let has_only_name = bare(self) && bare(other) && !self.name.is_empty();
+        self.matches(other)
+            || self == other
+            || (has_only_name && are_equal(&self.name, &other.name))
     }
 }
 
@@ -209,6 +246,9 @@ impl EntryInfo {
     /// Removes the groups and extensions, which only a roster can have said, because another roster
     /// counts.
     pub fn forget_groups_and_extensions(&mut self) {
+        if let Some(team) = &self.team {
+            self.people = vec![Person::named_by_file(team)];
+        }
         self.people.retain(|person| !person.is_from_group);
         for person in &mut self.people {
             person.group.clear();
@@ -240,14 +280,24 @@ mod tests {
     }
 
     #[test]
-    fn case_is_ignored_in_every_language() {
-        for (one, other) in [("Ann", "aNN"), ("ÖZIL", "özil"), ("\u{212a}im", "kim")] {
-            assert!(equals_ignoring_case(one, other), "{one} {other}");
-            assert!(equals_ignoring_case(other, one), "{one} {other}");
+    fn a_number_counts_only_with_the_name() {
+        let with_number = |name: &str| Person {
+            number: "51".to_owned(),
+            ..Person::named(name)
+        };
+        for (one, other) in [
+            ("Ann Lee", "Lee, Ann"),
+            ("", "Ann Lee"),
+            ("Teilnehmerin", "Teilnehmer/in 51"),
+        ] {
+            let (one, other) = (with_number(one), with_number(other));
+            assert!(one.matches(&other), "{one:?} {other:?}");
         }
-        for (one, other) in [("ann", "anne"), ("özil", "ozil"), ("ozil", "özil")] {
-            assert!(!equals_ignoring_case(one, other), "{one} {other}");
-        }
+        assert!(!with_number("Team A").matches(&with_number("Ann Lee")));
+        let mut unlisted = with_number("Team A");
+        assert!(!unlisted.identifiers().any(|text| text == "51"));
+        unlisted.is_listed = true;
+        assert!(unlisted.identifiers().any(|text| text == "51"));
     }
 
     #[test]

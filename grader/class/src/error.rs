@@ -9,6 +9,7 @@ use grader::select_isolation::IsolationError;
 use crate::hand_back::HandBackError;
 use crate::input_error::ClassInputError;
 use crate::list_memory::ListMemoryError;
+use crate::lists::UnlistedClassError;
 use crate::manual::ManualPointsError;
 use crate::shard::Shard;
 use crate::similarity::SimilarityError;
@@ -27,6 +28,9 @@ pub enum Error {
     /// A list cannot be read, or the one of an earlier run cannot be used.
     #[error(transparent)]
     ListMemory(#[from] ListMemoryError),
+    /// Most submissions match nobody on the lists.
+    #[error(transparent)]
+    Unlisted(#[from] UnlistedClassError),
     /// The points by hand cannot be used.
     #[error(transparent)]
     ManualPoints(#[from] ManualPointsError),
@@ -158,6 +162,7 @@ impl Error {
         match self {
             Error::Input(_)
             | Error::List(_)
+            | Error::Unlisted(_)
             | Error::ManualPoints(_)
             | Error::ListMemory(_)
             | Error::Similarity(SimilarityError::NotEmpty(_) | SimilarityError::Overlap { .. })

@@ -1,12 +1,69 @@
 //! Group submissions: a platform such as Canvas exports a group's submission under the name of one
-//! member, and the roster's group column lists the other members.
+//! member, and the roster's group column lists the other members. Moodle names it after the group.
 
 use std::collections::BTreeSet;
 
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
+use crate::names::are_equal;
 use crate::roster::{self, Member};
 use crate::table::TableError;
+
+/// Gives an entry that is named after a group, and matches nobody, to the members of the group: those
+/// in the roster or, if it does not have the group, in another list. Returns whether there are any.
+pub fn resolve_teams(
+    lists: &Lists,
+    rows: &[Member],
+    entries: &mut [&mut EntryInfo],
+) -> Result<bool, TableError> {
+    let roster = match &lists.roster {
+        Some(path) => roster::read_members(path)?,
+        None => Vec::new(),
+    };
+    let mut has_teams = false;
+    for info in entries {
+        let [person] = info.people.as_slice() else {
+            continue;
+        };
+        let team = person.name.clone();
+        if team.is_empty() || rows.iter().any(|row| row.matches(person)) {
+            continue;
+        }
+        let of = |rows: &[Member]| -> Vec<Person> {
+            let members = rows.iter().map(|row| &row.person);
+            let members = members.filter(|member| are_equal(&member.group, &team));
+            members.cloned().collect()
+        };
+        let mut members = of(&roster);
+        if members.is_empty() {
+            members = of(rows);
+        }
+        if !members.is_empty() {
+            has_teams = true;
+            info.people = members;
+            info.team = Some(team);
+        }
+    }
+    Ok(has_teams)
+}
+
+/// Joins the records of people who are listed twice.
+pub fn remove_repetitions(people: &mut Vec<Person>) {
+    let mut distinct: Vec<Person> = Vec::new();
+    for person in people.drain(..) {
+        let is_repetition = |other: &&mut Person| {
+            let has_other_name = !other.name.is_empty()
+                && !person.name.is_empty()
+                && !are_equal(&other.name, &person.name);
+            other.is_same(&person) && !has_other_name
+        };
+        match distinct.iter_mut().find(is_repetition) {
+            Some(other) => other.fill_missing_from(&person),
+            None => distinct.push(person),
+        }
+    }
+    *people = distinct;
+}
 
 /// Adds the other members of a group to the entry of the member who submitted, except those who
 /// made a submission of their own. Returns whether there are any.
@@ -36,7 +93,8 @@ pub fn add_group_members(
             is_from_group: true,
             ..member.person.clone()
         });
-        let others: Vec<Person> = others.collect();
+        let mut others: Vec<Person> = others.collect();
+        remove_repetitions(&mut others);
         has_added |= !others.is_empty();
         info.people.extend(others);
     }

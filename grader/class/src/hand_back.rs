@@ -14,7 +14,7 @@ use judging::sanitize::safe_folder_name;
 use zip::ZipWriter;
 
 use crate::archive;
-use crate::entry::{Person, WHO};
+use crate::entry::{NUMBER, Person, WHO};
 use crate::model::{ClassRow, GradedClass, PersonGrade};
 use crate::store::{Store, StoreError};
 
@@ -22,6 +22,10 @@ use crate::store::{Store, StoreError};
 pub const ARCHIVE: &str = "hand-back.zip";
 /// The end of a page's name, after the person's.
 const PAGE: &str = "feedback.html";
+
+/// The reason for leaving out a page in Moodle: with the number of a group, a stranger would get it.
+const NO_NUMBER: &str = "the number in the file name can be a person's or a group's, and no list tells \
+    which: pass Moodle's worksheet with --moodle";
 
 /// An archive to hand back.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,6 +69,18 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, HandBac
         }
         let page = store.read_feedback(id)?;
         match &row.result.info.hand_back_as {
+            Some(name) if name.contains(NUMBER) => {
+                for (person, grade) in ready {
+                    if person.own_number().is_empty() {
+                        let name = person.display_name();
+                        left_out.push(format!("{name}: {NO_NUMBER}"));
+                        continue;
+                    }
+                    let name = name.replace(NUMBER, person.own_number());
+                    let own = with_counted(&page, &own_texts(row, person, grade));
+                    files.add_as(&name, &file_name(person), &own)?;
+                }
+            }
             // The platform passes the page on to the members of a group.
             Some(name) => files.add_as(name, &safe_folder_name(&names(&ready)), &page)?,
             None => {

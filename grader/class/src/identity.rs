@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::entry::Person;
+use crate::names::fold;
 
 /// One person's part of a submission: the index of the row, and of the person in it.
 pub type Attempt = (usize, usize);
@@ -54,14 +55,19 @@ pub fn person_ids(people: &[&Person]) -> Vec<usize> {
 }
 
 fn keys(person: &Person) -> Vec<(u8, String)> {
-    let identifiers = [&person.email, &person.sid, &person.login, &person.number];
+    // In a file name, somebody else may have the same number.
+    let number = match person.number.as_str() {
+        number if number.is_empty() || person.is_listed => number.to_owned(),
+        number => format!("{number} {}", person.name),
+    };
+    let identifiers = [&person.email, &person.sid, &person.login, &number];
     let mut keys: Vec<(u8, String)> = (0..)
         .zip(identifiers)
         .filter(|(_, text)| !text.is_empty())
-        .map(|(kind, text)| (kind, text.to_lowercase()))
+        .map(|(kind, text)| (kind, fold(text)))
         .collect();
     if keys.is_empty() {
-        keys.push((u8::MAX, person.name.clone()));
+        keys.push((u8::MAX, fold(&person.name)));
     }
     keys
 }

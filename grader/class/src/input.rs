@@ -14,6 +14,7 @@ use crate::entry::{Entry, Source};
 use crate::input_error::ClassInputError;
 use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
 use crate::listing::{Node, hidden_names, list_folder};
+use crate::roster::Member;
 use crate::unpack::{CLASS_FOLDER, unpack};
 
 /// The submissions of a class, before their files are read. If they were unpacked from an archive,
@@ -29,11 +30,12 @@ pub struct Input {
 
 impl Input {
     /// Opens the folder or archive at `path`. An archive is unpacked into a temporary folder in
-    /// `parent`.
+    /// `parent`. Names that can be read in several ways are compared with `known`, the people on lists.
     pub fn open(
         path: &Path,
         parent: &Path,
         handed_out: &'static HandedOut,
+        known: &[Member],
     ) -> Result<Self, ClassInputError> {
         remove_abandoned(parent);
         let unpacked = match fs::metadata(path) {
@@ -46,11 +48,15 @@ impl Input {
             None => path.canonicalize().at("read", path)?,
         };
         let listed = list_folder(&folder)?;
-        let root = layout::find_class_folder(&listed, handed_out).clone();
+        let archive = path.file_name().map(|name| name.to_string_lossy());
+        let archive = archive.as_deref().filter(|_| unpacked.is_some());
+        let (root, note) = layout::find_class_folder(&listed, archive);
+        let root = root.clone();
         let metadata = root.find(METADATA).map(|node| files::read(&node.path));
         let metadata = metadata.transpose()?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        let mut class = layout::recognise(&root, metadata.as_deref(), handed_out)?;
+        let mut class = layout::recognise(&root, metadata.as_deref(), handed_out, known)?;
+        class.notes.extend(note);
         let unpacked = unpacked.map(|unpacked| {
             class.unmatched.extend(unpacked.problems);
             reject_incomplete(&mut class, &folder, unpacked.incomplete);
@@ -63,15 +69,25 @@ impl Input {
                 name,
                 why: "its name begins with a dot, so it is hidden".to_owned(),
             }));
-        if class.entries.is_empty() {
-            Err(ClassInputError::NoSubmissions(path.to_owned()))
+        let of_several = if class.entries.is_empty() {
+            layout::side_by_side(&root, handed_out)
         } else {
-            Ok(Input {
-                class,
-                root,
-                _unpacked: unpacked,
-            })
+            // A few may be mistakes of students, who are told.
+            let is_most = 2 * class.mixtures.len() > class.entries.len();
+            class.mixtures.first().filter(|_| is_most).cloned()
+        };
+        if let Some(why) = of_several {
+            let path = path.to_owned();
+            return Err(ClassInputError::SeveralPeople { path, why });
         }
+        if class.entries.is_empty() {
+            return Err(ClassInputError::NoSubmissions(path.to_owned()));
+        }
+        Ok(Input {
+            class,
+            root,
+            _unpacked: unpacked,
+        })
     }
 }
 

@@ -4,8 +4,12 @@ use std::path::PathBuf;
 
 use grader::files::PathError;
 use grader::submission::ArchiveError;
+use judging::sanitize::sanitize_line;
 
 use crate::layout::MetadataError;
+
+/// The maximum length of a reason that has names, in characters.
+const MAX_CHARS: usize = 600;
 
 /// An error that prevents the input from being read as a class.
 #[derive(Debug, thiserror::Error)]
@@ -27,6 +31,18 @@ pub enum ClassInputError {
     /// Gradescope's metadata file is invalid.
     #[error(transparent)]
     Metadata(#[from] MetadataError),
+    /// Most entries seem to be of several people.
+    #[error(
+        "{path} cannot be read as a class: {}{}",
+        sanitize_line(why, MAX_CHARS),
+        if path.is_dir() { "" } else { "; unpack the archive first" }
+    )]
+    SeveralPeople {
+        /// The path of the input.
+        path: PathBuf,
+        /// The reason for the first entry, and what to do.
+        why: String,
+    },
     /// The input contains no submissions.
     #[error(
         "{0} contains no submissions: pass the folder of a class; to grade a single submission, \

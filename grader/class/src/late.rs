@@ -10,9 +10,10 @@ use grader::printing::print_error_line;
 use jiff::Timestamp;
 use judging::sanitize::sanitize;
 
-use crate::entry::{EntryInfo, Person, equals_ignoring_case};
+use crate::entry::{EntryInfo, Person};
 use crate::identity::person_ids;
 use crate::moodle_status::MoodleStatus;
+use crate::names::{are_equal, fold};
 
 /// The reason why it is unclear how late a submission is. Nobody's points may depend on a guess, so
 /// the submission has no final points until a person corrects the time.
@@ -212,10 +213,10 @@ fn unmatched_extensions<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a s
     let mut names: BTreeSet<String> = BTreeSet::new();
     for person in people {
         let all = person.identifiers().chain([person.group.as_str()]);
-        names.extend(all.map(str::to_lowercase));
+        names.extend(all.map(fold));
     }
     let keys = policy.late.extensions.keys();
-    let unmatched = keys.filter(|key| !names.contains(&key.to_lowercase()));
+    let unmatched = keys.filter(|key| !names.contains(&fold(key)));
     unmatched.map(String::as_str).collect()
 }
 
@@ -224,9 +225,9 @@ fn extensions_of_namesakes<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'
     let ids = person_ids(people);
     let is_shared = |key: &&String| {
         let named = people.iter().zip(&ids);
-        let named = named.filter(|(person, _)| equals_ignoring_case(&person.name, key));
+        let named = named.filter(|(person, _)| are_equal(&person.name, key));
         // Everybody in a group is meant.
-        let named = named.filter(|(person, _)| !equals_ignoring_case(&person.group, key));
+        let named = named.filter(|(person, _)| !are_equal(&person.group, key));
         let ids: BTreeSet<usize> = named.map(|(_, id)| *id).collect();
         ids.len() > 1
     };

@@ -12,7 +12,7 @@
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
 //! | results | [`drift`], [`final_grades`], [`list_memory`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`list_kind`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`shard`], [`paths`], [`archive`] |
+//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`list_kind`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`names`], [`shard`], [`paths`], [`archive`] |
 
 pub mod archive;
 pub mod attempts;
@@ -41,6 +41,7 @@ pub mod manual;
 pub mod merge;
 pub mod model;
 pub mod moodle_status;
+pub mod names;
 pub mod outcome;
 pub mod output;
 pub mod paths;

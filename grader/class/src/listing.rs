@@ -8,8 +8,9 @@ use grader::disk::{self, Operation};
 use grader::files::{self, AtPath, PathError};
 use grader::submission::is_archive_name;
 
-/// The number of levels of subfolders that are listed.
-const MAX_DEPTH: usize = 3;
+/// The number of levels of subfolders that are listed: enough for a student's project in a folder for
+/// each student, in one for each tutorial.
+const MAX_DEPTH: usize = 5;
 /// The names of folders that are skipped: they contain nothing that a student has written.
 const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 

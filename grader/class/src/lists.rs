@@ -1,18 +1,47 @@
 //! Completes a class's entries from the roster and the platforms' gradebooks.
 
+use judging::sanitize::sanitize_line;
+
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::groups;
 use crate::roster::{self, Member};
 use crate::table::TableError;
 
-/// Fills in what the lists know about the entries: first unknown identifiers, then the other members of
-/// groups, and last the times of submission, since the time of any member counts. Returns the people on
-/// the lists who belong to no entry.
+/// The maximum length of a name in a message, in characters.
+const MAX_CHARS: usize = 200;
+
+/// What the lists say about a class.
+#[derive(Debug, Default)]
+pub struct ListFindings {
+    /// The people on the lists who belong to no entry.
+    pub missing: Vec<Person>,
+    /// Sentences about entries whose people cannot be told for certain.
+    pub warnings: Vec<String>,
+    /// The names of the entries whose people are on no list; empty if there are no lists.
+    unlisted: Vec<String>,
+}
+
+/// A class in which most entries match nobody on the lists: they may be another class's, or the
+/// names may have been misread.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{unlisted} of {all} submissions match nobody on the lists, such as {example:?}: check that the \
+     roster or gradebook is this class's, and that --dry-run shows the right names; if everything is \
+     right, add --accept-unlisted"
+)]
+pub struct UnlistedClassError {
+    unlisted: usize,
+    all: usize,
+    example: String,
+}
+
+/// Fills in what the lists know about the entries: first unknown identifiers, then the members of
+/// groups, and last the times of submission, since the time of any member counts.
 pub fn complete_entries(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
-) -> Result<Vec<Person>, TableError> {
+) -> Result<ListFindings, TableError> {
     let rows = roster::read_lists(lists)?;
     if lists.moodle.is_some() {
         // Only this worksheet's status counts, not that of an earlier one.
@@ -20,17 +49,73 @@ pub fn complete_entries(
         people.for_each(|person| person.status.clear());
     }
     fill_in(&rows, entries);
-    if groups::add_group_members(lists, entries)? {
+    let has_teams = groups::resolve_teams(lists, &rows, entries)?;
+    if groups::add_group_members(lists, entries)? || has_teams {
         fill_in(&rows, entries);
+    }
+    for info in entries.iter_mut() {
+        groups::remove_repetitions(&mut info.people);
     }
     roster::set_submission_times(lists, entries)?;
     let people = entries.iter().flat_map(|info| &info.people);
-    Ok(roster::missing(&rows, &people.collect::<Vec<_>>()))
+    let missing = roster::missing(&rows, &people.collect::<Vec<_>>());
+    let unlisted = entries.iter().filter(|info| !is_listed(&rows, info));
+    Ok(ListFindings {
+        missing,
+        warnings: entries
+            .iter()
+            .filter_map(|i| misleading_number(&rows, i))
+            .collect(),
+        unlisted: unlisted.map(|info| info.display_names()).collect(),
+    })
+}
+
+impl ListFindings {
+    /// Rejects a class of this many entries if more than half of them match nobody on the lists.
+    pub fn check(&self, lists: &Lists, all: usize) -> Result<(), UnlistedClassError> {
+        match self.unlisted.first() {
+            Some(example) if 2 * self.unlisted.len() > all && !lists.accept_unlisted => {
+                Err(UnlistedClassError {
+                    unlisted: self.unlisted.len(),
+                    all,
+                    example: sanitize_line(example, MAX_CHARS),
+                })
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
 }
 
 fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     let people = entries.iter_mut().flat_map(|info| &mut info.people);
     roster::fill_in(rows, &mut people.collect::<Vec<_>>());
+}
+
+/// Returns whether somebody of the entry is on a list, or there is no list. The test student of
+/// Canvas is on none.
+fn is_listed(rows: &[Member], info: &EntryInfo) -> bool {
+    let mut people = info.people.iter();
+    rows.is_empty()
+        || people
+            .any(|person| person.is_test_student() || rows.iter().any(|row| row.matches(person)))
+}
+
+/// Returns a sentence about a person whose number has another name in a list.
+fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
+    let mut people = info.people.iter();
+    people.find_map(|person| {
+        let is_of_other = |row: &&Member| {
+            row.person.number == person.number && !person.has_number(&person.number, &row.person.name)
+        };
+        let other = rows.iter().filter(|row| !row.person.number.is_empty()).find(is_of_other)?;
+        Some(format!(
+            "{}: the number {} is that of {} in a list, so it was not used: if this is a team, name \
+             its members in the column group of the roster; otherwise correct the name",
+            info.from,
+            person.number,
+            other.person.display_name()
+        ))
+    })
 }
 
 #[cfg(test)]
@@ -79,7 +164,7 @@ mod tests {
             email: "ann@x.edu".to_owned(),
             ..Person::default()
         });
-        let missing = complete_entries(&lists, &mut [&mut ann]).unwrap();
+        let missing = complete_entries(&lists, &mut [&mut ann]).unwrap().missing;
         let known = |person: &Person| (person.login.clone(), person.extension.clone());
         let known = [&ann.people[0], &missing[0]].map(known);
         let wanted = [("ann", "2"), ("bob", "3")];
@@ -127,7 +212,7 @@ mod tests {
             ..Lists::default()
         };
         let mut entry = entry(with_login("ann"));
-        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap();
+        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap().missing;
         let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
         assert_eq!(numbers, ["7001", "7002"]);
         assert_eq!(missing, []);
@@ -161,7 +246,7 @@ mod tests {
             ..Lists::default()
         };
         let mut entry = entry(with_login("ann"));
-        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap();
+        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap().missing;
         let sids: Vec<&str> = entry
             .people
             .iter()

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::entry::Person;
 use crate::identity::person_ids;
+use crate::names::are_equal;
 use crate::outcome::EntryOutcome;
 use crate::table::{Table, TableError};
 
@@ -178,9 +179,8 @@ impl ManualPointsList {
 
 impl ManualPoints {
     fn is_for(&self, person: &Person) -> bool {
-        let student = self.student.to_lowercase();
         let mut texts = person.identifiers();
-        texts.any(|text| text.to_lowercase() == student)
+        texts.any(|text| are_equal(text, &self.student))
     }
 }
 

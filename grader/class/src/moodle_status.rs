@@ -1,7 +1,7 @@
 //! The column `Status` of Moodle's grading worksheet: sentences in the language of the person who
 //! downloaded it, joined with ` - ` (`col_status` in Moodle's `mod/assign/gradingtable.php`).
 
-use crate::entry::equals_ignoring_case;
+use crate::names::are_equal;
 
 /// Sentences that change no grade, from Moodle's `mod/assign/lang/en/assign.php`.
 const KNOWN: [&str; 14] = [
@@ -46,11 +46,7 @@ impl<'a> MoodleStatus<'a> {
         let mut status = MoodleStatus::default();
         let sentences = cell.split(" - ").map(str::trim);
         for sentence in sentences.filter(|sentence| !sentence.is_empty()) {
-            let is_one_of = |known: &[&str]| {
-                known
-                    .iter()
-                    .any(|known| equals_ignoring_case(known, sentence))
-            };
+            let is_one_of = |known: &[&str]| known.iter().any(|known| are_equal(known, sentence));
             if let Some(until) = sentence.strip_prefix(EXTENSION) {
                 status.extension = Some(until.trim());
             } else if is_one_of(&UNSUBMITTED) {

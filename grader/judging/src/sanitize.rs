@@ -15,6 +15,9 @@ pub fn sanitize(text: &str, longest: usize) -> String {
             '\n' => sanitized.push('\n'),
             '\t' => sanitized.push_str("    "),
             c if affects_surroundings(c) => sanitized.extend(c.escape_default()),
+            c if is_joiner(c) && !sanitized.chars().next_back().is_some_and(can_be_joined) => {
+                sanitized.extend(c.escape_default());
+            }
             c => sanitized.push(c),
         }
     }
@@ -35,11 +38,37 @@ pub fn affects_surroundings(c: char) -> bool {
         '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
     );
     let is_separator = matches!(c, '\u{2028}' | '\u{2029}');
-    let is_invisible = matches!(
+    c.is_control() || is_direction_mark || is_separator || is_invisible(c)
+}
+
+/// Returns whether a character has no width and no effect on the text around it: soft hyphens, zero
+/// width spaces, fillers, tags and selectors of variants. With it, two names that look the same differ.
+fn is_invisible(c: char) -> bool {
+    matches!(
         c,
-        '\u{206a}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}'
-    );
-    c.is_control() || is_direction_mark || is_separator || is_invisible
+        '\u{ad}' | '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}'
+            | '\u{180b}'..='\u{180f}' | '\u{200b}' | '\u{2060}'..='\u{2065}'
+            | '\u{206a}'..='\u{206f}' | '\u{3164}' | '\u{feff}' | '\u{ffa0}'
+            | '\u{fff0}'..='\u{fffb}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+            | '\u{e0000}'..='\u{e0fff}'
+    )
+}
+
+/// Returns whether this is the zero width joiner or non-joiner. Persian, Indian and other scripts
+/// need them, and so do emoji.
+fn is_joiner(c: char) -> bool {
+    matches!(c, '\u{200c}' | '\u{200d}')
+}
+
+/// Returns whether a joiner may follow: not after Latin, Greek or Cyrillic, where it changes nothing.
+fn can_be_joined(c: char) -> bool {
+    c >= '\u{590}' && !matches!(c, '\u{1e00}'..='\u{200f}')
+}
+
+/// Returns the text without characters that nobody sees, for comparing names.
+pub fn without_invisible(text: &str) -> String {
+    let is_hidden = |c: char| is_joiner(c) || (affects_surroundings(c) && !c.is_whitespace());
+    text.chars().filter(|c| !is_hidden(*c)).collect()
 }
 
 /// Maximum length of a folder name, in characters.
@@ -84,6 +113,8 @@ mod tests {
             '\u{202e}',
             '\u{2028}',
             '\u{feff}',
+            '\u{ad}',
+            '\u{200b}',
             '\u{e0041}',
         ] {
             assert!(affects_surroundings(c), "{c:?}");
@@ -104,6 +135,13 @@ mod tests {
         // Names and formulas are not changed.
         let harmless = "Zoë Müller, مريم, 张伟, नेहा, θ ≤ 2π, 👩\u{200d}🔬";
         assert_eq!(sanitize_line(harmless, 99), harmless);
+        assert_eq!(sanitize_line("Zoë\u{200d}", 99), "Zoë\\u{200d}");
+    }
+
+    #[test]
+    fn invisible_characters_are_left_out_of_comparisons() {
+        let hidden = "A\u{ad}n\u{200d}n\u{200b} L\u{e0041}ee\u{202e}";
+        assert_eq!(without_invisible(hidden), "Ann Lee");
     }
 
     proptest! {

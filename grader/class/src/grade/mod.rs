@@ -31,6 +31,7 @@ use crate::paths::contains;
 use crate::progress::Progress;
 use crate::queue;
 use crate::report::preview::{render_preview, render_warnings};
+use crate::roster;
 use crate::run::{Run, Settings};
 use crate::shard::Shard;
 use crate::similarity;
@@ -85,12 +86,17 @@ pub fn grade_class_with(
         path,
         &workspace.cache_folder().join("classes"),
         options.handed_out,
+        &roster::read_lists(given)?,
     )?;
     let mut recognised = input.class.clone();
     let lists = resolve_lists(&input, given);
     let entries = recognised.entries.iter_mut();
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
-    let missing = lists::complete_entries(&lists, &mut infos)?;
+    let all = infos.len();
+    let findings = lists::complete_entries(&lists, &mut infos)?;
+    recognised.notes.extend_from_slice(&findings.warnings);
+    let listed = findings.check(&lists, all);
+    let missing = findings.missing;
     let manual = read_manual_points(given, options)?;
     let entries = recognised.entries.iter();
     let people: Vec<&Person> = entries.flat_map(|entry| &entry.info.people).collect();
@@ -105,9 +111,13 @@ pub fn grade_class_with(
     }
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
         print(render_preview(&recognised, &missing, options.handed_out));
+        if let Err(error) = listed {
+            print(format!("  this class would not be graded: {error}\n\n"));
+        }
         return Ok(Completion::Complete);
     };
 
+    listed?;
     let grader = prepare(options)?;
     let known: Vec<&Person> = people.into_iter().chain(&missing).collect();
     warn_about_extensions(grader.policy(), &known);

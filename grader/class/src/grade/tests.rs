@@ -205,7 +205,7 @@ fn the_roster_beside_clones_is_used_unless_another_is_given() {
     let scores = folder.path().join(CLASSROOM50_SCORES);
     fs::write(&scores, "username\nann\n").unwrap();
     let parent = tempfile::tempdir().unwrap();
-    let input = Input::open(folder.path(), parent.path(), &RAYS).unwrap();
+    let input = Input::open(folder.path(), parent.path(), &RAYS, &[]).unwrap();
     let given = |roster: Option<&str>| Lists {
         roster: roster.map(Into::into),
         hand_back: true,

@@ -54,7 +54,7 @@ pub fn fill_canvas(
         .find(|row| row[student].trim() == POINTS_POSSIBLE);
     let warning = possible.and_then(|row| maximum_warning(class, &row[target]));
     let sis = ["SIS User ID", "SIS Login ID"].map(|name| table.column(name));
-    let mut keys = vec![column_key(KeyKind::Only, id, |person| {
+    let mut keys = vec![column_key(KeyKind::Number, id, |person| {
         non_empty(&person.number)
     })];
     let [sid, login] = sis;

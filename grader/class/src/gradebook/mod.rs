@@ -8,11 +8,12 @@ mod canvas;
 mod gradescope;
 mod moodle;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::entry::Person;
 use crate::model::{ClassRow, GradeProblem, GradedClass, PersonGrade};
+use crate::names::{are_alike, are_equal, fold};
 use crate::table::{Table, TableError};
 
 pub use canvas::fill_canvas;
@@ -69,6 +70,8 @@ struct MatchKey<'a> {
 /// A key's relation to people.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum KeyKind {
+    /// The platform's own number, which a file name can have by chance: the names must be alike too.
+    Number,
     /// A person has only one, such as a student id: a row with another one is somebody else's.
     Only,
     /// A person may have several, such as email addresses.
@@ -81,13 +84,21 @@ enum KeyKind {
 type RowText<'a> = dyn Fn(&[String]) -> String + 'a;
 
 impl MatchKey<'_> {
+    /// Returns whether the key says for certain that a row is of this person.
+    fn confirms(&self, row: &[String], person: &Person) -> bool {
+        let known = fold(&(self.row_text)(row));
+        let texts = (self.person_texts)(person);
+        let is_certain = matches!(self.kind, KeyKind::Only | KeyKind::OneOfSeveral);
+        is_certain && !known.is_empty() && texts.iter().any(|text| fold(text) == known)
+    }
+
     /// Returns whether the key says that a row is not of this person.
     fn rules_out(&self, row: &[String], person: &Person) -> bool {
-        let known = normalise(&(self.row_text)(row));
+        let known = fold(&(self.row_text)(row));
         let texts = (self.person_texts)(person);
-        let is_other = |text: &String| normalise(text) != known;
+        let is_other = |text: &String| fold(text) != known;
         let differs = !known.is_empty() && !texts.is_empty() && texts.iter().all(is_other);
-        self.kind == KeyKind::Only && differs
+        matches!(self.kind, KeyKind::Only | KeyKind::Number) && differs
     }
 }
 
@@ -119,21 +130,39 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     } = spec;
     let (matches, mut warnings) = match_rows(&table, &keys, is_person, name, class);
     let mut changes = Vec::new();
-    let mut submissions_of: BTreeMap<usize, Vec<(&ClassRow, &PersonGrade)>> = BTreeMap::new();
-    for (class_row, grade, row_index) in matches {
-        let submissions = submissions_of.entry(row_index).or_default();
-        submissions.push((class_row, grade));
+    let mut matches_of: BTreeMap<usize, Vec<GradebookMatch>> = BTreeMap::new();
+    for (row_index, matched) in matches {
+        matches_of.entry(row_index).or_default().push(matched);
     }
-    for (row_index, submissions) in submissions_of {
+    for (row_index, matches) in matches_of {
         let who = name(&table.rows[row_index]);
-        let [(class_row, grade)] = submissions[..] else {
-            let ids = submissions.iter().map(|(row, _)| row.result.id.as_str());
-            let ids = ids.collect::<Vec<_>>().join(", ");
+        let ids = matches.iter().map(|(row, _, _)| row.result.id.as_str());
+        let ids: BTreeSet<&str> = ids.collect();
+        if ids.len() > 1 {
+            let ids = Vec::from_iter(ids).join(", ");
             warnings.push(format!(
                 "{who} has several submissions ({ids}): keep one; left unchanged"
             ));
             continue;
-        };
+        }
+        // A submission may list a person twice, or two people with one email address.
+        let is_named = |(_, person, _): &&GradebookMatch| are_alike(&person.name, &who);
+        let best = matches.iter().find(is_named).unwrap_or(&matches[0]);
+        let (class_row, first, grade) = *best;
+        let others = matches.iter().filter(|(_, person, other)| {
+            other.counted != grade.counted || !are_equal(&person.name, &first.name)
+        });
+        let others: Vec<&str> = others.map(|(_, person, _)| person.display_name()).collect();
+        if !others.is_empty() {
+            let id = &class_row.result.id;
+            warnings.push(format!(
+                "{} of {id} could be {who} as well: fill in by hand",
+                others.join(", ")
+            ));
+            if !is_named(&best) {
+                continue;
+            }
+        }
         let locked = is_locked(&table.rows[row_index]);
         let cell = &mut table.rows[row_index][target];
         let Some(counted) = grade.counted else {
@@ -172,18 +201,18 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
     }
 }
 
-/// A person's submission and grade, and the index of their row in the gradebook.
-type GradebookMatch<'c> = (&'c ClassRow, &'c PersonGrade, usize);
+/// A submission, a person of it who is in the gradebook, and the person's grade.
+type GradebookMatch<'c> = (&'c ClassRow, &'c Person, &'c PersonGrade);
 
-/// Finds the row of each person in the class. Also returns a warning for each person without
-/// exactly one row.
+/// Finds each person of the class in the gradebook, by the index of the row. Also returns a warning
+/// for each person without exactly one row.
 fn match_rows<'c>(
     table: &Table,
     keys: &[MatchKey],
     is_person: &dyn Fn(&[String]) -> bool,
     name: &dyn Fn(&[String]) -> String,
     class: &'c GradedClass,
-) -> (Vec<GradebookMatch<'c>>, Vec<String>) {
+) -> (Vec<(usize, GradebookMatch<'c>)>, Vec<String>) {
     // For each key, the indices of the rows with each text. A text that is in several rows
     // identifies nobody.
     let indices: Vec<BTreeMap<String, Vec<usize>>> = keys
@@ -191,7 +220,7 @@ fn match_rows<'c>(
         .map(|key| {
             let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
             for (row_index, row) in table.rows.iter().enumerate() {
-                let text = normalise(&(key.row_text)(row));
+                let text = fold(&(key.row_text)(row));
                 if is_person(row) && !text.is_empty() {
                     index.entry(text).or_default().push(row_index);
                 }
@@ -208,22 +237,37 @@ fn match_rows<'c>(
             }
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
                 let texts = (key.person_texts)(person);
-                let mut texts = texts.iter().map(|text| normalise(text));
-                texts.find_map(|text| Some((key.kind, index.get(&text)?.as_slice())))
+                let mut texts = texts.iter().map(|text| fold(text));
+                texts.find_map(|text| Some((key, index.get(&text)?.as_slice())))
             });
-            let is_namesake = |row_index: usize| {
+            let is_other = |key: &MatchKey, row_index: usize| {
                 let row = &table.rows[row_index];
-                keys.iter().any(|key| key.rules_out(row, person))
+                match key.kind {
+                    KeyKind::Name => keys.iter().any(|key| key.rules_out(row, person)),
+                    KeyKind::Number => {
+                        !person.has_number(&(key.row_text)(row), &name(row))
+                            && !keys.iter().any(|key| key.confirms(row, person))
+                    }
+                    KeyKind::Only | KeyKind::OneOfSeveral => false,
+                }
             };
             match found {
-                Some((KeyKind::Name, [row_index])) if is_namesake(*row_index) => {
-                    warnings.push(format!(
-                        "{} is not in this list: {} has another number or student id; fill in by hand",
-                        person.display_name(),
-                        name(&table.rows[*row_index])
-                    ));
+                Some((key, [row_index])) if is_other(key, *row_index) => {
+                    let (person, listed) = (person.display_name(), name(&table.rows[*row_index]));
+                    warnings.push(match key.kind {
+                        KeyKind::Number => format!(
+                            "{person} is not {listed}, who has the same number in this list: fill in \
+                             by hand"
+                        ),
+                        KeyKind::Only | KeyKind::OneOfSeveral | KeyKind::Name => format!(
+                            "{person} is not in this list: {listed} has another number or student id; \
+                             fill in by hand"
+                        ),
+                    });
                 }
-                Some((_, [row_index])) => matches.push((class_row, grade, *row_index)),
+                Some((_, [row_index])) => {
+                    matches.push((*row_index, (class_row, person, grade)));
+                }
                 Some((_, several)) => {
                     let names: Vec<String> = several
                         .iter()
@@ -240,11 +284,6 @@ fn match_rows<'c>(
         }
     }
     (matches, warnings)
-}
-
-/// Returns the text in lower case, without white space at its ends.
-fn normalise(text: &str) -> String {
-    text.trim().to_lowercase()
 }
 
 fn cell_equals(cell: &str, points: u32) -> bool {

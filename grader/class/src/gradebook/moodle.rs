@@ -13,11 +13,19 @@ use crate::table::{Table, TableError};
 const REMEDY: &str =
     "download the grading worksheet from the assignment's page (it must allow offline grading)";
 
+const TRANSLATED: &str = "it is a grading worksheet in another language than English: switch Moodle \
+    to English in its menu or in your preferences, and download it again";
+
 /// Reads the worksheet at `path` and fills in the class's points.
 pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
     let table = Table::read(path)?;
-    let identifier = require_column(&table, path, "Identifier", REMEDY)?;
-    let target = require_column(&table, path, "Grade", REMEDY)?;
+    let remedy = if is_translated(&table) {
+        TRANSLATED
+    } else {
+        REMEDY
+    };
+    let identifier = require_column(&table, path, "Identifier", remedy)?;
+    let target = require_column(&table, path, "Grade", remedy)?;
     let name = table.column("Full name");
     let locked = table.column("Grade can be changed");
     let maximum = table.column("Maximum Grade");
@@ -25,7 +33,7 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
 
     let mut keys = vec![MatchKey {
-        kind: KeyKind::Only,
+        kind: KeyKind::Number,
         row_text: Box::new(move |row| participant(&row[identifier])),
         person_texts: |person| non_empty(&person.number),
     }];
@@ -60,8 +68,23 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     Ok(filled)
 }
 
+/// Returns whether the table has a worksheet's first column, such as `Teilnehmer/in 123`, whatever its
+/// head is. Moodle writes the heads in the language of the person who downloads it.
+fn is_translated(table: &Table) -> bool {
+    let is_numbered = |row: &Vec<String>| {
+        let cell = row.first().map_or("", |cell| cell.trim());
+        let number = cell.rsplit_once(|c: char| !c.is_ascii_digit());
+        number.is_some_and(|(word, number)| {
+            !number.is_empty() && word.chars().any(char::is_alphabetic)
+        })
+    };
+    table.column("Identifier").is_none()
+        && !table.rows.is_empty()
+        && table.rows.iter().all(is_numbered)
+}
+
 /// Returns `123` for `Participant 123`, in any language of the site.
 fn participant(identifier: &str) -> String {
-    let number = identifier.rsplit(' ').next();
-    number.unwrap_or(identifier).to_owned()
+    let number = identifier.trim().rsplit(|c: char| !c.is_ascii_digit());
+    number.into_iter().next().unwrap_or_default().to_owned()
 }

@@ -61,12 +61,19 @@ fn cells(filled: &FilledGradebook) -> Vec<&str> {
 }
 
 #[test]
-fn the_most_reliable_key_wins_over_the_name() {
+fn a_number_counts_only_with_the_name() {
     let file = list(CANVAS);
-    // The number is Jane's, although the name is Ann's.
-    let class = class(&[("x", person("Ann Lee", "", "", "7001"))]);
+    // The second number is Jane's, and the name is not.
+    let class = class(&[
+        ("x", person("leeann", "", "", "7002")),
+        ("y", person("Eve", "", "", "7001")),
+    ]);
     let filled = fill_canvas(file.path(), Some("7"), &class).unwrap();
-    assert_eq!(cells(&filled), ["100", "80", "", ""]);
+    assert_eq!(cells(&filled), ["100", "", "80", ""]);
+    assert_eq!(
+        filled.warnings,
+        ["Eve is not Doe, Jane, who has the same number in this list: fill in by hand"]
+    );
     assert_eq!(
         filled.table.header.len(),
         6,
@@ -362,4 +369,46 @@ fn canvass_maximum_is_in_the_row_of_possible_points() {
             "the gradebook's maximum is 50, but these points are out of 100: set out_of in the policy"
         ]
     );
+}
+
+#[test]
+fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
+    let grades =
+        list("First Name,Last Name,SID,Email,Total Score,Max Points\nAnn,Lee,,a@x.edu,,100\n");
+    let fill = |names: &[&str]| {
+        let mut class = class(&[("x", person(names[0], "a@x.edu", "", ""))]);
+        let row = &mut class.rows[0];
+        for name in &names[1..] {
+            row.result.info.people.push(person(name, "a@x.edu", "", ""));
+            row.grades.push(row.grades[0].clone());
+        }
+        let filled = fill_gradescope(grades.path(), &class).unwrap();
+        (cell(&filled), filled.warnings)
+    };
+    assert_eq!(fill(&["Ann Lee", "ann lee"]), ("80".to_owned(), vec![]));
+    let wanted = |name: &str| format!("{name} of x could be Ann Lee as well: fill in by hand");
+    let (filled, warnings) = fill(&["Bob", "Ann Lee"]);
+    assert_eq!((filled.as_str(), warnings), ("80", vec![wanted("Bob")]));
+    let (filled, warnings) = fill(&["Bob", "Cid"]);
+    assert_eq!((filled.as_str(), warnings), ("", vec![wanted("Cid")]));
+}
+
+fn cell(filled: &FilledGradebook) -> String {
+    filled.table.rows[0][4].clone()
+}
+
+#[test]
+fn a_worksheet_in_another_language_is_named_as_such() {
+    let fill = |text: &str| {
+        let file = list(text);
+        let error = fill_moodle(file.path(), &class(&[]))
+            .unwrap_err()
+            .to_string();
+        error.contains("in another language than English")
+    };
+    assert!(fill(
+        "ID,Vollständiger Name,Bewertung\nTeilnehmer/in 301,José Núñez,\n"
+    ));
+    assert!(fill("ID,Nom complet,Note\nParticipant301,José Núñez,\n"));
+    assert!(!fill("name,email\nJosé Núñez,jose@x.edu\n"));
 }

@@ -2,19 +2,29 @@
 //! `doejane_LATE_7001_9001_camera.rs`. A name consists of the student's sortable name without
 //! punctuation, `LATE` if the file is late, the user id, the attachment id, and the student's file
 //! name. Canvas appends `-1`, `-2`, … to the name of a file that is handed in again.
+//!
+//! The student's name and the file's may contain numbers as well. A name that can be read in two ways
+//! is nobody's, unless a list has the name and the number of one of them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use grader::handed_out::HandedOut;
 
 use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
+use crate::roster::Member;
 
 /// The reason for not grading a user who submitted text or a link, but no files.
 const TEXT_ONLY: &str = "text or a link was handed in, but no file";
 /// The reason for not grading text or a link from a user who also submitted files.
 const TEXT_BESIDE_FILES: &str = "text or a link; the files handed in with it are graded";
+/// The reason for not grading users with one number and different names.
+const SHARED_NUMBER: &str = "another file has the same user number with another name: rename it, or \
+    put the files of each student into a folder of their own";
+/// The reason for not grading two files of one name, which Canvas never has.
+const REPEATED_FILE: &str = "two of its files have the same name: remove the one that does not count, \
+    or put the files of each student into a folder of their own";
 
 /// The parts of a file name in Canvas's download.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,34 +36,94 @@ pub(super) struct CanvasName<'a> {
     file: String,
 }
 
-/// Parses the name of a submitted file; returns `None` for other names.
-fn parse(name: &str) -> Option<CanvasName<'_>> {
+impl CanvasName<'_> {
+    /// Returns whether a list has this number with a name like this one.
+    fn is_listed(&self, known: &[Member]) -> bool {
+        let person = self.person();
+        known
+            .iter()
+            .any(|member| person.has_number(&member.person.number, &member.person.name))
+    }
+
+    fn person(&self) -> Person {
+        Person {
+            name: match self.who.as_str() {
+                "anon" => format!("anon {}", self.user),
+                who => who.to_owned(),
+            },
+            number: self.user.to_owned(),
+            // Canvas writes names in lower case, without spaces.
+            is_named_by_file: true,
+            ..Person::default()
+        }
+    }
+}
+
+/// Returns the ways in which the name of a submitted file can be read.
+fn readings(name: &str) -> Vec<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
-    let index = (1..parts.len().saturating_sub(2))
-        .find(|index| is_user(&parts, *index) && is_number(parts[index + 1]))?;
-    let (who, late) = split_late(&parts[..index]);
-    Some(CanvasName {
-        who,
-        late,
-        user: parts[index],
-        attachment: parts[index + 1].parse().ok()?,
-        file: parts[index + 2..].join("_"),
-    })
+    let read = |index: usize| {
+        let (who, late) = split_late(&parts[..index])?;
+        let is_user = is_number(parts[index]) || who == "anon";
+        let attachment = parts[index + 1];
+        (is_user && is_number(attachment)).then_some(())?;
+        Some(CanvasName {
+            who,
+            late,
+            user: parts[index],
+            attachment: attachment.parse().ok()?,
+            file: parts[index + 2..].join("_"),
+        })
+    };
+    let mut readings: Vec<CanvasName> = (1..parts.len().saturating_sub(2))
+        .filter_map(read)
+        .collect();
+    // Canvas leaves out other names in an anonymous download.
+    if readings.first().is_some_and(|name| name.who == "anon") {
+        readings.truncate(1);
+    }
+    readings
 }
 
 /// Returns whether a file name is in the format of Canvas's download.
 pub(super) fn is_name(name: &str) -> bool {
-    parse(name).is_some() || parse_text(name).is_some()
+    !readings(name).is_empty() || parse_text(name).is_some()
+}
+
+/// Returns whether the files can be a download of Canvas, and not other files whose names have two
+/// numbers, such as a date. In these, the same number or name is where Canvas has the students', or
+/// two files have one attachment.
+pub(super) fn is_download(root: &Node, known: &[Member]) -> bool {
+    let names = root.children().iter();
+    let names = names.filter_map(|node| Some((node, readings(&node.name).into_iter().next()?)));
+    let names: Vec<(&Node, CanvasName)> = names.collect();
+    if names.iter().any(|(_, name)| name.is_listed(known)) {
+        return true;
+    }
+    let count = |of: &dyn Fn(&CanvasName) -> String| {
+        names
+            .iter()
+            .map(|(_, name)| of(name))
+            .collect::<BTreeSet<_>>()
+            .len()
+    };
+    let users = count(&|name| format!("{}_{}", name.who, name.user));
+    let whos = count(&|name| name.who.clone());
+    let attachments = count(&|name| format!("{}_{}_{}", name.who, name.user, name.attachment));
+    let archives = names.iter().filter(|(node, _)| node.is_archive()).count();
+    let is_anonymous = names.iter().all(|(_, name)| name.who == "anon");
+    let is_of_one = (users == 1 && archives > 1) || (users > 1 && whos == 1 && !is_anonymous);
+    attachments == names.len() && !is_of_one
 }
 
 /// Parses the name of a submitted text or link, such as `doejane_7001_text.html` or `…_link.html`;
 /// returns `None` for other names.
 fn parse_text(name: &str) -> Option<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
-    let index = parts.len().checked_sub(2)?;
+    let index = parts.len().checked_sub(2).filter(|index| *index > 0)?;
     let is_text = ["text.html", "link.html"].contains(&parts[index + 1]);
-    let (who, late) = split_late(&parts[..index]);
-    (is_text && index > 0 && is_user(&parts, index)).then(|| CanvasName {
+    let (who, late) = split_late(&parts[..index])?;
+    (is_text && (is_number(parts[index]) || who == "anon")).then(|| CanvasName {
         who,
         late,
         user: parts[index],
@@ -62,85 +132,140 @@ fn parse_text(name: &str) -> Option<CanvasName<'_>> {
     })
 }
 
-/// Returns whether a part of the name is a user id. In anonymous downloads, the part before the id
-/// is `anon`, and the id may contain letters.
-fn is_user(parts: &[&str], index: usize) -> bool {
-    is_number(parts[index]) || parts[index - 1] == "anon"
-}
-
 fn is_number(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 
-/// Splits off `LATE`: returns the user's name, and whether the file is late.
-fn split_late(parts: &[&str]) -> (String, bool) {
+/// Splits off `LATE`, which is after the user's name, but before `anon`. Returns the name, and whether
+/// the file is late; `None` if no letter is left, as in a date, or if there is a number in the midst,
+/// where Canvas removes it.
+fn split_late(parts: &[&str]) -> Option<(String, bool)> {
     let (late, names) = match parts {
+        ["LATE", names @ ..] if *names == ["anon"] => (true, names),
         [names @ .., "LATE"] if !names.is_empty() => (true, names),
-        // Canvas writes `LATE` before `anon`, but after a name.
-        ["LATE", names @ ..] if names == ["anon"] => (true, names),
         names => (false, names),
     };
-    (names.join("_"), late)
+    let inner = names
+        .get(1..names.len().saturating_sub(1))
+        .unwrap_or_default();
+    let who = names.join("_");
+    let is_name = who.chars().any(char::is_alphabetic) && !inner.iter().any(|part| is_number(part));
+    is_name.then_some((who, late))
 }
 
-pub(super) fn read(root: &Node, handed_out: &HandedOut) -> LayoutContents {
-    let mut users: BTreeMap<&str, Vec<(CanvasName, &Node)>> = BTreeMap::new();
+pub(super) fn read(root: &Node, handed_out: &HandedOut, known: &[Member]) -> LayoutContents {
+    let mut users: BTreeMap<(&str, String), Vec<(CanvasName, &Node)>> = BTreeMap::new();
     let mut texts = Vec::new();
     let mut others = Vec::new();
+    let mut entries = Vec::new();
     for node in root.children() {
-        match (parse(&node.name), parse_text(&node.name)) {
-            (Some(name), _) if !node.is_folder() => {
-                users.entry(name.user).or_default().push((name, node));
+        let mut ways = readings(&node.name);
+        if ways.len() > 1 && ways.iter().filter(|name| name.is_listed(known)).count() == 1 {
+            ways.retain(|name| name.is_listed(known));
+        }
+        match (ways.as_slice(), parse_text(&node.name)) {
+            ([name], _) if !node.is_folder() => {
+                let user = (name.user, name.who.clone());
+                users.entry(user).or_default().push((name.clone(), node));
             }
+            ([_, _, ..], _) if !node.is_folder() => entries.push(ambiguous(&ways, node)),
             (_, Some(name)) => texts.push((name, node)),
-            (Some(_) | None, None) => {
+            (_, None) => {
                 others.push(unmatched_path(node, "its name is not in Canvas's format"));
             }
         }
     }
-    let mut of_texts: BTreeMap<&str, (CanvasName, &Node)> = BTreeMap::new();
+    let mut of_texts: BTreeMap<(&str, String), (CanvasName, &Node)> = BTreeMap::new();
     for (name, node) in texts {
-        if users.contains_key(name.user) {
-            others.push(unmatched_path(node, TEXT_BESIDE_FILES))
-        } else {
-            _ = of_texts.insert(name.user, (name, node))
+        let user = (name.user, name.who.clone());
+        if users.contains_key(&user) {
+            others.push(unmatched_path(node, TEXT_BESIDE_FILES));
+        } else if let Some((_, other)) = of_texts.insert(user, (name, node)) {
+            others.push(unmatched_path(other, TEXT_ONLY));
         }
     }
-    let of_texts = of_texts.into_values();
-    let of_texts = of_texts.map(|(name, node)| {
+    let mut names_of: BTreeMap<&str, usize> = BTreeMap::new();
+    for (user, _) in users.keys() {
+        *names_of.entry(*user).or_default() += 1;
+    }
+    let is_shared = |user: &str| names_of.get(user).is_some_and(|names| *names > 1);
+    for ((user, _), files) in &users {
+        let mut entry = entry_of_files(files.clone(), handed_out);
+        if is_shared(user) {
+            entry.source = Source::Missing(SHARED_NUMBER.to_owned());
+        }
+        entries.push(entry);
+    }
+    entries.extend(of_texts.into_values().map(|(name, node)| {
         let source = Source::Missing(TEXT_ONLY.to_owned());
         entry(&name, name.late, node.name.clone(), source)
-    });
-    let entries = users
-        .into_values()
-        .map(|files| entry_of_files(files, handed_out))
-        .chain(of_texts);
-    (entries.collect(), others)
+    }));
+    (entries, others)
+}
+
+/// Returns the entry of a file whose name can be read in several ways.
+fn ambiguous(ways: &[CanvasName], node: &Node) -> Entry {
+    let users = ways
+        .iter()
+        .map(|name| format!("{} of {}", name.user, name.who));
+    let users: Vec<String> = users.collect();
+    Entry {
+        id: node.name.clone(),
+        info: EntryInfo {
+            people: vec![Person::named_by_file(&node.name)],
+            late: ways.iter().any(|name| name.late),
+            from: node.name.clone(),
+            ..EntryInfo::default()
+        },
+        source: Source::Missing(format!(
+            "its name can be read with the user number {}: pass a gradebook that has one of them with \
+             --canvas, or rename the file",
+            users.join(" or ")
+        )),
+    }
 }
 
 /// Returns the entry for all files of one user.
 fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -> Entry {
     files.sort_by_key(|(name, _)| name.attachment);
     let (last, newest) = files.last().expect("every user has a file");
-    // Of several archives, the newest counts. Files that were handed in again come later in the list.
-    let archive = files.iter().rfind(|(_, node)| node.is_archive());
-    let counts = |(_, node): &&(CanvasName, &Node)| {
-        !node.is_archive() || archive.is_some_and(|(_, newest)| newest.path == node.path)
+    // Of the archives that were handed in under one name, the newest counts. Files that were handed in
+    // again come later in the list.
+    let is_replaced = |index: usize| {
+        let (name, node) = &files[index];
+        let later = files[index + 1..]
+            .iter()
+            .filter(|(_, node)| node.is_archive());
+        let base = without_number(&name.file);
+        node.is_archive()
+            && later
+                .map(|(name, _)| without_number(&name.file))
+                .any(|it| it == base)
     };
-    let name_and_path = |(name, node): &(CanvasName, &Node)| {
+    let counting = (0..files.len()).filter(|index| !is_replaced(*index));
+    let counting: Vec<&(CanvasName, &Node)> = counting.map(|index| &files[index]).collect();
+    let name_and_path = |(name, node): &&(CanvasName, &Node)| {
         (original_name(&name.file, handed_out), node.path.clone())
     };
-    let source = Source::Files(files.iter().filter(counts).map(name_and_path).collect());
+    let names: BTreeSet<&str> = files.iter().map(|(name, _)| name.file.as_str()).collect();
+    let source = if names.len() < files.len() {
+        Source::Missing(REPEATED_FILE.to_owned())
+    } else {
+        Source::Files(counting.iter().map(name_and_path).collect())
+    };
     let from = match files.len() {
         1 => newest.name.clone(),
         count => format!("{} and {} more", newest.name, count - 1),
     };
-    // Canvas shows what is handed back under the name of the attachment.
-    let attachment = archive.map_or(*newest, |(_, node)| *node);
+    // Canvas shows what is handed back under the name of the attachment, and takes the first two
+    // numbers for its own.
+    let archive = files.iter().rfind(|(_, node)| node.is_archive());
+    let (name, attachment) = archive.unwrap_or(files.last().expect("every user has a file"));
     let is_zip = attachment.name.to_lowercase().ends_with(".zip");
     let end = if is_zip { "" } else { ".html" };
+    let is_first = readings(&attachment.name).first() == Some(name);
     let mut entry = entry(last, files.iter().any(|(name, _)| name.late), from, source);
-    entry.info.hand_back_as = Some(format!("{}{end}", attachment.name));
+    entry.info.hand_back_as = is_first.then(|| format!("{}{end}", attachment.name));
     entry
 }
 
@@ -148,16 +273,7 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
     Entry {
         id: format!("{}_{}", name.who, name.user),
         info: EntryInfo {
-            people: vec![Person {
-                name: match name.who.as_str() {
-                    "anon" => format!("anon {}", name.user),
-                    who => who.to_owned(),
-                },
-                number: name.user.to_owned(),
-                // Canvas writes names in lower case, without spaces.
-                is_named_by_file: true,
-                ..Person::default()
-            }],
+            people: vec![name.person()],
             late,
             marks_late: true,
             from,
@@ -167,18 +283,24 @@ fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
     }
 }
 
-/// Removes the number that Canvas appends: returns `camera.rs` for `camera-2.rs`. Changes only the
-/// names of task files, since other names may end in a number of their own.
-fn original_name(name: &str, handed_out: &HandedOut) -> String {
-    let original = |file: &str| -> Option<String> {
-        let (stem, end) = file.rsplit_once('.')?;
+/// Removes the number that Canvas appends to the name of a file that is handed in again.
+fn without_number(name: &str) -> String {
+    let original = || {
+        let (stem, end) = name.split_once('.')?;
         let (stem, number) = stem.rsplit_once('-')?;
-        let is_number = !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
-        is_number.then(|| format!("{stem}.{end}"))
+        is_number(number).then(|| format!("{stem}.{end}"))
     };
-    original(name)
-        .filter(|name| handed_out.task_file(name).is_some())
-        .unwrap_or_else(|| name.to_owned())
+    original().unwrap_or_else(|| name.to_owned())
+}
+
+/// Returns `camera.rs` for `camera-2.rs`. Changes only the names of task files, since other names may
+/// end in a number of their own.
+fn original_name(name: &str, handed_out: &HandedOut) -> String {
+    let original = without_number(name);
+    match handed_out.task_file(&original) {
+        Some(_) => original,
+        None => name.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -189,25 +311,41 @@ mod tests {
 
     #[test]
     fn parses_user_lateness_and_file_name() {
-        let name = parse("doejane_LATE_7001_9001_my_work-1.zip").unwrap();
+        let parse = |name| match readings(name).as_slice() {
+            [only] => only.clone(),
+            several => panic!("{several:?}"),
+        };
+        let name = parse("doejane_LATE_7001_9001_my_work-1.zip");
         assert_eq!((name.who.as_str(), name.user), ("doejane", "7001"));
         assert!(name.late);
         assert_eq!(
             (name.attachment, name.file.as_str()),
             (9001, "my_work-1.zip")
         );
-        for (anonymous, late) in [
-            ("anon_xK3f9_9001_hw.zip", false),
-            ("LATE_anon_xK3f9_9001_hw.zip", true),
+        assert_eq!(parse("anon_xK3f9_9001_hw.zip").user, "xK3f9");
+        let late = parse("LATE_anon_77_9001_2_hw.zip");
+        assert_eq!(
+            (late.who.as_str(), late.user, late.late),
+            ("anon", "77", true)
+        );
+        for none in [
+            "doejane_7001_text.html",
+            "7001_9001_hw.zip",
+            "2026_11_21_jdoe.zip",
         ] {
-            let name = parse(anonymous).unwrap();
-            assert_eq!(
-                (name.who.as_str(), name.user, name.late),
-                ("anon", "xK3f9", late)
-            );
+            assert_eq!(readings(none), [], "{none}");
         }
-        assert_eq!(parse("doejane_7001_text.html"), None);
-        assert_eq!(parse("7001_9001_hw.zip"), None);
+    }
+
+    #[test]
+    fn a_name_with_more_numbers_can_be_read_in_several_ways() {
+        let users = |name| -> Vec<&str> { readings(name).iter().map(|name| name.user).collect() };
+        assert_eq!(users("red_2_7001_9001_hw.zip"), ["2", "7001"]);
+        // Canvas leaves no number in the midst of a student's name.
+        assert_eq!(
+            users("doejane_7001_9001_2026_11_21_hw.zip"),
+            ["7001", "9001"]
+        );
     }
 
     #[test]

@@ -22,9 +22,12 @@ pub(super) fn prefix(root: &Node) -> Option<String> {
     }
     let is_clone = |node: &&Node| node.is_folder() && !node.is_link;
     let folders = || root.children().iter().filter(is_clone);
-    let is_classroom50 = root.find(CLASSROOM50_SCORES).is_some()
-        || (folders().count() > 0 && folders().all(|node| node.find(CLASSROOM50_RESULT).is_some()));
-    is_classroom50.then(|| common_prefix(folders().map(|node| node.name.as_str())))
+    let prefix = common_prefix(folders().map(|node| node.name.as_str()));
+    let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
+    // A student can add this file, but not make all folders begin alike.
+    let is_classroom50 =
+        root.find(CLASSROOM50_SCORES).is_some() || (!prefix.is_empty() && has_results());
+    is_classroom50.then_some(prefix)
 }
 
 /// Returns the common prefix of all names, cut off after its last `-`, since the account names may

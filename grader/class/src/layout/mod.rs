@@ -4,8 +4,10 @@
 //! Files that do not fit the layout are reported, never silently ignored.
 
 mod canvas;
+mod class_folder;
 mod github;
 mod gradescope;
+mod mixture;
 mod moodle;
 mod plain;
 
@@ -14,12 +16,16 @@ use std::path::Path;
 
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
+use unicode_normalization::UnicodeNormalization;
 
 use crate::entry::{Entry, Source};
 use crate::listing::Node;
+use crate::roster::Member;
 
+pub use class_folder::find_class_folder;
 pub use github::CLASSROOM50_SCORES;
 pub use gradescope::{METADATA, MetadataError};
+pub use mixture::side_by_side;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +36,10 @@ pub struct RecognisedClass {
     pub entries: Vec<Entry>,
     /// The files and folders that belong to no entry.
     pub unmatched: Vec<UnmatchedPath>,
+    /// Sentences about how the input was read, for a person to check.
+    pub notes: Vec<String>,
+    /// The reasons why single entries seem to be several people's. They are not graded.
+    pub mixtures: Vec<String>,
 }
 
 /// A file or folder in the input that belongs to no submission.
@@ -70,17 +80,20 @@ impl Layout {
 }
 
 /// Recognises the layout of a folder and returns its entries. `metadata` is the text of
-/// Gradescope's metadata file, if there is one.
+/// Gradescope's metadata file, if there is one, and `known` are the people on lists. Only names in the
+/// folder itself count, which the platform or the teacher has chosen, and nothing in an entry.
 pub fn recognise(
     root: &Node,
     metadata: Option<&str>,
     handed_out: &HandedOut,
+    known: &[Member],
 ) -> Result<RecognisedClass, MetadataError> {
-    let root = find_class_folder(root, handed_out);
     let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
         (Layout::Gradescope, gradescope::read(root, metadata)?)
-    } else if is_majority(root, |node| canvas::is_name(&node.name)) {
-        (Layout::Canvas, canvas::read(root, handed_out))
+    } else if is_majority(root, |node| canvas::is_name(&node.name))
+        && canvas::is_download(root, known)
+    {
+        (Layout::Canvas, canvas::read(root, handed_out, known))
     } else if is_majority(root, |node| moodle::parse(&node.name).is_some()) {
         (Layout::Moodle, moodle::read(root))
     } else if github::prefix(root).is_some() {
@@ -89,12 +102,19 @@ pub fn recognise(
         (Layout::Plain, plain::read(root))
     };
     reject_links(root, &mut entries);
+    let mixtures = match layout {
+        Layout::Plain => mixture::reject_mixtures(root, &mut entries, handed_out, known),
+        // These say who has handed in each entry.
+        Layout::Gradescope | Layout::Canvas | Layout::Moodle | Layout::GitHub => Vec::new(),
+    };
     entries.sort_by(|one, other| one.id.cmp(&other.id));
     make_ids_unique(&mut entries);
     Ok(RecognisedClass {
         layout,
         entries,
         unmatched,
+        notes: Vec::new(),
+        mixtures,
     })
 }
 
@@ -117,33 +137,6 @@ fn reject_links(root: &Node, entries: &mut [Entry]) {
     }
 }
 
-/// Returns the folder that contains the entries. A folder that contains only another folder is
-/// skipped, unless the inner folder is a submission.
-pub fn find_class_folder<'a>(root: &'a Node, handed_out: &HandedOut) -> &'a Node {
-    match root.children() {
-        [only] if only.is_folder() && !only.is_link && !is_submission(only, handed_out) => {
-            find_class_folder(only, handed_out)
-        }
-        _ => root,
-    }
-}
-
-/// Returns whether a folder is a single submission rather than a class.
-fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
-    let is_moodles = moodle::parse(&node.name).is_some();
-    let holds = |node: &Node| {
-        handed_out
-            .files
-            .iter()
-            .any(|file| node.find(file.name).is_some())
-    };
-    let below = |path: &&str| {
-        let mut names = path.split('/').filter(|name| !name.is_empty());
-        names.try_fold(node, Node::find).is_some_and(holds)
-    };
-    is_moodles || handed_out.assignment.folders.iter().any(below)
-}
-
 /// Returns whether `is_one` is true for more than half of the files and folders in `root`.
 fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
     let count = root.children().iter().filter(|node| is_one(node)).count();
@@ -155,7 +148,8 @@ fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
 fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
-        let wanted = safe_folder_name(&entry.id);
+        let id: String = entry.id.nfc().collect();
+        let wanted = safe_folder_name(&id);
         let mut id = wanted.clone();
         let mut number = 2;
         while !used.insert(id.to_lowercase()) {

@@ -1,11 +1,12 @@
 //! Moodle's "Download all submissions": a folder for each participant, with a name such as
-//! `Jane Doe_123_assignsubmission_file_`, or files whose names begin like that. The number
-//! identifies the participant, as in the grading worksheet.
+//! `Jane Doe_123_assignsubmission_file_`, or files whose names begin like that. The number identifies
+//! the participant, as in the grading worksheet, or a group, if groups hand in together. Nothing in
+//! the name tells which: only a list does, by the name.
 
 use std::collections::BTreeMap;
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source, WHO};
+use crate::entry::{Entry, EntryInfo, NUMBER, Person, Source, WHO};
 use crate::listing::Node;
 
 const MARK: &str = "_assignsubmission_";
@@ -14,12 +15,16 @@ const TEXT_ONLY: &str = "text was handed in, but no file";
 /// The reason for not grading text from a participant who also submitted files.
 const TEXT_BESIDE_FILES: &str = "text; the files handed in with it are graded";
 
+/// The reason for not grading two downloads that were unpacked into one folder.
+const SEVERAL: &str = "it is in several folders of this name: keep the one that counts";
+
 /// The parts of a file or folder name in Moodle's download.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct MoodleName<'a> {
-    /// The participant's name, with the group in front if there are groups.
+    /// The name of the participant or the group; in older versions, of both.
     who: &'a str,
-    participant: &'a str,
+    /// The number of the participant or the group. People without a group have none together.
+    number: &'a str,
     /// The type of submission: `file`, or another type such as `onlinetext`.
     kind: &'a str,
     /// The file name, in downloads without folders.
@@ -30,23 +35,26 @@ pub(super) struct MoodleName<'a> {
 pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     let (head, tail) = name.split_once(MARK)?;
     let (kind, file) = tail.split_once('_').unwrap_or((tail, ""));
-    let (who, participant) = head.rsplit_once('_')?;
-    let is_number = !participant.is_empty() && participant.bytes().all(|b| b.is_ascii_digit());
-    is_number.then_some(MoodleName {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let (who, number) = match head.rsplit_once('_') {
+        Some((who, number)) if is_number(number) => (who, number),
+        Some(_) | None => (head, ""),
+    };
+    (!who.is_empty()).then_some(MoodleName {
         who,
-        participant,
+        number,
         kind,
         file,
     })
 }
 
 pub(super) fn read(root: &Node) -> LayoutContents {
-    let mut people: BTreeMap<&str, Vec<(MoodleName, &Node)>> = BTreeMap::new();
+    let mut people: BTreeMap<(&str, &str), Vec<(MoodleName, &Node)>> = BTreeMap::new();
     let mut others = Vec::new();
     for node in root.children() {
         match parse(&node.name) {
             Some(name) => people
-                .entry(name.participant)
+                .entry((name.who, name.number))
                 .or_default()
                 .push((name, node)),
             None => others.push(unmatched_path(node, "its name is not in Moodle's format")),
@@ -74,7 +82,11 @@ fn source<'f, 'n>(
     files: &'f [(MoodleName<'n>, &'n Node)],
 ) -> (&'f (MoodleName<'n>, &'n Node), Source) {
     if let Some(folder) = files.iter().find(|(_, node)| node.is_folder()) {
-        return (folder, Source::Path(folder.1.path.clone()));
+        let source = match files {
+            [_] => Source::Path(folder.1.path.clone()),
+            _ => Source::Missing(SEVERAL.to_owned()),
+        };
+        return (folder, source);
     }
     let name_and_path =
         |(name, node): &(MoodleName, &Node)| (name.file.to_owned(), node.path.clone());
@@ -83,23 +95,24 @@ fn source<'f, 'n>(
 }
 
 fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {
+    let numbered = |sign: char| match name.number {
+        "" => name.who.to_owned(),
+        number => format!("{}{sign}{number}", name.who),
+    };
     Entry {
-        id: format!("{}_{}", name.who, name.participant),
+        id: numbered('_'),
         info: EntryInfo {
             people: vec![Person {
                 // With blind marking, only the number is known.
                 name: match name.who {
-                    "Participant" => format!("Participant {}", name.participant),
+                    "Participant" => numbered(' '),
                     who => who.to_owned(),
                 },
-                number: name.participant.to_owned(),
+                number: name.number.to_owned(),
                 ..Person::default()
             }],
             from: node.name.clone(),
-            hand_back_as: Some(format!(
-                "{WHO}_{}_assignfeedback_file_feedback.html",
-                name.participant
-            )),
+            hand_back_as: Some(format!("{WHO}_{NUMBER}_assignfeedback_file_feedback.html")),
             ..EntryInfo::default()
         },
         source,
@@ -113,14 +126,19 @@ mod tests {
     #[test]
     fn parses_participant_and_file_name() {
         let name = parse("José Núñez, Jr._123_assignsubmission_file_my_camera.rs").unwrap();
-        assert_eq!((name.who, name.participant), ("José Núñez, Jr.", "123"));
+        assert_eq!((name.who, name.number), ("José Núñez, Jr.", "123"));
         assert_eq!((name.kind, name.file), ("file", "my_camera.rs"));
         let folder = parse("Participant_7_assignsubmission_file").unwrap();
         assert_eq!(
-            (folder.who, folder.participant, folder.file),
+            (folder.who, folder.number, folder.file),
             ("Participant", "7", "")
         );
-        assert_eq!(parse("Jane Doe_assignsubmission_file_"), None);
+        let default_group = parse("Default group_assignsubmission_file_").unwrap();
+        assert_eq!(
+            (default_group.who, default_group.number),
+            ("Default group", "")
+        );
+        assert_eq!(parse("_assignsubmission_file_"), None);
     }
 
     /// So it stays the same when a namesake hands something in.

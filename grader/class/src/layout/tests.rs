@@ -24,27 +24,89 @@ fn folder(name: &str, inside: Vec<Node>) -> Node {
 }
 
 fn layout(root: &Node) -> Layout {
-    recognise(root, None, &RAYS).unwrap().layout
+    recognise(root, None, &RAYS, &[]).unwrap().layout
+}
+
+/// A student can write everything in a folder, and sometimes its name. The archive's name is the
+/// teacher's.
+#[test]
+fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
+    let alone = |name: &str| {
+        let inside = ["ann", "bob", METADATA].map(file).to_vec();
+        folder("download", vec![folder(name, inside)])
+    };
+    let entered = |name: &str, archive: Option<&str>| {
+        let root = alone(name);
+        let (found, note) = find_class_folder(&root, archive);
+        assert!(note.unwrap().contains(name));
+        found.name == name
+    };
+    assert!(entered("assignment_55_export", None));
+    assert!(entered(
+        "Path Tracer",
+        Some("Path Tracer-20261127T112400Z-001.zip")
+    ));
+    assert!(entered("hw-submissions", Some("hw_submissions (1).tar.gz")));
+    assert!(!entered("mallory", None));
+    assert!(!entered("mallory", Some("in.zip")));
+    assert!(!entered("ann", Some("anna.zip")));
+    let several = folder("x", vec![folder("ann", vec![]), folder("bob", vec![])]);
+    assert_eq!(find_class_folder(&several, None), (&several, None));
+}
+
+/// Returns the folder's entries that are not graded because they seem to be of several people.
+fn mixtures(root: &Node) -> usize {
+    recognise(root, None, &RAYS, &[]).unwrap().mixtures.len()
 }
 
 #[test]
-fn skips_wrapper_folders_but_not_submissions() {
-    let class = folder("class", vec![folder("ann", vec![]), folder("bob", vec![])]);
-    let wrapped = folder("download", vec![class.clone()]);
-    assert_eq!(find_class_folder(&wrapped, &RAYS), &class);
-    let one = folder("class", vec![folder("ann", vec![file("camera.rs")])]);
-    assert_eq!(find_class_folder(&one, &RAYS), &one);
-    let moodle = folder(
-        "class",
-        vec![folder("Ann_1_assignsubmission_file_", vec![])],
+fn folders_of_several_people_are_recognised() {
+    let student = |name: &str, file_name: &str| {
+        let src = folder("src", vec![file(file_name)]);
+        folder(name, vec![folder("student", vec![src])])
+    };
+    let tutorial = |name: &str| folder(name, ["ann", "bob"].map(|n| student(n, "bvh.rs")).to_vec());
+    let class = |entries: Vec<Node>| folder("class", entries);
+    assert_eq!(mixtures(&class(vec![tutorial("mon"), tutorial("tue")])), 2);
+    let wrapped = folder("export", vec![tutorial("mon")]);
+    assert_eq!(mixtures(&class(vec![wrapped, student("eve", "bvh.rs")])), 1);
+    let archives = ["ann.zip", "bob.zip"].map(file).to_vec();
+    assert_eq!(mixtures(&class(vec![folder("mon", archives)])), 1);
+    let flat = |names: &[&str]| class(vec![folder("x", names.iter().map(|n| file(n)).collect())]);
+    assert_eq!(
+        mixtures(&flat(&["bvh.rs", "bvh(1).rs", "camera.rs", "camera(1).rs"])),
+        1
     );
-    assert_eq!(find_class_folder(&moodle, &RAYS), &moodle);
+    assert_eq!(mixtures(&flat(&["bvh.rs", "bvh (1).rs", "bvh (2).rs"])), 1);
+    // One person's copy, and one person's whole project.
+    assert_eq!(mixtures(&flat(&["bvh.rs", "bvh (1).rs", "camera.rs"])), 0);
+    let mut project = student("eve", "bvh.rs");
+    let given = folder("framework", vec![file("camera.rs")]);
+    project
+        .children
+        .as_mut()
+        .unwrap()
+        .extend([given, student("old", "bvh.rs")]);
+    assert_eq!(mixtures(&class(vec![project])), 0);
 }
 
 #[test]
 fn the_majority_of_names_decides_the_layout() {
     let canvas = ["doe_1_2_a.zip", "lee_3_4_b.zip", "readme.txt"].map(file);
     assert_eq!(layout(&folder("x", canvas.to_vec())), Layout::Canvas);
+    // In these, the same user, name or attachment is everywhere.
+    for dates in [
+        ["hw_1_20_jdoe.zip", "hw_1_21_mkim.zip"],
+        ["hw_1_20_jdoe.zip", "hw_2_21_mkim.zip"],
+        ["CS_148_3_jdoe.rs", "CS_148_3_mkim.rs"],
+        ["2026_11_20_jdoe.zip", "2026_11_21_mkim.zip"],
+    ] {
+        assert_eq!(
+            layout(&folder("x", dates.map(file).to_vec())),
+            Layout::Plain,
+            "{dates:?}"
+        );
+    }
     let plain = ["doe.zip", "lee_3_4_b.zip"].map(file);
     assert_eq!(layout(&folder("x", plain.to_vec())), Layout::Plain);
     let repositories = vec![folder("hw-ann", vec![]), folder("hw-bob", vec![])];
@@ -57,12 +119,12 @@ fn the_majority_of_names_decides_the_layout() {
 
 #[test]
 fn ids_that_differ_only_in_case_get_numbers() {
-    let names = ["Ann", "ann", "a/n"].map(|name| folder(name, vec![]));
-    let found = recognise(&folder("x", names.to_vec()), None, &RAYS).unwrap();
+    let names = ["Ann", "ann", "a/n", "Jose\u{301}", "José"].map(|name| folder(name, vec![]));
+    let found = recognise(&folder("x", names.to_vec()), None, &RAYS, &[]).unwrap();
     let ids: Vec<&str> = found
         .entries
         .iter()
         .map(|entry| entry.id.as_str())
         .collect();
-    assert_eq!(ids, ["Ann", "a_n", "ann-2"]);
+    assert_eq!(ids, ["Ann", "José", "José-2", "a_n", "ann-2"]);
 }

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use grader::options::GradeOptions;
 use grader::policy::Policy;
+use grader::printing::print;
+use judging::sanitize::sanitize_line;
 
 use crate::cli::MergeArguments;
 use crate::drift::{Changes, RemovedEntry, find_removed, find_resubmitted};
@@ -85,7 +87,13 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
             .iter_mut()
             .for_each(|info| info.forget_groups_and_extensions());
     }
-    let missing = lists::complete_entries(lists, &mut infos)?;
+    let all = infos.len();
+    let findings = lists::complete_entries(lists, &mut infos)?;
+    findings.check(lists, all)?;
+    for warning in &findings.warnings {
+        print(format!("  {}\n", sanitize_line(warning, 400)));
+    }
+    let missing = findings.missing;
     let manual = read_manual_points(lists, &GradeOptions::default())?;
     let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
     manual.check_students(&people)?;

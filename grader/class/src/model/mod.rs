@@ -8,7 +8,7 @@ use crate::attempts::apply_rule;
 use crate::entry::Person;
 use crate::late::{UnclearTime, is_undated, lateness};
 use crate::manual::{ManualPoints, ManualPointsError, ManualPointsList};
-use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
+use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
 
 /// The results of a class.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -68,11 +68,19 @@ pub enum GradeProblem {
 }
 
 impl GradedClass {
-    /// Returns the results that have a score, apart from those of superseded attempts.
+    /// Returns the results that have a score, apart from those of superseded attempts and of Canvas's
+    /// test student.
     pub fn scores(&self) -> impl Iterator<Item = (&EntryResult, &ScoreSummary)> {
-        let rows = self.rows.iter().filter(|row| !row.is_superseded());
+        let counts = |row: &&ClassRow| !row.is_superseded() && !row.is_of_test_student();
+        let rows = self.rows.iter().filter(counts);
         let results = rows.map(|row| &row.result);
         results.filter_map(|result| Some((result, result.score()?)))
+    }
+
+    /// Returns the tasks of the exam, with the points of the first score; empty without scores.
+    pub fn tasks(&self) -> &[TaskScore] {
+        let first = self.rows.iter().find_map(|row| row.result.score());
+        first.map_or(&[], |score| score.tasks.as_slice())
     }
 
     /// Returns the number of submissions that could not be graded because of a fault, and have to
@@ -175,6 +183,12 @@ impl ClassRow {
         let is_superseded =
             |grade: &PersonGrade| matches!(grade.problem, Some(GradeProblem::OtherAttempt(_)));
         !self.grades.is_empty() && grades.all(is_superseded)
+    }
+
+    /// Returns whether nobody has handed it in but the test student.
+    fn is_of_test_student(&self) -> bool {
+        let people = &self.result.info.people;
+        !people.is_empty() && people.iter().all(Person::is_test_student)
     }
 
     /// Returns the first of its people's problems.

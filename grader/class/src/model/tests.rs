@@ -232,8 +232,11 @@ fn superseded_submissions_and_faults_are_not_among_the_scores() {
     superseded.grades[0] = with_problem(GradeProblem::OtherAttempt("b".to_owned()));
     let outcomes = [graded(80), nothing(), fault(), graded(70), fault()];
     let rows = outcomes.map(|outcome| row(outcome, "", &[("Ann", &[])]));
+    // Canvas names its test student so in files and in the gradebook.
+    let tests = ["studenttest", "Student, Test"];
+    let tests = tests.map(|name| row(graded(0), "", &[(name, &[])]));
     let class = GradedClass {
-        rows: [superseded].into_iter().chain(rows).collect(),
+        rows: [superseded].into_iter().chain(rows).chain(tests).collect(),
         ..GradedClass::default()
     };
     let points: Vec<u32> = class.scores().map(|(_, score)| score.points).collect();

@@ -33,10 +33,8 @@ pub const LATE: &str = "LATE";
 /// Returns the table of the class. If a submission has no score, its points are left empty: the
 /// teacher decides how many it gets.
 pub fn grades_table(class: &GradedClass) -> Table {
-    let first = class.scores().next();
-    let tasks: Vec<&str> = first.map_or(Vec::new(), |(_, score)| {
-        score.tasks.iter().map(|task| task.id.as_str()).collect()
-    });
+    let tasks = class.tasks().iter();
+    let tasks: Vec<&str> = tasks.map(|task| task.id.as_str()).collect();
     let header: Vec<&str> = [&COLUMNS_BEFORE_TASKS[..], &tasks, &COLUMNS_AFTER_TASKS].concat();
     let mut table = Table::new(&header);
     for class_row in &class.rows {

@@ -70,6 +70,9 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
 }
 
 fn write_warnings(out: &mut String, class: &RecognisedClass) -> fmt::Result {
+    for note in &class.notes {
+        writeln!(out, "\n  {}", sanitize_line(note, MAX_CHARS))?;
+    }
     for (one, other) in duplicate_people(&class.entries) {
         let (one, other) = (sanitized(one), sanitized(other));
         writeln!(
@@ -124,9 +127,8 @@ fn duplicate_people(entries: &[Entry]) -> Vec<(&str, &str)> {
     let mut pairs = Vec::new();
     for (index, one) in entries.iter().enumerate() {
         for other in &entries[index + 1..] {
-            let same = |one: &Person, other: &Person| one.matches(other) || one == other;
             let mut people = one.info.people.iter();
-            if people.any(|one| other.info.people.iter().any(|other| same(one, other))) {
+            if people.any(|one| other.info.people.iter().any(|other| one.is_same(other))) {
                 pairs.push((one.id.as_str(), other.id.as_str()));
             }
         }

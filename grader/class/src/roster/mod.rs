@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::cli::Lists;
-use crate::entry::{Person, equals_ignoring_case};
+use crate::entry::Person;
 use crate::moodle_status::MoodleStatus;
+use crate::names::{are_equal, fold};
 use crate::table::{Table, TableError};
 
 pub use times::set_submission_times;
@@ -47,8 +48,8 @@ const SUBMISSION_TIME: [&str; 4] = [
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 const EXTENSION: [&str; 3] = ["extension", "extension_days", "extension days"];
 
-/// Names in Canvas's gradebook that do not belong to people.
-const PLACEHOLDER_NAMES: [&str; 2] = ["Points Possible", "Student, Test"];
+/// The name in the row of Canvas's gradebook with the maximum points.
+const POINTS_POSSIBLE: &str = "Points Possible";
 
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,13 +86,13 @@ impl Member {
         let name = (!self.has_namesake).then_some(&known.name);
         let names = [&known.login, &known.sid, &known.email];
         let mut names = names.into_iter().chain(name);
-        let same = |known: &String| !known.is_empty() && equals_ignoring_case(known, &person.name);
+        let same = |known: &String| !known.is_empty() && are_equal(known, &person.name);
         is_bare && !is_numbered && names.any(same)
     }
 
     fn is_namesake_of(&self, other: &Member) -> bool {
         let (one, other) = (&self.person, &other.person);
-        equals_ignoring_case(&one.name, &other.name) && !one.matches(other) && one != other
+        are_equal(&one.name, &other.name) && !one.matches(other) && one != other
     }
 }
 
@@ -100,7 +101,9 @@ pub fn read_members(path: &Path) -> Result<Vec<Member>, TableError> {
     parse_members(&Table::read(path)?).ok_or_else(|| TableError::MissingColumn {
         path: path.to_owned(),
         column: "that identifies people".to_owned(),
-        remedy: "it needs at least one of the columns name, email, sid and username".to_owned(),
+        remedy: "it needs at least one of the columns name, email, sid and username; in another \
+            language, column heads are not recognised"
+            .to_owned(),
     })
 }
 
@@ -110,14 +113,14 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
     let [group, extension] = [column(&GROUP), column(&EXTENSION)];
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
+    // Moodle writes a word in the site's language before the number.
+    let identifier = table.column("Identifier");
     // A list needs one of these columns, since only they can match its rows with submissions.
-    email.or(sid).or(login).or(name)?;
+    email.or(sid).or(login).or(name).or(identifier)?;
     // The platform's own numbers, if the list is recognised as Canvas's or Moodle's.
     let number = match table.column("Student") {
         Some(_) => table.column("ID"),
-        None => table
-            .column("Identifier")
-            .or_else(|| table.column("canvas_user_id")),
+        None => identifier.or_else(|| table.column("canvas_user_id")),
     };
     // In other lists, a status is something else.
     let status = table.column("Identifier").and(table.column("Status"));
@@ -130,14 +133,19 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             name if name.is_empty() => format!("{} {}", cell(first), cell(last)).trim().to_owned(),
             name => name,
         };
+        // With blind marking, nobody has a name.
+        let full = if full.is_empty() {
+            cell(identifier)
+        } else {
+            full
+        };
         let person = Person {
             name: full,
             email: cell(email),
             sid: cell(sid),
             login: cell(login),
-            // Moodle writes a word in the site's language before the number.
             number: cell(number)
-                .rsplit(' ')
+                .rsplit(|c: char| !c.is_ascii_digit())
                 .next()
                 .unwrap_or_default()
                 .to_owned(),
@@ -146,6 +154,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             status: cell(status),
             is_named_by_file: false,
             is_from_group: false,
+            is_listed: true,
         };
         Member {
             row: row_number,
@@ -161,7 +170,9 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
     };
     let members = table.numbered_rows().map(member);
     let is_person = |Member { person, .. }: &Member| {
-        !person.display_name().is_empty() && !PLACEHOLDER_NAMES.contains(&person.name.as_str())
+        !person.display_name().is_empty()
+            && person.name != POINTS_POSSIBLE
+            && !person.is_test_student()
     };
     let mut members: Vec<Member> = members.filter(is_person).collect();
     let namesakes: Vec<bool> = members
@@ -186,7 +197,7 @@ fn check_keys(path: &Path, members: &[Member]) -> Result<(), TableError> {
             if key.is_empty() {
                 continue;
             }
-            let first = *rows.entry((kind, key.to_lowercase())).or_insert(index);
+            let first = *rows.entry((kind, fold(key))).or_insert(index);
             if !is_repetition(&members[first].person, &member.person) {
                 return Err(TableError::DuplicateKey {
                     path: path.to_owned(),
@@ -209,9 +220,7 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
         (&one.group, &other.group),
         (&one.extension, &other.extension),
     ];
-    pairs
-        .iter()
-        .all(|(one, other)| equals_ignoring_case(one, other))
+    pairs.iter().all(|(one, other)| are_equal(one, other))
 }
 
 /// Reads a roster, and checks that no two people have the same identifier.

@@ -45,6 +45,7 @@ fn info(text: &str) -> EntryInfo {
             status: text.to_owned(),
             is_named_by_file: true,
             is_from_group: true,
+            is_listed: true,
         }],
         late: true,
         submitted: Some(text.to_owned()),
@@ -55,6 +56,7 @@ fn info(text: &str) -> EntryInfo {
         }),
         from: text.to_owned(),
         hand_back_as: Some(text.to_owned()),
+        team: Some(text.to_owned()),
     }
 }
 
@@ -127,6 +129,8 @@ fn preview_with(text: &str) -> String {
             name: text.to_owned(),
             why: text.to_owned(),
         }],
+        notes: vec![text.to_owned()],
+        mixtures: Vec::new(),
     };
     render_preview(&class, &info(text).people, &RAYS)
 }

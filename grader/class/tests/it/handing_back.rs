@@ -93,7 +93,18 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
     let class = TestClass::named("CG-Path tracing-77")
         .with_reference("José Núñez_301_assignsubmission_file_")
         .with("An_n Lee_302_assignsubmission_file_/hw.zip", solution());
-    let (files, _) = hand_back(&class, &[]);
+    // Without a list, a number could be a group's, and a stranger would get the page.
+    let (files, text) = hand_back(&class, &[]);
+    assert_eq!(names(&files), [""; 0]);
+    assert!(
+        text.contains("pass Moodle's worksheet with --moodle"),
+        "{text}"
+    );
+    let worksheet = class.write_beside(
+        "worksheet.csv",
+        "Identifier,Full name,Grade\nParticipant 301,José Núñez,\nParticipant 302,An_n Lee,\n",
+    );
+    let (files, _) = hand_back(&class, &["--moodle", &worksheet]);
     let expected = [
         "An n Lee_302_assignfeedback_file_feedback.html",
         "José Núñez_301_assignfeedback_file_feedback.html",

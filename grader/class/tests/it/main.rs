@@ -6,6 +6,7 @@ mod faulty_submissions;
 mod gradebooks;
 mod handing_back;
 mod harness;
+mod identity;
 #[cfg(target_os = "linux")]
 mod large_class;
 mod layouts;

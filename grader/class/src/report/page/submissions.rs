@@ -8,8 +8,7 @@ use crate::outcome::ScoreSummary;
 use crate::report::grades::LATE;
 
 pub(super) fn section(class: &GradedClass) -> Markup {
-    let first = class.scores().next();
-    let tasks = first.map_or(&[][..], |(_, score)| score.tasks.as_slice());
+    let tasks = class.tasks();
     html! {
         section aria-labelledby="students" {
             h2 #students { "Submissions" }

@@ -1,0 +1,50 @@
+//! Finds the folder that has the entries. In an archive, that is often a folder in it.
+//!
+//! If a folder is alone, it may be the class, or the class's only submission. Its contents do not
+//! tell: a student may have written them. The name tells, if a platform or a teacher has chosen it.
+
+use super::METADATA;
+use crate::listing::Node;
+use crate::names::fold;
+
+/// Returns the folder with the entries, and a note if it is not `root`, or if it could be another.
+/// `archive` is the name of the archive that the folder was unpacked from.
+pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node, Option<String>) {
+    match root.children() {
+        [only] if only.is_folder() && !only.is_link => {
+            let name = &only.name;
+            if is_gradescopes(only) || archive.is_some_and(|archive| is_packed(name, archive)) {
+                let note = format!("the submissions are those in the folder {name}");
+                return (only, Some(note));
+            }
+            let unpack = archive.map_or("", |_| "unpack the archive and ");
+            let note = format!(
+                "there is only the folder {name}, which is taken for one submission; if it is the \
+                 folder of the class, {unpack}pass its path"
+            );
+            (root, Some(note))
+        }
+        _ => (root, None),
+    }
+}
+
+/// Returns whether a folder has the name that Gradescope gives to an export, `assignment_55_export`.
+fn is_gradescopes(node: &Node) -> bool {
+    let number = node.name.strip_prefix("assignment_");
+    let number = number.and_then(|rest| rest.strip_suffix("_export"));
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    number.is_some_and(is_number) && node.find(METADATA).is_some()
+}
+
+/// Returns whether an archive has the name of the folder in it, as if the folder was packed. Drives and
+/// browsers append a time or a number.
+fn is_packed(folder: &str, archive: &str) -> bool {
+    let letters =
+        |name: &str| -> String { fold(name).chars().filter(|c| c.is_alphanumeric()).collect() };
+    let (folder, archive) = (letters(folder), letters(archive));
+    let is_end = |rest: &str| {
+        let ends = ["zip", "tar", "tgz"];
+        !rest.starts_with(char::is_alphabetic) || ends.iter().any(|end| rest.starts_with(end))
+    };
+    !folder.is_empty() && archive.strip_prefix(&folder).is_some_and(is_end)
+}

@@ -116,7 +116,7 @@ fn all_programs_print_in_one_place() {
     .to_vec();
     while let Some(path) = paths.pop() {
         let is_other = |other: &&str| path.ends_with(Path::new(other));
-        if OTHER_PRINTERS.iter().any(|other| is_other(other)) {
+        if OTHER_PRINTERS.iter().any(is_other) {
             continue;
         }
         if path.is_dir() {

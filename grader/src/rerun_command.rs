@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use maud::html;
+
 /// The options that every printed command must repeat to refer to the same submission and exam.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RerunCommand {
@@ -52,6 +54,12 @@ impl RerunCommand {
     }
 }
 
+/// Returns a report page whose commands name the submission at `to` instead of `from`.
+pub fn with_moved_submission(page: &str, from: &Path, to: &Path) -> String {
+    let [from, to] = [from, to].map(|path| html! { (shell_word(path)) }.into_string());
+    page.replace(&from, &to)
+}
+
 /// Quotes a path for a command line, if necessary.
 fn shell_word(path: &Path) -> String {
     let text = path.to_string_lossy().into_owned();
@@ -65,7 +73,7 @@ fn shell_word(path: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::RerunCommand;
+    use super::*;
 
     #[test]
     fn command_names_a_given_submission_and_exam() {
@@ -104,5 +112,21 @@ mod tests {
             others.view("bbox.through", 3).as_deref(),
             Some("cargo view --submission alice.zip --untrusted --item bbox.through#3")
         );
+    }
+
+    #[test]
+    fn a_page_that_is_moved_names_the_moved_submission() {
+        let page = |path: &str| {
+            let submission = Some(path.into());
+            let command = RerunCommand {
+                submission,
+                ..RerunCommand::default()
+            };
+            html! { (command.task("sphere")) }.into_string()
+        };
+        let (from, to) = ("/part one/\"a\".zip", "/all/<a>.zip");
+        assert_ne!(page(from), page(to));
+        let moved = with_moved_submission(&page(from), from.as_ref(), to.as_ref());
+        assert_eq!(moved, page(to));
     }
 }

@@ -3,11 +3,12 @@
 
 use std::ffi::OsStr;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 
 use grader::files::{self, PathError};
 use grader::report::atomic_write;
 use grader::report::html::write_counted;
+use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
 
@@ -88,6 +89,12 @@ impl Store {
     /// Returns the folder of an entry's files.
     pub fn entry_folder(&self, id: &str) -> PathBuf {
         self.folder.join("students").join(id)
+    }
+
+    /// Returns the absolute path of the archive with an entry's graded files, which its report names.
+    pub fn submission_path(&self, id: &str) -> PathBuf {
+        let path = self.entry_folder(id).join(SUBMISSION);
+        path::absolute(&path).unwrap_or(path)
     }
 
     /// Reads `run.json`; returns `None` in a new folder.
@@ -230,10 +237,15 @@ impl Store {
         for file in files::read_dir(&folder)? {
             files::remove_if_exists(file)?;
         }
+        let [was, now] = [from.submission_path(id), self.submission_path(id)];
         for source in files::read_dir(from.entry_folder(id))? {
             let name = source.file_name().unwrap_or_default();
-            if name != STAMP && !is_temporary(name) {
-                atomic_write::write(files::read(&source)?, &folder.join(name))?;
+            let target = folder.join(name);
+            if name == REPORT {
+                let page = files::read_to_string(&source)?;
+                atomic_write::write(with_moved_submission(&page, &was, &now), &target)?;
+            } else if name != STAMP && !is_temporary(name) {
+                atomic_write::write(files::read(&source)?, &target)?;
             }
         }
         if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {

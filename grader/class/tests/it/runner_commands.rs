@@ -56,8 +56,16 @@ fn nothing_of_a_class_is_a_command_in_a_log() {
     );
     check(&mut class.command(&exam, &lists));
     check(&mut class.command(&exam, &[&lists[..], &["--regrade"]].concat()));
+    let shards = ["1", "2"].map(|number| {
+        let out = class.path_beside(&format!("{COMMANDS} {number}"));
+        let mut part = class_command();
+        part.arg(class.input()).args(["--exam", &exam]).args(lists);
+        part.args(["--shard", &format!("{number}/2")]);
+        check(part.arg("--out").arg(&out));
+        out
+    });
     let mut merge = class_command();
-    merge.arg("merge").arg(class.out()).args(lists);
+    merge.arg("merge").args(shards).args(lists);
     check(merge.arg("--out").arg(class.path_beside(COMMANDS)));
     check(&mut class.command(COMMANDS, &[]));
     for arguments in [

@@ -25,13 +25,14 @@ use crate::handout::source_file::SourceFile;
 
 /// The folders in which the handout's names are looked up: the code that students see, and the code
 /// that writes files that students see.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     "student/src",
     "student/protocol/src",
     "student/framework/src",
     "reference/src",
     "grader/src",
     "grader/judging/src",
+    "grader/class/src",
     "grader/view/src",
     "reference/author/src/items",
     "scenes",

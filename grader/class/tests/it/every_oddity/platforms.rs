@@ -87,7 +87,10 @@ impl Platform {
             Platform::Canvas => {
                 let is_late = student.case.is_some_and(|case| case.title == "late");
                 let late = if is_late { "LATE_" } else { "" };
-                format!("zoe_{late}{}_{}_", 7000 + number, 9000 + number)
+                // Canvas writes the name in lower case and without punctuation.
+                let letters = name.chars().filter(|c| c.is_alphanumeric());
+                let who = letters.collect::<String>().to_lowercase();
+                format!("{who}_{late}{}_{}_", 7000 + number, 9000 + number)
             }
             Platform::Moodle => format!("{name}_{number}_assignsubmission_file_/"),
             Platform::GitHub => format!("pathtracing-{login}/"),

@@ -36,11 +36,11 @@ pub enum Command {
     },
     /// Write the scenes' meshes
     Scenes(CheckArgs),
-    /// Write the handout's figures, and check its links, names and commands
+    /// Check the handout's links, names and commands
     Handout {
-        /// Whether to write or to check the figures.
-        #[command(flatten)]
-        check: CheckArgs,
+        /// Only check, as without --book
+        #[arg(long, conflicts_with = "book")]
+        check: bool,
         /// Build the book into this folder; only available as `cargo book`
         #[arg(long, value_name = "FOLDER", num_args = 0..=1)]
         book: Option<Option<PathBuf>>,

@@ -1,10 +1,9 @@
 //! Generates everything in this repository that is not written by hand: the starter, the exams, the
-//! scenes' meshes, the handout's figures, and the bundles and packages that are handed out. Also
-//! tests the exam, by grading many solutions ([`proof`]).
+//! scenes' meshes, and the bundles and packages that are handed out. Also tests the exam, by grading
+//! many solutions ([`proof`]).
 //!
 //! This crate never links the reference. Keys are computed from the definitions, in double
-//! precision, in [`oracle`]. Grading the reference then shows that the
-//! reference and the keys agree.
+//! precision, in [`oracle`]. Grading the reference then shows that the reference and the keys agree.
 //!
 //! The modules form layers. A module uses only modules of the layers below its own:
 //!

@@ -2,24 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{CommandResult, generate, report};
+use super::{CommandResult, report};
 use crate::cli::book_folder;
 use crate::exams;
-use crate::generated_file::Mode;
 use crate::handout;
 
-/// Writes or checks the handout's figures, checks its pages, and builds the book if a folder is given.
+/// Checks the handout's pages, and builds the book if a folder is given.
 #[allow(
     clippy::option_option,
     reason = "absent, without a value, with a value"
 )]
-pub(super) fn handout(
-    root: &Path,
-    mode: Mode,
-    book: Option<Option<PathBuf>>,
-    students: bool,
-) -> CommandResult {
-    generate(&handout::generated_files(), mode, "handout")?;
+pub(super) fn handout(root: &Path, book: Option<Option<PathBuf>>, students: bool) -> CommandResult {
     let problems = handout::problems(root, &exams::load_practice(root)?)?;
     report(
         &problems,

@@ -50,10 +50,10 @@ pub fn run(command: Command) -> CommandResult {
         }
         Command::Scenes(check) => generate(&scenes::generated_files(), check.mode(), "scenes"),
         Command::Handout {
-            check,
+            check: _,
             book,
             students,
-        } => book::handout(root, check.mode(), book, students),
+        } => book::handout(root, book, students),
         Command::Bundle(args) => archives::bundle(root, &args),
         Command::Package(args) => archives::package(root, &args),
         Command::Mistakes(args) => proofs::mistakes(root, &args),

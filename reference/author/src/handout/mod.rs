@@ -1,10 +1,8 @@
-//! The handout: draws its figures, checks its links, names and commands against the code, and
-//! builds it as a book.
+//! The handout: checks its links, names and commands against the code, and builds it as a book.
 
 #[cfg(feature = "book")]
 pub mod book;
 pub mod commands;
-pub mod figures;
 pub mod links;
 pub mod names;
 pub mod pages;
@@ -18,7 +16,6 @@ use judging::assignment::RAYS;
 use judging::exam::Exam;
 use judging::section::CHAPTERS;
 
-use crate::generated_file::GeneratedFile;
 use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
 use crate::handout::source_file::SourceFile;
@@ -41,19 +38,11 @@ const SOURCES: [&str; 10] = [
 /// Folders that are not searched for files.
 const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
 
-/// Draws the handout's figures.
-pub fn generated_files() -> Vec<GeneratedFile> {
-    let figure = |(name, svg)| GeneratedFile::new(format!("{CHAPTERS}/figures/{name}"), svg);
-    figures::all().map(figure).collect()
-}
-
 /// Returns all problems with the handout of the workspace at `root`: broken links, missing sections
 /// that the exam refers to, and unknown names and commands.
 pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
     let pages = pages(&root.join(CHAPTERS))?;
     let (files, mut sources) = (files(root)?, sources(root)?);
-    let drawn = figures::all().map(|(name, _)| format!("figures/{name}"));
-    let figures = drawn.chain(screenshots(&files)).collect();
     let config = SourceFile {
         path: ".cargo/config.toml".to_owned(),
         text: files::read_to_string(root.join(".cargo/config.toml"))?,
@@ -66,7 +55,7 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
         exam,
     };
 
-    let mut all = links::broken_links(&pages, &figures);
+    let mut all = links::broken_links(&pages, &figures(&files));
     all.extend(links::missing_sections(&pages, exam, RAYS.challenge));
     all.extend(pages.iter().flat_map(|page: &Page| {
         let mut problems = names::unknown_names(page, &known);
@@ -76,13 +65,12 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
     Ok(all)
 }
 
-/// Returns the paths of the pictures that are not drawn, relative to the chapters.
-fn screenshots(files: &BTreeSet<String>) -> impl Iterator<Item = String> {
+/// Returns the paths of the figures, relative to the chapters.
+fn figures(files: &BTreeSet<String>) -> BTreeSet<String> {
     let chapters = format!("{CHAPTERS}/");
-    let names = files
-        .iter()
-        .filter_map(move |file| file.strip_prefix(&chapters).map(str::to_owned));
-    names.filter(|name| name.starts_with("figures/") && name.ends_with(".png"))
+    let names = files.iter().filter_map(|file| file.strip_prefix(&chapters));
+    let figures = names.filter(|name| name.starts_with("figures/"));
+    figures.map(str::to_owned).collect()
 }
 
 /// Returns the names of the aliases in cargo's configuration.

@@ -39,7 +39,8 @@ pub enum BookError {
 pub fn build(root: &Path, to: &Path) -> Result<(), BookError> {
     let mut book = MDBook::load(root.join("handout")).map_err(BookError::Driver)?;
     book.config.build.build_dir = to.to_owned();
-    render_chapters(&mut book.book)?;
+    let chapters = book.source_dir();
+    render_chapters(&mut book.book, &chapters)?;
     book.build().map_err(BookError::Driver)?;
     match problems(root, to)? {
         problems if problems.is_empty() => Ok(()),
@@ -62,18 +63,23 @@ pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<(), BookError> {
     build(sources.path(), to)
 }
 
-/// Replaces formulas with MathML, and figures with inline SVG.
-fn render_chapters(book: &mut Book) -> Result<(), BookError> {
+/// Replaces formulas with MathML, and figures, which are in `chapters`, with inline SVG.
+fn render_chapters(book: &mut Book, chapters: &Path) -> Result<(), BookError> {
     let mut result = Ok(());
     book.for_each_mut(|item| {
         if let BookItem::Chapter(chapter) = item
             && result.is_ok()
         {
-            let rendered = render_formulas(&chapter.name, &chapter.content);
-            result = rendered.map(|content| chapter.content = inline_figures(&content));
+            result = render(&chapter.name, &chapter.content, chapters)
+                .map(|content| chapter.content = content);
         }
     });
-    Ok(result?)
+    result
+}
+
+fn render(name: &str, content: &str, chapters: &Path) -> Result<String, BookError> {
+    let content = render_formulas(name, content)?;
+    Ok(inline_figures(&content, chapters)?)
 }
 
 #[cfg(test)]

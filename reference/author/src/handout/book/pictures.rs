@@ -1,17 +1,14 @@
 //! Inlines the figures into the pages, so that they follow the book's light or dark theme.
 
-use std::collections::BTreeMap;
+use std::path::Path;
 
+use grader::files::{self, PathError};
 use pulldown_cmark::{Event, Parser, Tag};
 
-use crate::handout::figures;
 use crate::handout::pages::options;
 
-/// Returns the chapter with its figures as inline SVG.
-pub fn inline_figures(markdown: &str) -> String {
-    let drawn: BTreeMap<String, String> = figures::all()
-        .map(|(name, svg)| (format!("figures/{name}"), svg))
-        .collect();
+/// Returns the chapter with its SVG figures, whose files are below the folder `chapters`, inline.
+pub fn inline_figures(markdown: &str, chapters: &Path) -> Result<String, PathError> {
     let mut pictures = Vec::new();
     for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
         if let Event::Start(Tag::Image { dest_url, .. }) = event {
@@ -20,13 +17,14 @@ pub fn inline_figures(markdown: &str) -> String {
     }
     let mut text = markdown.to_owned();
     for (range, file) in pictures.into_iter().rev() {
-        if let Some(svg) = drawn.get(&file) {
+        if file.ends_with(".svg") {
+            let svg = files::read_to_string(chapters.join(file))?;
             // On one line, since an empty line would end the HTML block.
-            let svg = svg.replace('\n', "");
-            text.replace_range(range, &format!("<figure>{svg}</figure>"));
+            let lines: Vec<&str> = svg.lines().map(str::trim).collect();
+            text.replace_range(range, &format!("<figure>{}</figure>", lines.concat()));
         }
     }
-    text
+    Ok(text)
 }
 
 #[cfg(test)]
@@ -35,8 +33,13 @@ mod tests {
 
     #[test]
     fn replaces_figures_by_their_drawings_and_keeps_other_pictures() {
-        let text = inline_figures("![a](figures/camera-side.svg)\n\n![b](b.png)\n");
-        assert!(text.starts_with("<figure><svg "), "{text}");
-        assert!(text.ends_with("</svg></figure>\n\n![b](b.png)\n"), "{text}");
+        let chapters = tempfile::tempdir().unwrap();
+        let svg = "<svg viewBox=\"0 0 1 1\">\n\n  <rect/>\n</svg>\n";
+        std::fs::write(chapters.path().join("a.svg"), svg).unwrap();
+        let text = inline_figures("![a](a.svg)\n\n![b](b.png)\n", chapters.path()).unwrap();
+        assert_eq!(
+            text,
+            "<figure><svg viewBox=\"0 0 1 1\"><rect/></svg></figure>\n\n![b](b.png)\n"
+        );
     }
 }

@@ -86,9 +86,6 @@ pub enum Command {
     /// Grade every variant with the exams of all seeds, and every mistake with the exams of the
     /// first few seeds
     Prove(ProveArgs),
-    /// Grade a submission that answers the practice exam by heart with the final exams of all seeds,
-    /// in which it must earn nothing
-    ByHeart(ByHeartArgs),
     /// Measure how far correct answers and mistakes are from every threshold of the exam
     Calibrate(CalibrateArgs),
 }
@@ -193,20 +190,6 @@ pub struct ProveArgs {
     /// Grade only this variant, such as bvh.wide, and no mistakes
     #[arg(long, value_name = "ID", conflicts_with_all = ["mistakes", "record"])]
     pub variant: Option<String>,
-    /// Whether to record the result.
-    #[command(flatten)]
-    pub record: RecordArgs,
-}
-
-/// The arguments of `cargo author by-heart`.
-#[derive(Clone, Debug, Args)]
-pub struct ByHeartArgs {
-    /// The seeds, such as 0..50
-    #[arg(long, value_parser = parse_seeds)]
-    pub seeds: Range<u64>,
-    /// Write the submission's files to this folder
-    #[arg(long, value_name = "FOLDER")]
-    pub out: Option<PathBuf>,
     /// Whether to record the result.
     #[command(flatten)]
     pub record: RecordArgs,

@@ -8,7 +8,6 @@ use std::process::Command;
 use std::sync::LazyLock;
 
 use author::exams::load_practice;
-use author::proof::by_heart::grade_by_heart;
 use author::proof::grade::{grade_mistake, variant_losses};
 use author::proof::recognition::{recognise, recognise_independent, recognise_unknown};
 use author::solutions::Solutions;
@@ -43,14 +42,6 @@ fn a_few_seeds_are_proven() {
     let problems = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{problems}");
     assert!(summary.contains("seeds 3, false fails 0"), "{summary}");
-}
-
-#[test]
-fn the_practice_exam_by_heart_earns_nothing_in_final_exams() {
-    let result = grade_by_heart(&SOLUTIONS, &practice_exam(), 1..4).unwrap();
-    assert_eq!(result.problems(), [""; 0]);
-    // The path-traced picture, which is worth 2 points, cannot be answered by heart.
-    assert_eq!(result.practice_points, 98);
 }
 
 #[test]

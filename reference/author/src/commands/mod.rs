@@ -71,7 +71,6 @@ pub fn run(command: Command) -> CommandResult {
         }
         Command::Hints(args) => hints::hints(root, args),
         Command::Prove(args) => proofs::prove(args),
-        Command::ByHeart(args) => proofs::by_heart(root, args),
         Command::Calibrate(args) => proofs::calibrate(root, args),
     }
 }

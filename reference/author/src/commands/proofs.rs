@@ -1,4 +1,4 @@
-//! `cargo author mistakes`, `prove`, `by-heart` and `calibrate`.
+//! `cargo author mistakes`, `prove` and `calibrate`.
 
 use std::path::Path;
 
@@ -6,10 +6,9 @@ use grader::printing::print_error_line;
 use judging::exam::Exam;
 
 use super::{CommandResult, HANDED_OUT, generate, record_result, report, solutions, written};
-use crate::cli::{ByHeartArgs, CalibrateArgs, MistakesArgs, ProveArgs};
+use crate::cli::{CalibrateArgs, MistakesArgs, ProveArgs};
 use crate::exams;
 use crate::generated_file::Mode;
-use crate::proof::by_heart::grade_by_heart;
 use crate::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, table};
 use crate::proof::failures::{SeedCounts, THINNEST};
 use crate::proof::{self, failures, matrix};
@@ -79,18 +78,6 @@ pub(super) fn prove(args: ProveArgs) -> CommandResult {
         print_error_line(note);
     }
     report(&summary.problems(), &summary.summary_line())
-}
-
-/// Grades a submission that answers the practice exam by heart with the final exams of all seeds.
-pub(super) fn by_heart(root: &Path, args: ByHeartArgs) -> CommandResult {
-    let practice = exams::load_practice(root)?;
-    let seeds = written(&args.seeds);
-    let result = grade_by_heart(&solutions()?, &practice, args.seeds)?;
-    if let Some(folder) = args.out {
-        result.sources.write(&folder)?;
-    }
-    record_result(args.record, "by-heart", &seeds, &result.summary_line())?;
-    report(&result.problems(), &result.summary_line())
 }
 
 /// Measures the margins of all thresholds, and writes or checks their table.

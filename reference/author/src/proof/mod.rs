@@ -1,7 +1,6 @@
 //! Tests that the exam catches every known mistake and gives full marks to correct code, by
 //! grading many [solutions](crate::solutions).
 
-pub mod by_heart;
 pub mod calibrate;
 pub mod catches;
 pub mod failures;
@@ -17,7 +16,6 @@ use grader::exam_source::ExamSourceError;
 use grader::files::PathError;
 
 use crate::solutions::SolutionsError;
-use crate::solutions::by_heart::ByHeartError;
 use crate::solutions::recording::RecordingError;
 use crate::solutions::workbench::WorkbenchError;
 
@@ -33,9 +31,6 @@ pub enum ProofError {
     /// A solution cannot be built or run.
     #[error(transparent)]
     Workbench(#[from] WorkbenchError),
-    /// There is no submission that answers the practice exam by heart.
-    #[error(transparent)]
-    ByHeart(#[from] ByHeartError),
     /// The practice exam cannot be used.
     #[error(transparent)]
     Exam(#[from] ExamSourceError),

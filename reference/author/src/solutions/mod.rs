@@ -6,7 +6,6 @@
 //! is built and run like any submission. The exams take their recorded keys and their hints from
 //! solutions, and the proof grades them.
 
-pub mod by_heart;
 pub mod catalogue;
 pub mod failed_items;
 pub mod independent;

@@ -64,11 +64,6 @@ impl Recorder {
         &self.sources
     }
 
-    /// Returns the reference, which was built from these files.
-    pub fn built_reference(&self) -> &BuiltSolution {
-        &self.reference
-    }
-
     /// Returns the text of the Cornell box's scene file.
     pub fn scene(&self) -> &str {
         &self.scene

@@ -28,16 +28,6 @@ impl Sources {
         })
     }
 
-    /// Returns the files of an assignment's starter.
-    pub fn starter(handed_out: &'static HandedOut) -> Self {
-        let files = handed_out.files.iter();
-        Sources {
-            handed_out,
-            files: files.map(|file| (*file, file.starter.to_owned())).collect(),
-            crates: Vec::new(),
-        }
-    }
-
     /// Returns the assignment that the files solve.
     pub fn handed_out(&self) -> &'static HandedOut {
         self.handed_out

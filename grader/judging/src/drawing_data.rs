@@ -14,14 +14,12 @@ use serde::{Deserialize, Serialize};
 pub enum DrawingData {
     /// No data.
     #[default]
-    #[serde(alias = "nothing")]
     None,
     /// Data for `BBox` questions: for each query, the interval in which the ray is between the two
     /// planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
     /// parallel to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
     /// Data for `Traverse` questions with a list of rays: one correct traversal per ray.
-    #[serde(alias = "walks")]
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
     /// Data for `Build` questions: the tree of the exact SAH sweep.
     Sweep(#[serde(with = "packed::text")] Sweep),

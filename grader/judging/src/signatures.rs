@@ -29,11 +29,9 @@ pub struct MistakeSignatures {
     pub elements: Vec<u32>,
     /// The correct answers to these elements.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "packed::text")]
-    #[serde(alias = "right")]
     pub correct_answers: Vec<ObservedAnswer>,
     /// The wrong answers. A mistake that is not listed answers all elements correctly.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[serde(alias = "wrong")]
     pub mistake_answers: Vec<MistakeAnswers>,
 }
 
@@ -49,7 +47,6 @@ impl MistakeSignatures {
 #[serde(deny_unknown_fields)]
 pub struct MistakeAnswers {
     /// Indices in the exam's list of mistakes.
-    #[serde(alias = "by")]
     pub mistakes: Vec<u32>,
     /// The wrong answers, each with its index in [`MistakeSignatures::elements`].
     #[serde(with = "packed::text")]
@@ -63,7 +60,6 @@ pub enum ObservedAnswer {
     /// tolerance.
     Numbers(Vec<f32>),
     /// No hit, or no interval inside the box.
-    #[serde(alias = "Nothing")]
     NoHit,
     /// The defect of a tree and its amount, which may be 0. `None` for a correct tree.
     Tree(Option<(String, f32)>),

@@ -35,7 +35,6 @@ pub enum ElementOutcome<T> {
     /// The submission's code panicked.
     Panicked(Panic),
     /// The element was not run, because [`Panic::MAX_PER_QUESTION`] earlier elements panicked.
-    #[serde(alias = "GivenUp")]
     Skipped,
 }
 
@@ -46,7 +45,6 @@ pub struct Panic {
     pub message: String,
     /// The file, line and column of the panic, such as `sphere.rs:34:9`, truncated to the same
     /// length.
-    #[serde(alias = "place")]
     pub location: String,
 }
 

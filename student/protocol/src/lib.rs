@@ -25,9 +25,3 @@ pub use trace::Trace;
 pub use tree::{Tree, TreeNode};
 pub use vertex::Vertex;
 pub use view::{ExamCamera, PIXEL_OFFSETS, PinholeCamera, Rays, Sample, Samples, every_pixel};
-
-// Former names, kept so that older submissions still compile.
-#[doc(hidden)]
-pub use answer::ElementOutcome as Outcome;
-#[doc(hidden)]
-pub use view::{ExamCamera as View, PIXEL_OFFSETS as OFFSETS};

@@ -47,12 +47,6 @@ impl Shape {
         ]
     }
 
-    /// Former name of [`Shape::flat_triangle_vertices`].
-    #[doc(hidden)]
-    pub fn facet_vertices(corners: [Vec3; 3]) -> [Vertex; 3] {
-        Shape::flat_triangle_vertices(corners)
-    }
-
     /// Returns the material to report in the `Trace`. In questions about trees, each primitive has
     /// a different one.
     pub fn material(&self) -> u32 {

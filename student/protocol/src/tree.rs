@@ -37,12 +37,6 @@ impl TreeNode {
         u32::try_from(index).unwrap_or(u32::MAX)
     }
 
-    /// Former name of [`TreeNode::saturating_index`].
-    #[doc(hidden)]
-    pub fn place(index: usize) -> u32 {
-        TreeNode::saturating_index(index)
-    }
-
     /// Returns whether the node is a leaf.
     pub fn is_leaf(&self) -> bool {
         self.l == self.r

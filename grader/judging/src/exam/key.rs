@@ -11,7 +11,6 @@ pub enum Key {
     /// Key of a `Camera` question: one ray per sample.
     Rays {
         /// Parts of each ray that are compared.
-        #[serde(alias = "judged")]
         checks: Vec<RayCheck>,
         /// The expected directions. Every ray starts at the origin, with range `[0, ∞)`.
         #[serde(with = "packed")]
@@ -21,7 +20,6 @@ pub enum Key {
     /// answer must be correct.
     Hits {
         /// Parts of each hit that are compared, in addition to whether there is a hit.
-        #[serde(alias = "judged")]
         checks: Vec<HitCheck>,
         /// The expected hit of each ray.
         #[serde(with = "packed")]
@@ -36,7 +34,6 @@ pub enum Key {
     /// Key of a `Build` question: properties of the tree, and optionally its cost.
     Tree {
         /// Properties to check. That the nodes form a tree is always checked.
-        #[serde(alias = "judged")]
         checks: Vec<TreeCheck>,
         /// SAH cost of the tree that an exact sweep builds by choosing the best split at every node
         /// and stopping at the same leaf size. C_trav = C_isect = 1, and areas are divided by the
@@ -53,7 +50,6 @@ pub enum Key {
         /// Additional correct answers, each with the index of its position. They exist where a ray
         /// up to 1/2000 of a pixel away, along each axis, hits a different surface or none.
         #[serde(with = "packed")]
-        #[serde(alias = "also")]
         alternatives: Vec<(u32, Option<Surface>)>,
     },
     /// Key of a `Radiance` question.
@@ -62,7 +58,6 @@ pub enum Key {
         #[serde(with = "packed")]
         pixels: Vec<Vec3>,
         /// Maximum number of pixels that may differ by more than 1 %.
-        #[serde(alias = "allowed")]
         max_wrong_pixels: u32,
     },
 }

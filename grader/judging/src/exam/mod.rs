@@ -88,7 +88,6 @@ pub struct Item {
     pub questions: Vec<ExamQuestion>,
     /// The answers that known mistakes give, used to recognise the mistake behind a wrong answer.
     #[serde(default, skip_serializing_if = "MistakeSignatures::is_empty")]
-    #[serde(alias = "tells")]
     pub signatures: MistakeSignatures,
 }
 
@@ -136,7 +135,6 @@ pub struct ExamQuestion {
     pub key: Key,
     /// Data for drawing the correct answer. It is neither sent to the probe nor judged.
     #[serde(default, skip_serializing_if = "DrawingData::is_none")]
-    #[serde(alias = "shown")]
     pub drawing_data: DrawingData,
 }
 

@@ -99,6 +99,15 @@ fn an_exam_is_read_as_it_was_written() {
 }
 
 #[test]
+fn an_exam_in_another_format_is_refused_for_its_format_and_not_for_its_fields() {
+    let problem = |schema| parse(&format!(r#"{{"schema": {schema}, "ideas": []}}"#)).unwrap_err();
+    let other = problem("2");
+    assert!(other.contains("its format is version 2, but"), "{other}");
+    assert!(other.ends_with("`cargo author exam --seed S` writes a valid one"));
+    assert!(problem("1").contains("unknown field `ideas`"));
+}
+
+#[test]
 fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
     let ids = ["camera.corners", "camera.picture", "sphere.near_side"];
     // The picture has all of its rays: as many as a film of the largest width and a height of 1.

@@ -104,7 +104,3 @@ pub fn render(submission: &dyn Submission, scene: &Scene, settings: &RenderSetti
 
 #[cfg(test)]
 mod tests;
-
-// Former names, kept so that older submissions still compile.
-#[doc(hidden)]
-pub use self::{RenderSettings as Sampling, RenderStats as Tally, render as radiance};

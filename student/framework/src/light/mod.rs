@@ -68,12 +68,6 @@ impl Lights {
         }
     }
 
-    /// Former name of [`Lights::sample`].
-    #[doc(hidden)]
-    pub fn illuminate(&self, point: Vec3, choice: f32, position: Vec2) -> Option<LightSample> {
-        self.sample(point, choice, position)
-    }
-
     /// Samples the light that reaches `point` from one light. The random numbers `choice` and
     /// `position`, in `[0, 1)`, pick the light and the position on it. Returns `None` if there is
     /// no light, or if that position does not emit light toward `point`.
@@ -102,10 +96,6 @@ impl Lights {
         })
     }
 }
-
-/// Former name of [`LightSample`].
-#[doc(hidden)]
-pub use self::LightSample as Illumination;
 
 #[cfg(test)]
 mod tests {

@@ -30,12 +30,6 @@ pub use material::Material;
 
 pub(crate) use material::checker;
 
-// Former names, kept so that older submissions still compile.
-#[doc(hidden)]
-pub use self::MAX_FILM_SIDE as LONGEST_SIDE;
-#[doc(hidden)]
-pub use error::{SceneErrorKind as Problem, TextPosition as Place};
-
 /// The maximum number of primitives in a leaf of the tree that is built for a picture.
 const MAX_LEAF_SIZE: usize = 4;
 

@@ -12,21 +12,28 @@ use serde::Deserialize;
 use crate::canary::Canaries;
 use crate::packaging::{Packaging, pack};
 
-/// The name of the file whose text is appended to a task file. All other files of an entry are put
-/// beside the task files, or replace them.
+/// The file of an entry with several files whose text is appended to a task file. All others, but its
+/// description, are put beside the task files, or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
+/// The file with the descriptions of the entries that have no files.
+const PACKAGED_FILE: &str = "packaged.toml";
+/// The beginning of the lines in which a file describes its entry.
+const DESCRIPTION: &str = "//!";
 /// A function that turns a value of one type into another one, by a soundness hole of the language.
 const HOLE: &str = include_str!("hole.rs");
 
-/// A hostile submission, which is read from a folder in `entries/`.
+/// A hostile submission, which is read from `entries/`.
 pub struct Entry {
     pub name: String,
     pub expect: Expectation,
+    /// The text that is appended to a task file.
+    attack: String,
+    /// The folder of an entry with several files.
     folder: Option<PathBuf>,
 }
 
-/// The contents of `expect.toml`.
+/// The description of an entry.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
@@ -39,12 +46,12 @@ pub struct Expectation {
     /// The task files to which the attack is added.
     #[serde(default)]
     base: Base,
-    /// The task file to which `attack.rs` is appended.
+    /// The task file to which the attack is appended.
     into: Option<String>,
     /// Other task files that get the same text and the same calls.
     #[serde(default)]
     also_into: Vec<String>,
-    /// Whether `attack.rs` calls the function in `hole.rs`.
+    /// Whether the attack calls the function in `hole.rs`.
     #[serde(default)]
     uses_hole: bool,
     /// The methods of that file that begin with `call`.
@@ -103,24 +110,49 @@ fn default_wall_seconds() -> u64 {
 impl Entry {
     /// Reads all entries, sorted by name.
     pub fn all(folder: &Path) -> Vec<Self> {
-        let mut folders: Vec<PathBuf> = fs::read_dir(folder)
-            .expect("the corpus exists")
-            .map(|entry| entry.expect("the folder can be read").path())
-            .collect();
-        folders.sort();
-        folders.into_iter().map(Entry::read).collect()
+        let mut entries = Entry::packaged(&read(&folder.join(PACKAGED_FILE)));
+        let paths = fs::read_dir(folder).expect("the corpus exists");
+        let paths = paths.map(|entry| entry.expect("the folder can be read").path());
+        let others = paths.filter(|path| !path.ends_with(PACKAGED_FILE));
+        entries.extend(others.map(Entry::read));
+        entries.sort_by(|one, other| one.name.cmp(&other.name));
+        entries
     }
 
-    fn read(folder: PathBuf) -> Self {
-        let name = folder.file_name().expect("the folder has a name");
+    /// Reads an entry that is a file or a folder.
+    fn read(path: PathBuf) -> Self {
+        let name = path.file_stem().expect("the entry has a name");
         let name = name.to_string_lossy().into_owned();
-        let text = fs::read_to_string(folder.join(EXPECT_FILE))
-            .unwrap_or_else(|error| panic!("{name}/{EXPECT_FILE}: {error}"));
+        let (description, attack, folder) = if path.is_dir() {
+            let attack = fs::read_to_string(path.join(ATTACK_FILE)).unwrap_or_default();
+            (read(&path.join(EXPECT_FILE)), attack, Some(path))
+        } else {
+            let text = read(&path);
+            let lines = text.split_inclusive('\n');
+            let (description, attack): (Vec<&str>, Vec<&str>) =
+                lines.partition(|line| line.starts_with(DESCRIPTION));
+            let description = description.concat().replace(DESCRIPTION, "");
+            (description, attack.concat(), None)
+        };
         Entry {
-            expect: toml::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}")),
-            folder: Some(folder),
+            expect: toml::from_str(&description).unwrap_or_else(|error| panic!("{name}: {error}")),
+            attack,
+            folder,
             name,
         }
+    }
+
+    /// Reads the entries that have no files.
+    fn packaged(descriptions: &str) -> Vec<Self> {
+        let descriptions: BTreeMap<String, Expectation> =
+            toml::from_str(descriptions).unwrap_or_else(|error| panic!("{PACKAGED_FILE}: {error}"));
+        let entry = |(name, expect)| Entry {
+            name,
+            expect,
+            attack: String::new(),
+            folder: None,
+        };
+        descriptions.into_iter().map(entry).collect()
     }
 
     /// Returns an entry that submits the unchanged reference.
@@ -128,6 +160,7 @@ impl Entry {
         Entry {
             name: "reference".to_owned(),
             expect: toml::from_str("does = 'It is correct.'\nwall = 300").expect("valid TOML"),
+            attack: String::new(),
             folder: None,
         }
     }
@@ -166,10 +199,9 @@ impl Entry {
         for file in RAYS.file_names() {
             fs::copy(base.join(file), target.join(file)).expect("the file can be copied");
         }
-        let Some(folder) = &self.folder else {
-            return;
-        };
-        copy_with_placeholders_filled(folder, target, placeholders);
+        if let Some(folder) = &self.folder {
+            copy_with_placeholders_filled(folder, target, placeholders);
+        }
         for into in self.expect.into.iter().chain(&self.expect.also_into) {
             let mut text = fs::read_to_string(target.join(into)).expect("a task file");
             for method in &self.expect.within {
@@ -178,9 +210,7 @@ impl Entry {
             if self.expect.uses_hole {
                 text.push_str(HOLE);
             }
-            let attack =
-                fs::read_to_string(folder.join(ATTACK_FILE)).expect("the attack can be read");
-            text.push_str(&fill_placeholders(&attack, placeholders));
+            text.push_str(&fill_placeholders(&self.attack, placeholders));
             fs::write(target.join(into), text).expect("the file can be written");
         }
     }
@@ -203,6 +233,11 @@ fn copy_with_placeholders_filled(folder: &Path, target: &Path, placeholders: &[(
                 .expect("the file can be written");
         }
     }
+}
+
+/// Returns the text of a file.
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// Inserts a call as the first statement of a method.

@@ -9,8 +9,9 @@
 //! ... -- --contained                                 as in a container: no namespaces, no mounts
 //! ```
 //!
-//! `entries/ID-NAME/expect.toml` describes each entry and its permitted results. `README.md` lists
-//! all known attacks and where each is tested.
+//! TOML describes each entry and its permitted results: at the beginning of `entries/ID-NAME.rs`,
+//! in `expect.toml` beside several files, or in `packaged.toml`. `README.md` lists all known attacks
+//! and where each is tested.
 
 #[cfg(target_os = "linux")]
 mod canary;

@@ -40,6 +40,8 @@ pub enum Packaging {
     ManyArchives,
     /// A tar with a file name that contains escape sequences, line breaks and right-to-left text.
     OddNames,
+    /// A folder with a file whose name differs from a task file's in a Cyrillic letter.
+    LookAlike,
     /// An empty file.
     Empty,
     /// The first half of a zip.
@@ -99,6 +101,11 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
             let names = (0..1 << 16).map(|n| format!("{n}.txt"));
             let many: Vec<_> = names.map(|name| (name, Vec::new())).collect();
             write_zip(folder, &[files, many].concat(), None)
+        }
+        Packaging::LookAlike => {
+            let text = "compile_error!(\"this is not camera.rs\");";
+            fs::write(folder.join("cam\u{435}ra.rs"), text).expect("the file can be written");
+            folder.to_owned()
         }
         Packaging::ManyArchives => {
             let archive = write_zip(&folder.join("0"), &files, None);

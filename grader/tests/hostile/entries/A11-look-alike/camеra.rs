@@ -1,1 +1,0 @@
-compile_error!("this is not camera.rs");

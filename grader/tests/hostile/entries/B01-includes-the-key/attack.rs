@@ -1,4 +1,0 @@
-
-fn attack() {
-    eprintln!(concat!("reac", "hed: {}"), include_str!("@KEY@"));
-}

@@ -1,4 +1,0 @@
-
-#[path = "@KEY@"]
-mod key;
-fn attack() {}

@@ -1,5 +1,0 @@
-
-core::arch::global_asm!(".section .rodata", "stolen: .incbin \"@KEY@\"");
-fn attack() {
-    println!("stolen");
-}

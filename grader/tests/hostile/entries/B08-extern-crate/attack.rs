@@ -1,4 +1,0 @@
-
-extern crate grader;
-extern crate parts;
-extern crate reference;

@@ -1,5 +1,0 @@
-
-macro_rules! twice {
-    ($($thing:tt)*) => { twice! { $($thing)* $($thing)* } };
-}
-twice! { fn }

@@ -1,4 +1,0 @@
-
-fn attack() {
-    eprintln!("{}", include_bytes!("/dev/zero").len());
-}

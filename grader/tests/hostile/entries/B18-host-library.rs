@@ -1,0 +1,12 @@
+//! does = "It links a library of the machine."
+//! into = "sphere.rs"
+//! verdicts = ["not_compiled"]
+//! slow = true
+//!
+//! [points]
+//! sphere = 0
+
+#[link(name = "c", kind = "static")]
+unsafe extern "C" {
+    fn getuid() -> u32;
+}

@@ -1,5 +1,0 @@
-
-#[link(name = "c", kind = "static")]
-unsafe extern "C" {
-    fn getuid() -> u32;
-}

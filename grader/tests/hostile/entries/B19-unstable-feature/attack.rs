@@ -1,2 +1,0 @@
-
-#![feature(asm_experimental_arch)]

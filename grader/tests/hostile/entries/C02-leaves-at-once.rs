@@ -1,0 +1,12 @@
+//! does = "It exits at the first question with a code that means success."
+//! into = "camera.rs"
+//! within = ["sample_ray"]
+//! verdicts = ["crashed"]
+//! slow = true
+//!
+//! [points]
+//! camera = 0
+
+fn attack() {
+    std::process::exit(0);
+}

@@ -1,0 +1,22 @@
+//! does = "It announces a frame of 4 GiB."
+//! into = "camera.rs"
+//! within = ["sample_ray"]
+//! verdicts = ["protocol", "crashed", "timed_out"]
+//!
+//! [points]
+//! camera = 15
+
+/// Returns every file that this process has open for writing.
+fn open() -> impl Iterator<Item = std::fs::File> {
+    let open = (0..64).map(|number| format!("/proc/self/fd/{number}"));
+    open.filter_map(|path| std::fs::OpenOptions::new().write(true).open(path).ok())
+}
+fn attack() {
+    use std::io::Write;
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        for mut file in open() {
+            file.write_all(&[255; 12]).ok();
+        }
+    });
+}

@@ -1,9 +1,0 @@
-
-fn attack() {
-    static ONCE: std::sync::Once = std::sync::Once::new();
-    ONCE.call_once(|| {
-        std::fs::rename("@OUT@", "@OUT@-@MARK@").ok();
-        std::fs::remove_dir_all("@OUT@-@MARK@").ok();
-        std::os::unix::fs::symlink("/dev/shm", "@OUT@").ok();
-    });
-}

@@ -1,0 +1,20 @@
+//! does = "It reads the key, passwords, its own program and the folders of all users."
+//! least = "seccomp-only"
+//! into = "camera.rs"
+//! within = ["sample_ray"]
+
+fn attack() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        for path in ["@KEY@", "/etc/passwd", "/etc/shadow", "/proc/self/exe", "@OUT@/score.json"] {
+            if let Ok(bytes) = std::fs::read(path) {
+                eprintln!("reached: {path}: {}", String::from_utf8_lossy(&bytes[..bytes.len().min(40)]));
+            }
+        }
+        for folder in ["/", "/tmp", "/home", "/root", "/proc/self/fd", "."] {
+            if std::fs::read_dir(folder).is_ok() {
+                eprintln!("reached: {folder}");
+            }
+        }
+    });
+}

@@ -1,0 +1,15 @@
+//! does = "It leaves a process running in a separate session."
+//! least = "seccomp-only"
+//! into = "camera.rs"
+//! within = ["sample_ray"]
+
+fn attack() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        let daemon = "setsid sh -c 'sleep 300' >/dev/null 2>&1 &";
+        let mut shell = std::process::Command::new("/bin/sh");
+        if shell.args(["-c", daemon]).status().is_ok() {
+            eprintln!("reached: a shell");
+        }
+    });
+}

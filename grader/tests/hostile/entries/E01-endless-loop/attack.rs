@@ -1,6 +1,0 @@
-
-fn attack() {
-    loop {
-        std::hint::black_box(0);
-    }
-}

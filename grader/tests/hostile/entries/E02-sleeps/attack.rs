@@ -1,6 +1,0 @@
-
-fn attack() {
-    loop {
-        std::thread::park();
-    }
-}

@@ -1,0 +1,13 @@
+//! does = "It has a local variable of 1 GiB."
+//! into = "camera.rs"
+//! within = ["sample_ray"]
+//! verdicts = ["crashed"]
+//! slow = true
+//!
+//! [points]
+//! camera = 0
+
+fn attack() {
+    let huge = std::hint::black_box([1_u8; 1 << 30]);
+    eprintln!("{}", huge[7]);
+}

@@ -1,4 +1,0 @@
-
-fn attack() {
-    panic!("no");
-}

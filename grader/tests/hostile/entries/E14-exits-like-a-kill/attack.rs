@@ -1,4 +1,0 @@
-
-fn attack() {
-    std::process::exit(137);
-}

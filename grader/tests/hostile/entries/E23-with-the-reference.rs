@@ -1,0 +1,27 @@
+//! does = "Its `bvh.rs` does not start with the reference's parts, but starts with its own files."
+//! base = "starter"
+//! into = "bvh.rs"
+//! within = ["hit"]
+//! verdicts = ["crashed", "unimplemented", "wrong", "timed_out"]
+//!
+//! [points]
+//! camera = 0
+//! triangle = 0
+//! sphere = 0
+//! bbox = 0
+//! build = 0
+//! traverse = 0
+
+// The program with the reference's parts contains this file in the crate `submission`.
+const BYTES: usize = if module_path!().as_bytes()[0] == b's' {
+    100 << 20
+} else {
+    1
+};
+thread_local! {
+    static BIG: std::cell::Cell<std::mem::MaybeUninit<[u8; BYTES]>> =
+        const { std::cell::Cell::new(std::mem::MaybeUninit::uninit()) };
+}
+fn attack() {
+    BIG.with(|big| _ = std::hint::black_box(big));
+}

@@ -1,4 +1,0 @@
-
-fn attack() {
-    println!("here is another ray");
-}

@@ -40,7 +40,6 @@ pub enum Question {
         max: Vec3,
         /// The rays, each with the `times` to pass to `BBox::hit`.
         #[serde(with = "packed")]
-        #[serde(alias = "shots")]
         queries: Vec<(Ray, Interval)>,
     },
     /// Calls `Bvh::build` once. The answer is the whole tree.

@@ -15,7 +15,6 @@ pub enum Shape {
         material: u32,
     },
     /// A triangle given by its corners alone; see [`Shape::flat_triangle_vertices`].
-    #[serde(alias = "facet")]
     FlatTriangle {
         /// The corners p0, p1, p2.
         corners: [Vec3; 3],

@@ -16,11 +16,11 @@ use obvhs::ray::RayHit;
 use obvhs::triangle::Triangle;
 use protocol::{Ray, Trace};
 use reference::bvh::Bvh;
-use variants::bvh::{tuned, wide};
+use variants::bvh::wide;
 
 use crate::embree::EmbreeScene;
 
-/// The maximum number of primitives in a leaf of the reference and the variants.
+/// The maximum number of primitives in a leaf of the reference and the variant.
 pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree over the triangles, which finds closest hits.
@@ -29,15 +29,8 @@ pub trait Contender {
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 
-/// The reference, which students can read. Like the variants, it computes the complete [`Trace`].
+/// The reference, which students can read. Like the variant, it computes the complete [`Trace`].
 impl Contender for Bvh {
-    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        trace_distances(rays, |ray| self.hit(ray))
-    }
-}
-
-/// The variant with the reference's algorithms, tuned for speed.
-impl Contender for tuned::Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
         trace_distances(rays, |ray| self.hit(ray))
     }

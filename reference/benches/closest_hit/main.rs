@@ -1,14 +1,14 @@
-//! Measures closest hits per second and build times of the reference, the variants `tuned` and
-//! `wide`, the crates `obvhs` and `bvh`, and Embree, if its library is available. These contenders
-//! take turns on one thread, and must find the same hits. Only CPU time counts. ../README.md describes how to
-//! run this benchmark, and lists the results.
+//! Measures closest hits per second and build times of the reference, the variant `wide`, the crates
+//! `obvhs` and `bvh`, and Embree, if its library is available. These contenders take turns on one
+//! thread, and must find the same hits. Only CPU time counts. ../README.md describes how to run this
+//! benchmark, and lists the results.
 
 use std::rc::Rc;
 use std::time::Duration;
 
 use reference::bvh::Bvh;
 use reference::primitive::Primitive;
-use variants::bvh::{tuned, wide};
+use variants::bvh::wide;
 
 use crate::contenders::{
     Contender, CrateBvhTree, FullTraversal, MAX_LEAF_SIZE, NearestTraversal, Obvhs,
@@ -94,10 +94,6 @@ fn build_trees<'a>(
         let mut round = vec![("reference", time)];
         let mut others: Vec<(&'static str, Box<dyn Contender>)> = Vec::new();
 
-        let input = primitives.clone();
-        let (tree, time) = timed(|| tuned::Bvh::build(input, MAX_LEAF_SIZE));
-        others.push(("tuned", Box::new(tree)));
-        round.push(("tuned", time));
         let input = primitives.clone();
         let (tree, time) = timed(|| wide::Bvh::build(input, MAX_LEAF_SIZE));
         others.push(("wide", Box::new(tree)));

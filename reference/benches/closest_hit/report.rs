@@ -104,8 +104,6 @@ impl fmt::Display for Report {
         for (name, others) in [
             ("reference", &["obvhs"][..]),
             ("reference", &["bvh, nearest", "bvh, all"]),
-            ("tuned", &["obvhs"]),
-            ("tuned", &["reference"]),
             ("wide", &["reference"]),
             ("wide", &["Embree"]),
         ] {

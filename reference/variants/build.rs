@@ -1,51 +1,71 @@
-//! Writes the given code of each variant `STEM/NAME.rs` to `STEM/NAME.rs` in the output folder, and
-//! a module for each variant to `all.rs`.
+//! Writes the given code of each variant, and `STEM/NAME.rs` in the output folder, which includes it
+//! and the variant's own files, and a module for each variant to `all.rs`.
 
+use std::collections::BTreeMap;
 use std::env;
 use std::error::Error;
 use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 
-use projection::given_code;
+use projection::replacements;
+use serde::Deserialize;
 
 /// The reference's files, relative to this package.
 const REFERENCE: &str = "../src";
+/// The list of the variants.
+const LIST: &str = "variants.toml";
+
+#[derive(Deserialize)]
+struct List {
+    variant: Vec<Variant>,
+}
+
+#[derive(Deserialize)]
+struct Variant {
+    id: String,
+    #[serde(default)]
+    parts: Vec<String>,
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (package, out) = (env::var("CARGO_MANIFEST_DIR")?, env::var("OUT_DIR")?);
-    let mut modules = String::new();
     println!("cargo::rerun-if-changed={REFERENCE}");
-    for stem in source_stems(REFERENCE)? {
-        if !fs::exists(&stem)? {
-            continue; // A file without variants, such as `lib.rs`.
+    println!("cargo::rerun-if-changed={LIST}");
+    let list: List = toml::from_str(&fs::read_to_string(LIST)?)?;
+    let mut modules: BTreeMap<String, String> = BTreeMap::new();
+    for Variant { id, parts } in list.variant {
+        let replacements = replacements(Path::new(""), &id, &parts)?;
+        for replacement in &replacements {
+            println!("cargo::rerun-if-changed={}", replacement.stem);
         }
-        println!("cargo::rerun-if-changed={stem}");
+        let [replacement] = &replacements[..] else {
+            continue; // Files that use each other are compiled only as a submission.
+        };
+        let stem = &replacement.stem;
         let reference = fs::read_to_string(format!("{REFERENCE}/{stem}.rs"))?;
-        fs::create_dir_all(format!("{out}/{stem}"))?;
-        writeln!(modules, "pub mod {stem} {{")?;
-        for name in source_stems(&stem)? {
-            let path = format!("{stem}/{name}.rs");
-            let given = given_code(&reference, &fs::read_to_string(&path)?)
-                .map_err(|error| format!("reference/variants/{path}: {error}"))?;
-            let files = [format!("{package}/{path}"), format!("{out}/{path}")];
-            fs::write(&files[1], given)?;
-            let includes = files.map(|file| format!("include!({file:?});"));
-            writeln!(modules, "pub mod {name} {{ {} }}", includes.join(" "))?;
-        }
-        writeln!(modules, "}}")?;
-    }
-    fs::write(format!("{out}/all.rs"), modules)?;
-    Ok(())
-}
+        let given = replacement.given_code(&reference);
+        let given = given.map_err(|error| format!("the variant {id}: {error}"))?;
 
-/// Returns the names of the Rust files in a folder, without their extension, sorted.
-fn source_stems(folder: &str) -> Result<Vec<String>, std::io::Error> {
-    let mut stems = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let name = entry?.file_name();
-        let stem = name.to_str().and_then(|name| name.strip_suffix(".rs"));
-        stems.extend(stem.map(str::to_owned));
+        let module = format!("{out}/{}", id.replace('.', "/"));
+        let mut includes = String::new();
+        for (path, _) in &replacement.files {
+            writeln!(includes, "include!({:?});", Path::new(&package).join(path))?;
+        }
+        writeln!(includes, "include!({:?});", format!("{module}.given.rs"))?;
+        fs::create_dir_all(format!("{out}/{stem}"))?;
+        fs::write(format!("{module}.given.rs"), given)?;
+        fs::write(format!("{module}.rs"), includes)?;
+        let name = id.trim_start_matches(&format!("{stem}."));
+        let modules = modules.entry(stem.clone()).or_default();
+        writeln!(
+            modules,
+            "pub mod {name} {{ include!({:?}); }}",
+            format!("{module}.rs")
+        )?;
     }
-    stems.sort();
-    Ok(stems)
+    let modules = modules.into_iter();
+    let all = modules.map(|(stem, modules)| format!("pub mod {stem} {{\n{modules}}}\n"));
+    fs::write(format!("{out}/all.rs"), all.collect::<String>())?;
+    Ok(())
 }

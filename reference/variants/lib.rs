@@ -8,20 +8,11 @@
 // A variant finds these modules at the root of its crate, as a submission's file does.
 use reference::{bbox, primitive, triangle};
 
-/// Includes a variant's file and its given code, which the build script writes.
-#[cfg(not(test))]
-macro_rules! variant {
-    ($path:literal) => {
-        include!(concat!($path, ".rs"));
-        include!(concat!(env!("OUT_DIR"), "/", $path, ".rs"));
-    };
-}
-
 /// Implementations of [`reference::bvh`].
 #[cfg(not(test))]
 pub mod bvh {
     pub mod wide {
-        variant!("bvh/wide");
+        include!(concat!(env!("OUT_DIR"), "/bvh/wide.rs"));
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
@@ -18,6 +18,7 @@ use author::solutions::variants::Variant;
 use author::solutions::workbench::Workbench;
 use grader::handed_out::RAYS;
 use judging::exam::Exam;
+use projection::replacements;
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
     let workbench = Workbench::open(&RAYS).expect("there are a toolchain and a workspace");
@@ -132,22 +133,27 @@ fn there_are_enough_mistakes_and_variants() {
 }
 
 #[test]
-fn every_variant_file_is_listed() {
+fn every_variant_file_is_used() {
     let folder = root().join("reference/variants");
+    let stems = RAYS.file_names().map(|file| file.trim_end_matches(".rs"));
+    let mut folders: Vec<PathBuf> = stems.map(PathBuf::from).collect();
     let mut files = BTreeSet::new();
-    for file in RAYS.file_names() {
-        let stem = file.trim_end_matches(".rs");
-        for entry in fs::read_dir(folder.join(stem)).unwrap().flatten() {
-            let name = entry.file_name().into_string().unwrap();
-            files.insert(format!("{stem}.{}", name.trim_end_matches(".rs")));
+    while let Some(subfolder) = folders.pop() {
+        for entry in fs::read_dir(folder.join(&subfolder)).unwrap().flatten() {
+            let path = subfolder.join(entry.file_name());
+            if entry.path().is_dir() {
+                folders.push(path);
+            } else {
+                files.insert(path);
+            }
         }
     }
-    let listed: BTreeSet<String> = SOLUTIONS
-        .variants
-        .iter()
-        .map(|(v, _)| v.id.clone())
+    let variants = SOLUTIONS.variants.iter();
+    let used: BTreeSet<PathBuf> = variants
+        .flat_map(|(variant, _)| replacements(&folder, &variant.id, &variant.parts).unwrap())
+        .flat_map(|replacement| replacement.files.into_iter().map(|(path, _)| path))
         .collect();
-    assert_eq!(files, listed);
+    assert_eq!(files, used);
 }
 
 #[test]
@@ -195,7 +201,7 @@ fn reports_a_wrong_variant() {
         title: String::new(),
         source: None,
         may_lose: Vec::new(),
-        files: Vec::new(),
+        parts: Vec::new(),
         crates: Vec::new(),
     };
     let lost = variant_losses(&SOLUTIONS.workbench, &variant, sources, &practice_exam());

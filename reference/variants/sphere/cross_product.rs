@@ -12,23 +12,9 @@ impl Sphere {
         let middle = -o.dot(ray.dir);
         let (near, far) = (middle - half_chord, middle + half_chord);
         if ray.range.contains(near) {
-            Some(self.trace(ray, near))
+            Some(self.trace_at(ray, near))
         } else {
-            ray.range.contains(far).then(|| self.trace(ray, far))
-        }
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
+            ray.range.contains(far).then(|| self.trace_at(ray, far))
         }
     }
 }

@@ -20,20 +20,6 @@ impl Sphere {
         } else {
             return None;
         };
-        Some(self.trace(ray, t))
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        }
+        Some(self.trace_at(ray, t))
     }
 }

@@ -12,20 +12,6 @@ impl Sphere {
             .map(|sign| -b + sign * discriminant.sqrt())
             .filter(|t| ray.range.contains(*t))
             .min_by(f32::total_cmp)
-            .map(|t| self.trace(ray, t))
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        }
+            .map(|t| self.trace_at(ray, t))
     }
 }

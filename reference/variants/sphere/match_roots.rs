@@ -4,23 +4,9 @@ impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let (near, far) = self.roots(ray)?;
         match (ray.range.contains(near), ray.range.contains(far)) {
-            (true, _) => Some(self.trace(ray, near)),
-            (false, true) => Some(self.trace(ray, far)),
+            (true, _) => Some(self.trace_at(ray, near)),
+            (false, true) => Some(self.trace_at(ray, far)),
             (false, false) => None,
-        }
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
         }
     }
 

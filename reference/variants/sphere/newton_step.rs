@@ -32,20 +32,6 @@ impl Sphere {
         };
         let in_range = |t: &f32| ray.range.contains(*t);
         let t = polynomial.roots()?.into_iter().find(in_range)?;
-        Some(self.trace(ray, t))
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        }
+        Some(self.trace_at(ray, t))
     }
 }

@@ -19,20 +19,6 @@ impl Sphere {
             .filter(|near| ray.range.contains(*near))
             .or(Some(middle + half_chord))
             .filter(|t| ray.range.contains(*t))?;
-        Some(self.trace(ray, t))
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        }
+        Some(self.trace_at(ray, t))
     }
 }

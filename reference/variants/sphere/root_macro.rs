@@ -5,7 +5,7 @@ macro_rules! return_if_in_range {
     ($sphere:expr, $ray:expr, $t:expr) => {
         let t = $t;
         if t >= $ray.range.min && t <= $ray.range.max {
-            return Some($sphere.trace($ray, t));
+            return Some($sphere.trace_at($ray, t));
         }
     };
 }
@@ -22,19 +22,5 @@ impl Sphere {
             return_if_in_range!(self, ray, (-b + discriminant.sqrt()) / (2.0 * a));
         }
         None
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        }
     }
 }

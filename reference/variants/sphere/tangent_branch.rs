@@ -20,20 +20,6 @@ impl Sphere {
             let near = Some(near).filter(|t| ray.range.contains(*t));
             near.or_else(|| Some(far).filter(|t| ray.range.contains(*t)))
         };
-        t.map(|t| self.trace(ray, t))
-    }
-
-    /// Returns the trace for the hit at distance `t`.
-    fn trace(&self, ray: &Ray, t: f32) -> Trace {
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        }
+        t.map(|t| self.trace_at(ray, t))
     }
 }

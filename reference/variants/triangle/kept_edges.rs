@@ -48,19 +48,6 @@ impl Triangle {
         let s_x_d = s.cross(ray.dir);
         let u = self.e2.dot(s_x_d) * inverse;
         let v = -self.e1.dot(s_x_d) * inverse;
-        (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| self.trace(ray, t, u, v))
-    }
-
-    /// Returns the trace for the hit at distance `t`, where p1 has the weight `u` and p2 has `v`.
-    fn trace(&self, ray: &Ray, t: f32, u: f32, v: f32) -> Trace {
-        let w = 1.0 - u - v;
-        Trace {
-            distance: t,
-            position: ray.at(t),
-            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
-            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
-            origin: ray.origin,
-            material: self.material,
-        }
+        (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| self.trace_at(ray, t, u, v))
     }
 }

@@ -1,12 +1,10 @@
 //! Variants: known correct solutions that differ from the reference. With the given code of the
-//! reference's `STEM.rs`, each file `reference/variants/STEM/NAME.rs` replaces that file. A variant
-//! whose files use each other is a folder `reference/variants/STEM/NAME` of several such files.
+//! reference's `STEM.rs`, a variant's files in `reference/variants/STEM` replace that file.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use grader::files::{self, PathError};
 use judging::assignment::{Assignment, Task};
-use projection::{GivenCodeError, given_code};
+use projection::{GivenCodeError, ReadError, replacements};
 use serde::Deserialize;
 
 use crate::solutions::sources::Sources;
@@ -30,9 +28,11 @@ pub struct Variant {
     /// builder that does not use the surface area heuristic.
     #[serde(default)]
     pub may_lose: Vec<String>,
-    /// The names of the files that it replaces, if it is a folder of several.
+    /// The paths of its parts, relative to the folder of the variants and without `.rs`. Their first
+    /// components are the stems of the files that it replaces. Empty if it is one file, named as its
+    /// id says.
     #[serde(default)]
-    pub files: Vec<String>,
+    pub parts: Vec<String>,
     /// The crates that it uses although submissions may not.
     #[serde(default)]
     pub crates: Vec<String>,
@@ -41,14 +41,14 @@ pub struct Variant {
 /// The reason why a variant cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum VariantError {
-    /// Its file cannot be read.
+    /// One of its files cannot be read.
     #[error(transparent)]
-    File(#[from] PathError),
+    File(#[from] ReadError),
     /// It cannot be completed with given code.
-    #[error("{}: {source}", path.display())]
+    #[error("the variant {id}: {source}")]
     GivenCode {
-        /// The path of the variant.
-        path: PathBuf,
+        /// The id of the variant.
+        id: String,
         /// The reason.
         source: GivenCodeError,
     },
@@ -73,34 +73,29 @@ impl Variant {
         format!("{}.rs", self.id.split('.').next().unwrap_or_default())
     }
 
-    /// Returns the names of the task files that it replaces, each with the path of its file,
-    /// relative to the workspace's root.
-    fn files(&self) -> Vec<(String, PathBuf)> {
-        let path = Path::new(FOLDER).join(self.id.replace('.', "/"));
-        if self.files.is_empty() {
-            return vec![(self.file(), path.with_extension("rs"))];
-        }
-        let files = self.files.iter();
-        files.map(|file| (file.clone(), path.join(file))).collect()
-    }
-
     /// Returns the tasks of the assignment that its files solve.
     pub fn tasks(&self, assignment: &Assignment) -> Vec<Task> {
-        let files = self.files().into_iter();
-        files
-            .flat_map(|(file, _)| assignment.tasks_in(&file).collect::<Vec<_>>())
-            .collect()
+        let parts = self.parts.iter().filter_map(|part| part.split_once('/'));
+        let mut files: Vec<String> = parts.map(|(stem, _)| format!("{stem}.rs")).collect();
+        files.push(self.file());
+        files.sort();
+        files.dedup();
+        let tasks = files.iter().flat_map(|file| assignment.tasks_in(file));
+        tasks.collect()
     }
 
     /// Returns the reference with the task files replaced by this variant and its given code.
     pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, VariantError> {
         let mut sources = reference.clone();
-        for (file, path) in self.files() {
-            let path = root.join(path);
-            let own = files::read_to_string(&path)?;
-            let given = given_code(reference.text(&file).unwrap_or_default(), &own)
-                .map_err(|source| VariantError::GivenCode { path, source })?;
-            sources = sources.with_file(&file, format!("{own}\n{given}"));
+        for replacement in replacements(&root.join(FOLDER), &self.id, &self.parts)? {
+            let file = format!("{}.rs", replacement.stem);
+            let text = replacement
+                .complete(reference.text(&file).unwrap_or_default())
+                .map_err(|source| VariantError::GivenCode {
+                    id: self.id.clone(),
+                    source,
+                })?;
+            sources = sources.with_file(&file, text);
         }
         Ok(sources.with_crates(&self.crates))
     }

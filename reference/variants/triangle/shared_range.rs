@@ -15,13 +15,6 @@ impl Triangle {
         let u = point.cross(p2 - p0).dot(normal) / normal.length_squared();
         let v = (p1 - p0).cross(point).dot(normal) / normal.length_squared();
         let w = 1.0 - u - v;
-        (u >= 0.0 && v >= 0.0 && w >= 0.0).then(|| Trace {
-            distance: t,
-            position: ray.at(t),
-            normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
-            uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
-            origin: ray.origin,
-            material: self.material,
-        })
+        (u >= 0.0 && v >= 0.0 && w >= 0.0).then(|| self.trace_at(ray, t, u, v))
     }
 }

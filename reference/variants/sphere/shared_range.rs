@@ -16,15 +16,6 @@ impl Sphere {
             return None;
         }
         let t = first_in_range(ray, [-b - discriminant.sqrt(), -b + discriminant.sqrt()])?;
-        let position = ray.at(t);
-        let normal = (position - self.center).normalize();
-        Some(Trace {
-            distance: t,
-            position,
-            normal,
-            uv: Sphere::uv(normal),
-            origin: ray.origin,
-            material: self.material,
-        })
+        Some(self.trace_at(ray, t))
     }
 }

@@ -68,7 +68,7 @@ fn finds_an_inserted_secret_of_each_kind() {
         ),
         (
             "reference/variants/",
-            line_with("reference/variants/bvh/median.rs", "total_cmp"),
+            line_with("reference/variants/bvh/build/median.rs", "total_cmp"),
         ),
         (
             "reference/substitution/bvh/bvh.rs",

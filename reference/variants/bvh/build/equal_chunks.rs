@@ -1,0 +1,32 @@
+// Builds the tree with up to 64 chunks of equal numbers of primitives, in the order of their
+// centres, instead of slices of equal width.
+
+impl Bvh {
+    pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
+        build_top_down(primitives, max_leaf_size, |primitives| {
+            let chunk = primitives.len().div_ceil(CHUNKS);
+            split_sorted(primitives, |sorted| {
+                let chunks: Vec<BBox> = sorted.chunks(chunk).map(bounds_of).collect();
+                let cost = |i: usize| {
+                    let first = i * chunk;
+                    let second = sorted.len() - first;
+                    let cost =
+                        area(&chunks[..i]) * first as f32 + area(&chunks[i..]) * second as f32;
+                    (first, cost)
+                };
+                (1..chunks.len()).map(cost).collect()
+            })
+        })
+    }
+}
+
+/// The number of chunks along each axis.
+const CHUNKS: usize = 64;
+
+fn area(boxes: &[BBox]) -> f32 {
+    let mut all = BBox::EMPTY;
+    for bbox in boxes {
+        all.enclose(*bbox);
+    }
+    all.surface_area()
+}

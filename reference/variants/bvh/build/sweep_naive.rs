@@ -1,0 +1,22 @@
+// Compares every partition of the sorted centres, axis by axis, and computes both boxes from
+// scratch for each. This takes quadratic time, but is as simple as possible.
+
+impl Bvh {
+    pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
+        build_top_down(primitives, max_leaf_size, |primitives| {
+            split_sorted(primitives, |sorted| {
+                let boxes: Vec<BBox> = sorted.iter().map(Primitive::bbox).collect();
+                let cost = |first: usize| cost(&boxes[..first]) + cost(&boxes[first..]);
+                (1..boxes.len()).map(|first| (first, cost(first))).collect()
+            })
+        })
+    }
+}
+
+fn cost(side: &[BBox]) -> f32 {
+    let mut all = BBox::EMPTY;
+    for bbox in side {
+        all.enclose(*bbox);
+    }
+    all.surface_area() * side.len() as f32
+}

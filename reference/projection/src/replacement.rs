@@ -75,7 +75,7 @@ impl Replacement {
 
     /// Adds the shared files that the code uses, also those that only shared files use.
     fn add_shared_files(&mut self, folder: &Path) -> Result<(), ReadError> {
-        let mut unused = names(folder, &Path::new(&self.stem).join("shared"))?;
+        let mut unused = names(folder, &Path::new(&self.stem).join("shared"));
         let is_used = |code: &str, path: &Path| {
             let name = path.file_stem().and_then(|name| name.to_str());
             name.is_some_and(|name| uses(code, name))
@@ -98,33 +98,22 @@ fn uses(code: &str, name: &str) -> bool {
 }
 
 /// Returns the paths of the files in a subfolder, sorted, or none if there is no such folder.
-fn names(folder: &Path, subfolder: &Path) -> Result<Vec<PathBuf>, ReadError> {
-    let path = folder.join(subfolder);
-    if !path.is_dir() {
-        return Ok(Vec::new());
-    }
-    let list = || {
-        let entries = fs::read_dir(&path)?;
-        let names = entries.map(|entry| Ok(subfolder.join(entry?.file_name())));
-        names.collect::<Result<Vec<PathBuf>, io::Error>>()
-    };
-    let mut names = list().map_err(|source| ReadError {
-        path: path.clone(),
-        source,
-    })?;
-    names.sort();
-    Ok(names)
+fn names(folder: &Path, subfolder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder.join(subfolder)).into_iter().flatten();
+    let names = entries.flatten().map(|entry| entry.file_name());
+    let mut paths: Vec<PathBuf> = names.map(|name| subfolder.join(name)).collect();
+    paths.sort();
+    paths
 }
 
 fn read(folder: &Path, path: PathBuf) -> Result<(PathBuf, String), ReadError> {
     let full_path = folder.join(&path);
-    match fs::read_to_string(&full_path) {
-        Ok(text) => Ok((path, text)),
-        Err(source) => Err(ReadError {
-            path: full_path,
-            source,
-        }),
-    }
+    let text = fs::read_to_string(&full_path);
+    let path_of_error = |source| ReadError {
+        path: full_path,
+        source,
+    };
+    Ok((path, text.map_err(path_of_error)?))
 }
 
 #[cfg(test)]

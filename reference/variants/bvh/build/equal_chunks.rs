@@ -10,9 +10,8 @@ impl Bvh {
                 let cost = |i: usize| {
                     let first = i * chunk;
                     let second = sorted.len() - first;
-                    let cost =
-                        area(&chunks[..i]) * first as f32 + area(&chunks[i..]) * second as f32;
-                    (first, cost)
+                    let (left, right) = (area_around(&chunks[..i]), area_around(&chunks[i..]));
+                    (first, left * first as f32 + right * second as f32)
                 };
                 (1..chunks.len()).map(cost).collect()
             })
@@ -22,11 +21,3 @@ impl Bvh {
 
 /// The number of chunks along each axis.
 const CHUNKS: usize = 64;
-
-fn area(boxes: &[BBox]) -> f32 {
-    let mut all = BBox::EMPTY;
-    for bbox in boxes {
-        all.enclose(*bbox);
-    }
-    all.surface_area()
-}

@@ -29,15 +29,8 @@ impl Bvh {
 
 fn cheapest_halves(primitives: Vec<Primitive>) -> (Vec<Primitive>, Vec<Primitive>) {
     let splits = (0..3).flat_map(|axis| {
-        let sorted = sorted(&primitives, axis);
-        let left = costs(sorted.iter());
-        let right: Vec<f32> = costs(sorted.iter().rev());
-        let right = right.into_iter().rev().skip(1);
-        let costs = left
-            .into_iter()
-            .zip(right)
-            .map(|(left, right)| left + right);
-        (1..).zip(costs).map(move |(size, cost)| (cost, axis, size))
+        let costs = sweep_costs(&sorted(&primitives, axis)).into_iter();
+        costs.map(move |(size, cost)| (cost, axis, size))
     });
     let cheapest = splits.min_by(|a, b| a.0.total_cmp(&b.0));
     let (axis, size) = cheapest.map_or((0, 1), |(_, axis, size)| (axis, size));
@@ -48,17 +41,6 @@ fn cheapest_halves(primitives: Vec<Primitive>) -> (Vec<Primitive>, Vec<Primitive
 
 fn sorted(primitives: &[Primitive], axis: usize) -> Vec<Primitive> {
     let mut sorted = primitives.to_vec();
-    let center = |primitive: &Primitive| primitive.bbox().center()[axis];
-    sorted.sort_by(|a, b| center(a).total_cmp(&center(b)));
+    sort_along(&mut sorted, axis);
     sorted
-}
-
-/// Returns the cost of the first n primitives, for each n from 1.
-fn costs<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Vec<f32> {
-    let boxes = primitives.scan(BBox::EMPTY, |all, primitive| {
-        all.enclose(primitive.bbox());
-        Some(all.surface_area())
-    });
-    let sizes = (1..).map(|size: u32| size as f32);
-    boxes.zip(sizes).map(|(area, size)| area * size).collect()
 }

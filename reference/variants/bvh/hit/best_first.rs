@@ -19,11 +19,8 @@ impl Bvh {
                 self.test_leaf(node, &mut ray, &mut closest);
             } else {
                 let children = [node.l, node.r].map(|index| &self.nodes[index]);
-                open.extend(
-                    children
-                        .into_iter()
-                        .filter_map(|child| OpenNode::new(child, &ray)),
-                );
+                let children = children.into_iter();
+                open.extend(children.filter_map(|child| OpenNode::new(child, &ray)));
             }
         }
         closest

@@ -26,10 +26,8 @@ impl Bvh {
 
         let mut children = [node.l, node.r].map(|index| {
             let child = &self.nodes[index];
-            (
-                child,
-                child.bbox.hit(ray, ray.range).map(|inside| inside.min),
-            )
+            let inside = child.bbox.hit(ray, ray.range);
+            (child, inside.map(|inside| inside.min))
         });
         if let [(_, Some(l)), (_, Some(r))] = children
             && r < l

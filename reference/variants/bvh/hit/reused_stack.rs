@@ -25,12 +25,7 @@ impl Bvh {
                 continue;
             }
             if node.is_leaf() {
-                for primitive in &self.primitives[node.start..node.start + node.size] {
-                    if let Some(trace) = primitive.hit(&ray) {
-                        ray.range.max = trace.distance;
-                        closest = Some(trace);
-                    }
-                }
+                self.test_leaf(node, &mut ray, &mut closest);
                 continue;
             }
             let entry = |child: usize| Some(self.nodes[child].bbox.hit(&ray, ray.range)?.min);

@@ -26,11 +26,8 @@ impl Bvh {
         let mut end = ray.range.max;
         let mut open = Vec::new();
         if let Some(root) = self.nodes.get(self.root) {
-            open.extend(
-                root.bbox
-                    .hit(ray, ray.range)
-                    .map(|inside| (inside.min, root)),
-            );
+            let inside = root.bbox.hit(ray, ray.range);
+            open.extend(inside.map(|inside| (inside.min, root)));
         }
         while let Some((entry, node)) = open.pop() {
             if entry > end {

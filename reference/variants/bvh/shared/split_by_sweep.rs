@@ -1,26 +1,5 @@
 /// Sorts the primitives along the axis of the cheapest of all splits; returns the size of the left
 /// side.
 fn split_by_sweep(primitives: &mut [Primitive]) -> usize {
-    split_sorted(primitives, |sorted| {
-        let left = areas(sorted.iter());
-        let mut right = areas(sorted.iter().rev());
-        right.reverse();
-        let cost = |first: usize| {
-            let second = sorted.len() - first;
-            left[first] * first as f32 + right[first] * second as f32
-        };
-        (1..sorted.len())
-            .map(|first| (first, cost(first)))
-            .collect()
-    })
-}
-
-/// Returns the area of the box around the first n primitives, for each n from 0.
-fn areas<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Vec<f32> {
-    let mut bbox = BBox::EMPTY;
-    let boxes = primitives.map(|primitive| {
-        bbox.enclose(primitive.bbox());
-        bbox.surface_area()
-    });
-    std::iter::once(0.0).chain(boxes).collect()
+    split_sorted(primitives, sweep_costs)
 }

@@ -27,7 +27,7 @@ pub struct UsedLists {
     pub files: ListFiles,
     /// The lists to keep.
     pub kept: KeptLists,
-    /// What staff should know, in sentences.
+    /// Sentences for staff.
     pub notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
 }

@@ -11,7 +11,7 @@ use crate::table::TableError;
 /// The maximum length of a name in a message, in characters.
 const MAX_CHARS: usize = 200;
 
-/// What the lists say about a class.
+/// The facts that the lists contain about a class.
 #[derive(Debug, Default)]
 pub struct ListFindings {
     /// The people on the lists who belong to no entry.

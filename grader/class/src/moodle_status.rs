@@ -27,7 +27,7 @@ const EXTENSION: &str = "Extension granted until:";
 const LATE: &str = " late";
 const OVERDUE: &str = "Assignment is overdue by:";
 
-/// What a status says about a submission.
+/// The meaning of a status for a submission.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MoodleStatus<'a> {
     /// Whether the submission is late.

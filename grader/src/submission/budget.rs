@@ -18,7 +18,7 @@ const MAX_COPIES: usize = 200;
 /// The maximum number of bytes that are read from archives, compressed and inflated.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// What a submission may have only so many of.
+/// A limited quantity of a submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// Files and folders, in folders and in archives.
@@ -55,7 +55,7 @@ impl fmt::Display for Limit {
     }
 }
 
-/// What may still be read.
+/// The amounts that may still be read of a submission.
 #[derive(Debug)]
 pub(super) struct Budget {
     files: Cell<usize>,

@@ -1,4 +1,4 @@
-//! What a search in the folders and archives of a submission has found.
+//! The results of a search in the folders and archives of a submission.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::handed_out::HandedOut;
 pub(super) struct Search {
     /// The path of the submission, for messages.
     pub(super) submission: PathBuf,
-    /// What may still be read.
+    /// The rest of the budget.
     pub(super) budget: Budget,
     /// The folders that have task files, on disk or in an archive.
     pub(super) candidates: Vec<Candidate>,

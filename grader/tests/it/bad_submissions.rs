@@ -24,10 +24,10 @@ fn a_renamed_file_counts_as_missing_and_is_noted() {
     let submission = Submission::reference("renamed").without("sphere.rs");
     let graded = submission.with("sphere_final.rs", text).grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    let note = &graded.score()["build"]["notes"][0];
+    let note = &graded.score()["build"]["ignored_copies"][0];
     assert_eq!(
         note,
-        "sphere_final.rs is not one of the task files: ignored"
+        "sphere_final.rs is not graded, since its name is not sphere.rs: this costs 15 points"
     );
 }
 

@@ -43,7 +43,7 @@ submit() {
 unfinished() {
     local part parts=()
     for ((part = 1; part <= SHARDS; part++)); do
-        grep -qs '"finished": true' "$OUT/shards/$part/run.json" || parts+=("$part")
+        grep -qs '"state": "finished"' "$OUT/shards/$part/run.json" || parts+=("$part")
     done
     local IFS=,
     echo "${parts[*]}"

@@ -5,9 +5,10 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::error::Error;
 use crate::final_grades::GradeChanges;
 use crate::outcome::{EntryResult, ItemScore, ScoreSummary, id_and_names};
-use crate::store::{Store, StoreError};
+use crate::store::Store;
 
 /// The differences from earlier runs.
 #[derive(Clone, Debug, Default)]
@@ -53,7 +54,7 @@ impl fmt::Display for RemovedEntry {
 }
 
 /// Returns the scores that changed because their submission did.
-pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, StoreError> {
+pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, Error> {
     let mut drifts = Vec::new();
     for result in results {
         let was = store.replaced_score(&result.id)?;
@@ -63,7 +64,7 @@ pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Dr
 }
 
 /// Returns the entries in the store that are not among `ids`.
-pub fn find_removed(store: &Store, ids: &[&str]) -> Result<Vec<RemovedEntry>, StoreError> {
+pub fn find_removed(store: &Store, ids: &[&str]) -> Result<Vec<RemovedEntry>, Error> {
     let mut removed = Vec::new();
     for id in store.ids()? {
         if ids.contains(&id.as_str()) {

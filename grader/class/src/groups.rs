@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
+use crate::error::Error;
 use crate::names::are_equal;
 use crate::roster::{self, Member};
-use crate::table::TableError;
 
 /// Gives an entry that is named after a group, and matches nobody, to the members of the group: those
 /// in the roster or, if it does not have the group, in another list. Returns whether there are any.
@@ -15,7 +15,7 @@ pub fn resolve_teams(
     lists: &Lists,
     rows: &[Member],
     entries: &mut [&mut EntryInfo],
-) -> Result<bool, TableError> {
+) -> Result<bool, Error> {
     let roster = match &lists.roster {
         Some(path) => roster::read_members(path)?,
         None => Vec::new(),
@@ -67,10 +67,7 @@ pub fn remove_repetitions(people: &mut Vec<Person>) {
 
 /// Adds the other members of a group to the entry of the member who submitted, except those who
 /// made a submission of their own. Returns whether there are any.
-pub fn add_group_members(
-    lists: &Lists,
-    entries: &mut [&mut EntryInfo],
-) -> Result<bool, TableError> {
+pub fn add_group_members(lists: &Lists, entries: &mut [&mut EntryInfo]) -> Result<bool, Error> {
     let Some(path) = &lists.roster else {
         return Ok(false);
     };

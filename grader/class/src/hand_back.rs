@@ -15,8 +15,9 @@ use zip::ZipWriter;
 
 use crate::archive;
 use crate::entry::{NUMBER, Person, WHO};
+use crate::error::Error;
 use crate::model::{ClassRow, GradedClass, PersonGrade};
-use crate::store::{Store, StoreError};
+use crate::store::Store;
 
 /// The name of the archive in the output folder.
 pub const ARCHIVE: &str = "hand-back.zip";
@@ -38,20 +39,9 @@ pub struct HandBack {
     pub left_out: Vec<String>,
 }
 
-/// A reason why the archive cannot be made.
-#[derive(Debug, thiserror::Error)]
-pub enum HandBackError {
-    /// A page cannot be read.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// The archive cannot be written, for example because it would be too large.
-    #[error("cannot write {ARCHIVE}: {0}")]
-    Archive(#[from] io::Error),
-}
-
 /// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left
 /// out.
-pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, HandBackError> {
+pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> {
     let mut files = Files::new();
     let mut left_out = Vec::new();
     for row in &class.rows {
@@ -78,25 +68,35 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, HandBac
                     }
                     let name = name.replace(NUMBER, person.own_number());
                     let own = with_counted(&page, &own_texts(row, person, grade));
-                    files.add_as(&name, &file_name(person), &own)?;
+                    let added = files.add_as(&name, &file_name(person), &own);
+                    added.map_err(cannot_write)?;
                 }
             }
             // The platform passes the page on to the members of a group.
-            Some(name) => files.add_as(name, &safe_folder_name(&names(&ready)), &page)?,
+            Some(name) => {
+                let added = files.add_as(name, &safe_folder_name(&names(&ready)), &page);
+                added.map_err(cannot_write)?;
+            }
             None => {
                 for (person, grade) in ready {
                     let own = with_counted(&page, &own_texts(row, person, grade));
-                    files.add(&format!("{}_{PAGE}", file_name(person)), own.as_bytes())?;
+                    let added = files.add(&format!("{}_{PAGE}", file_name(person)), own.as_bytes());
+                    added.map_err(cannot_write)?;
                 }
             }
         }
     }
     let pages = files.used.len();
     Ok(HandBack {
-        archive: files.finish()?,
+        archive: files.finish().map_err(cannot_write)?,
         pages,
         left_out,
     })
+}
+
+/// Returns the error of an archive that would be too large, for example.
+fn cannot_write(error: io::Error) -> Error {
+    Error::Machine(format!("cannot write {ARCHIVE}: {error}"))
 }
 
 fn names(people: &[(&Person, &PersonGrade)]) -> String {

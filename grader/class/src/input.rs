@@ -8,14 +8,17 @@ use grader::build::build_dir::{BuildDir, remove_abandoned};
 use grader::files::{self, AtPath};
 use grader::handed_out::HandedOut;
 use grader::submission::{Submission, SubmissionError, listed, places};
-use judging::sanitize::sanitize;
+use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::entry::{Entry, Source};
-use crate::input_error::ClassInputError;
+use crate::error::Error;
 use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
 use crate::listing::{Node, hidden_names, list_folder};
 use crate::roster::Member;
 use crate::unpack::{CLASS_FOLDER, unpack};
+
+/// The maximum length of a reason that has names, in characters.
+const MAX_CHARS: usize = 600;
 
 /// The submissions of a class, before their files are read. If they were unpacked from an archive,
 /// dropping this value deletes the unpacked files.
@@ -36,24 +39,30 @@ impl Input {
         parent: &Path,
         handed_out: &'static HandedOut,
         known: &[Member],
-    ) -> Result<Self, ClassInputError> {
+    ) -> Result<Self, Error> {
         remove_abandoned(parent);
         let unpacked = match fs::metadata(path) {
-            Err(_) => return Err(ClassInputError::NotFound(path.to_owned())),
+            Err(_) => {
+                return Err(Error::User(format!(
+                    "{} does not exist: pass the folder or archive that you downloaded from the \
+                     platform",
+                    path.display()
+                )));
+            }
             Ok(kind) if kind.is_dir() => None,
             Ok(_) => Some(unpack(path, parent, handed_out)?),
         };
         let folder = match &unpacked {
             Some(unpacked) => unpacked.build_dir.path().join(CLASS_FOLDER),
-            None => path.canonicalize().at("read", path)?,
+            None => path.canonicalize().at("read", path).map_err(Error::user)?,
         };
-        let listed = list_folder(&folder)?;
+        let listed = list_folder(&folder).map_err(Error::user)?;
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
         let (root, note) = layout::find_class_folder(&listed, archive);
         let root = root.clone();
         let metadata = root.find(METADATA).map(|node| files::read(&node.path));
-        let metadata = metadata.transpose()?;
+        let metadata = metadata.transpose().map_err(Error::user)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         let mut class = layout::recognise(&root, metadata.as_deref(), handed_out, known)?;
         class.notes.extend(note);
@@ -62,7 +71,7 @@ impl Input {
             reject_incomplete(&mut class, &folder, unpacked.incomplete);
             unpacked.build_dir
         });
-        let hidden = hidden_names(&root.path)?;
+        let hidden = hidden_names(&root.path).map_err(Error::user)?;
         class
             .unmatched
             .extend(hidden.into_iter().map(|name| UnmatchedPath {
@@ -77,11 +86,23 @@ impl Input {
             class.mixtures.first().filter(|_| is_most).cloned()
         };
         if let Some(why) = of_several {
-            let path = path.to_owned();
-            return Err(ClassInputError::SeveralPeople { path, why });
+            let unpack = if path.is_dir() {
+                ""
+            } else {
+                "; unpack the archive first"
+            };
+            return Err(Error::User(format!(
+                "{} cannot be read as a class: {}{unpack}",
+                path.display(),
+                sanitize_line(&why, MAX_CHARS)
+            )));
         }
         if class.entries.is_empty() {
-            return Err(ClassInputError::NoSubmissions(path.to_owned()));
+            return Err(Error::User(format!(
+                "{} contains no submissions: pass the folder of a class; to grade a single \
+                 submission, use `cargo grade`",
+                path.display()
+            )));
         }
         Ok(Input {
             class,

@@ -12,7 +12,7 @@
 //! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
 //! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
 //! | results | [`drift`], [`final_grades`], [`list_memory`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`input_error`], [`unpack`], [`layout`], [`listing`], [`lists`], [`list_kind`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`names`], [`shard`], [`paths`], [`archive`] |
+//! | input | [`input`], [`unpack`], [`layout`], [`listing`], [`lists`], [`list_kind`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`names`], [`shard`], [`paths`], [`archive`], [`cli`], [`error`] |
 
 pub mod archive;
 pub mod attempts;
@@ -30,7 +30,6 @@ pub mod groups;
 pub mod hand_back;
 pub mod identity;
 pub mod input;
-pub mod input_error;
 pub mod late;
 pub mod layout;
 pub mod list_kind;

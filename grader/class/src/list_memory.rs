@@ -7,15 +7,16 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use grader::files::{self, PathError};
-use grader::policy::{Policy, PolicyError};
+use grader::files;
+use grader::policy::Policy;
 use grader::printing::print_error_line;
 use judging::content_hash::file_hash;
 use judging::sanitize::sanitize_line;
 
 use crate::cli::Lists;
+use crate::error::Error;
 use crate::list_kind::{KeptList, KeptLists, ListKind};
-use crate::store::{Store, StoreError};
+use crate::store::Store;
 
 /// The folder of the copies, in the output folder.
 const FOLDER: &str = "lists";
@@ -30,47 +31,6 @@ pub struct UsedLists {
     /// Sentences for staff.
     pub notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
-}
-
-/// An error that prevents a list from being used.
-#[derive(Debug, thiserror::Error)]
-pub enum ListMemoryError {
-    /// A file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The policy cannot be read.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
-    /// Two shards were graded with different lists.
-    #[error(
-        "{} and {} were not graded with the same list: {title} differs, or only one has it; choose \
-         one with --{name}, or none with --drop-list {name}",
-        one.display(), other.display()
-    )]
-    DifferentParts {
-        /// The output folder of one shard.
-        one: PathBuf,
-        /// The output folder of the other shard.
-        other: PathBuf,
-        /// The list's title.
-        title: &'static str,
-        /// The list's name on the command line.
-        name: &'static str,
-    },
-    /// The copy of a list that an earlier run was given cannot be used.
-    #[error(
-        "{} is missing or has changed, and {title} of the last run is still needed: pass it again \
-         with --{name}, or drop it with --drop-list {name}",
-        path.display()
-    )]
-    Copy {
-        /// The path of the copy.
-        path: PathBuf,
-        /// The list's title.
-        title: &'static str,
-        /// The list's name on the command line.
-        name: &'static str,
-    },
 }
 
 /// An output folder and the lists in it.
@@ -124,11 +84,7 @@ impl ListFiles {
 impl UsedLists {
     /// Chooses each list: the one on the command line or else, unless it is dropped, the one that
     /// the output folder has, or else the one that all merged parts were graded with.
-    pub fn choose(
-        given: ListFiles,
-        out: Option<KeptIn>,
-        parts: &[KeptIn],
-    ) -> Result<Self, ListMemoryError> {
+    pub fn choose(given: ListFiles, out: Option<KeptIn>, parts: &[KeptIn]) -> Result<Self, Error> {
         let mut used = UsedLists {
             files: given,
             ..UsedLists::default()
@@ -144,7 +100,7 @@ impl UsedLists {
         kind: ListKind,
         out: Option<KeptIn>,
         parts: &[KeptIn],
-    ) -> Result<(), ListMemoryError> {
+    ) -> Result<(), Error> {
         let (name, title) = (kind.name(), kind.title());
         let last = out.and_then(|out| Some((out.folder, out.lists.get(&kind)?)));
         if let Some(path) = self.files.get(kind) {
@@ -187,8 +143,16 @@ impl UsedLists {
         let path = copy_path(folder, kind, &list);
         let bytes = match files::read(&path) {
             Ok(bytes) if file_hash(&bytes) == list.hash => bytes,
-            Err(error) if error.source.kind() != ErrorKind::NotFound => return Err(error.into()),
-            Ok(_) | Err(_) => return Err(ListMemoryError::Copy { path, title, name }),
+            Err(error) if error.source.kind() != ErrorKind::NotFound => {
+                return Err(Error::user(error));
+            }
+            Ok(_) | Err(_) => {
+                let path = path.display();
+                return Err(Error::User(format!(
+                    "{path} is missing or has changed, and {title} of the last run is still \
+                     needed: pass it again with --{name}, or drop it with --drop-list {name}"
+                )));
+            }
         };
         let of = if list.is_of_parts {
             "parts"
@@ -215,7 +179,7 @@ impl UsedLists {
 
     /// Writes the copies into an output folder. Their names have the hash, so that those of the last
     /// run stay until `run.json` no longer names them.
-    pub fn save(&self, store: &Store) -> Result<(), StoreError> {
+    pub fn save(&self, store: &Store) -> Result<(), Error> {
         for (kind, list) in &self.kept {
             let path = copy_path(store.folder(), *kind, list);
             if files::read(&path).is_ok_and(|bytes| bytes == self.copies[kind]) {
@@ -228,7 +192,7 @@ impl UsedLists {
     }
 
     /// Removes copies that `run.json` does not name, and what a killed run has left.
-    pub fn remove_others(&self, store: &Store) -> Result<(), StoreError> {
+    pub fn remove_others(&self, store: &Store) -> Result<(), Error> {
         let kept = self.kept.iter();
         let kept: Vec<PathBuf> = kept
             .map(|(kind, list)| copy_path(store.folder(), *kind, list))
@@ -253,7 +217,7 @@ impl UsedLists {
 fn one_of_parts<'a>(
     kind: ListKind,
     parts: &[KeptIn<'a>],
-) -> Result<Option<(&'a Path, &'a KeptList)>, ListMemoryError> {
+) -> Result<Option<(&'a Path, &'a KeptList)>, Error> {
     let Some(first) = parts.first() else {
         return Ok(None);
     };
@@ -263,12 +227,14 @@ fn one_of_parts<'a>(
         (one, other) => one.is_some() != other.is_some(),
     };
     match parts.iter().find(is_other) {
-        Some(other) => Err(ListMemoryError::DifferentParts {
-            one: first.folder.to_owned(),
-            other: other.folder.to_owned(),
-            title: kind.title(),
-            name: kind.name(),
-        }),
+        Some(other) => {
+            let (one, other) = (first.folder.display(), other.folder.display());
+            let (name, title) = (kind.name(), kind.title());
+            Err(Error::User(format!(
+                "{one} and {other} were not graded with the same list: {title} differs, or only \
+                 one has it; choose one with --{name}, or none with --drop-list {name}"
+            )))
+        }
         None => Ok(list.map(|list| (first.folder, list))),
     }
 }
@@ -282,10 +248,10 @@ fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
         .join(format!("{}-{hash}.{extension}", kind.name()))
 }
 
-fn read(kind: ListKind, path: &Path) -> Result<Vec<u8>, ListMemoryError> {
+fn read(kind: ListKind, path: &Path) -> Result<Vec<u8>, Error> {
     if kind == ListKind::Policy {
         Ok(Policy::read_text(path)?.into_bytes())
     } else {
-        Ok(files::read(path)?)
+        files::read(path).map_err(Error::user)
     }
 }

@@ -6,13 +6,11 @@ use std::path::{Path, PathBuf};
 
 use grader::disk::{self, Operation};
 use grader::files::{self, AtPath, PathError};
-use grader::submission::is_archive_name;
+use grader::submission::{is_archive_name, is_skipped_name};
 
 /// The number of levels of subfolders that are listed: enough for a student's project in a folder for
 /// each student, in one for each tutorial.
 const MAX_DEPTH: usize = 5;
-/// The names of folders that are skipped: they contain nothing that a student has written.
-const SKIPPED: [&str; 3] = ["__MACOSX", "target", "node_modules"];
 
 /// A file, a folder, or a link to a file or folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,7 +77,7 @@ fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        if name.starts_with('.') || SKIPPED.contains(&name.as_str()) {
+        if name.starts_with('.') || is_skipped_name(&name) {
             continue;
         }
         let kind = entry.file_type()?;

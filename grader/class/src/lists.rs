@@ -4,9 +4,9 @@ use judging::sanitize::sanitize_line;
 
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
+use crate::error::Error;
 use crate::groups;
 use crate::roster::{self, Member};
-use crate::table::TableError;
 
 /// The maximum length of a name in a message, in characters.
 const MAX_CHARS: usize = 200;
@@ -22,26 +22,12 @@ pub struct ListFindings {
     unlisted: Vec<String>,
 }
 
-/// A class in which most entries match nobody on the lists: they may be another class's, or the
-/// names may have been misread.
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "{unlisted} of {all} submissions match nobody on the lists, such as {example:?}: check that the \
-     roster or gradebook is this class's, and that --dry-run shows the right names; if everything is \
-     right, add --accept-unlisted"
-)]
-pub struct UnlistedClassError {
-    unlisted: usize,
-    all: usize,
-    example: String,
-}
-
 /// Fills in what the lists know about the entries: first unknown identifiers, then the members of
 /// groups, and last the times of submission, since the time of any member counts.
 pub fn complete_entries(
     lists: &Lists,
     entries: &mut [&mut EntryInfo],
-) -> Result<ListFindings, TableError> {
+) -> Result<ListFindings, Error> {
     let rows = roster::read_lists(lists)?;
     if lists.moodle.is_some() {
         // Only this worksheet's status counts, not that of an earlier one.
@@ -71,15 +57,18 @@ pub fn complete_entries(
 }
 
 impl ListFindings {
-    /// Rejects a class of this many entries if more than half of them match nobody on the lists.
-    pub fn check(&self, lists: &Lists, all: usize) -> Result<(), UnlistedClassError> {
+    /// Rejects a class of this many entries if more than half of them match nobody on the lists: they
+    /// may be another class's, or the names may have been misread.
+    pub fn check(&self, lists: &Lists, all: usize) -> Result<(), Error> {
         match self.unlisted.first() {
             Some(example) if 2 * self.unlisted.len() > all && !lists.accept_unlisted => {
-                Err(UnlistedClassError {
-                    unlisted: self.unlisted.len(),
-                    all,
-                    example: sanitize_line(example, MAX_CHARS),
-                })
+                let unlisted = self.unlisted.len();
+                let example = sanitize_line(example, MAX_CHARS);
+                Err(Error::User(format!(
+                    "{unlisted} of {all} submissions match nobody on the lists, such as \
+                     {example:?}: check that the roster or gradebook is this class's, and that \
+                     --dry-run shows the right names; if everything is right, add --accept-unlisted"
+                )))
             }
             Some(_) | None => Ok(()),
         }

@@ -7,6 +7,7 @@ use class::cli::{Cli, Command};
 use class::error::Error;
 use class::grade::{Completion, grade_class};
 use class::merge::merge_shards;
+use grader::handed_out::RAYS;
 use grader::printing::{exit_with, print_error};
 use grader::sandbox;
 
@@ -27,7 +28,7 @@ fn main() -> ExitCode {
 
 fn run(cli: &Cli) -> Result<Completion, Error> {
     match &cli.command {
-        Some(Command::Merge(arguments)) => merge_shards(arguments),
+        Some(Command::Merge(arguments)) => merge_shards(arguments, &RAYS),
         None => grade_class(&cli.class, &cli.class.grading.resolve()),
     }
 }

@@ -2,17 +2,18 @@
 //! row for each student and task. They are kept separate from what was graded.
 
 use std::collections::BTreeMap;
-use std::fmt;
+use std::fmt::{self, Display};
 use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
 use serde::Serialize;
 
 use crate::entry::Person;
+use crate::error::Error;
 use crate::identity::person_ids;
 use crate::names::are_equal;
 use crate::outcome::EntryOutcome;
-use crate::table::{Table, TableError};
+use crate::table::Table;
 
 /// The columns of the file.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
@@ -43,37 +44,13 @@ pub struct ManualPointsList {
     all: Vec<ManualPoints>,
 }
 
-/// Problems with a file of manual points. Each names a row.
-#[derive(Debug, thiserror::Error)]
-pub enum ManualPointsError {
-    /// The table cannot be read.
-    #[error(transparent)]
-    Table(#[from] TableError),
-    /// A row is invalid.
-    #[error("{}, row {row}: {problem}", path.display())]
-    Row {
-        /// The path of the file.
-        path: PathBuf,
-        /// The row, as spreadsheets number it.
-        row: usize,
-        /// The problem, with a remedy.
-        problem: String,
-    },
-}
-
 impl ManualPointsList {
     /// Reads a file, and checks each row by itself.
-    pub fn read(path: &Path, handed_out: &HandedOut) -> Result<Self, ManualPointsError> {
+    pub fn read(path: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         let table = Table::read(path)?;
         let mut columns = [0; 5];
         for (index, name) in columns.iter_mut().zip(COLUMNS) {
-            *index = table
-                .column(name)
-                .ok_or_else(|| TableError::MissingColumn {
-                    path: path.to_owned(),
-                    column: name.to_owned(),
-                    remedy: REMEDY.to_owned(),
-                })?;
+            *index = table.require_column(path, name, REMEDY)?;
         }
         let mut list = ManualPointsList {
             path: path.to_owned(),
@@ -92,7 +69,7 @@ impl ManualPointsList {
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
     /// the same person and task. A person who is in several submissions is in the list once for
     /// each.
-    pub fn check_students(&self, people: &[&Person]) -> Result<(), ManualPointsError> {
+    pub fn check_students(&self, people: &[&Person]) -> Result<(), Error> {
         let ids = person_ids(people);
         let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
         for points in &self.all {
@@ -138,7 +115,7 @@ impl ManualPointsList {
         points: &[ManualPoints],
         outcome: &EntryOutcome,
         tasks: &BTreeMap<String, u32>,
-    ) -> Result<(), ManualPointsError> {
+    ) -> Result<(), Error> {
         for ManualPoints {
             row, task, delta, ..
         } in points
@@ -168,12 +145,8 @@ impl ManualPointsList {
         Ok(())
     }
 
-    fn error(&self, row: usize, problem: String) -> ManualPointsError {
-        ManualPointsError::Row {
-            path: self.path.clone(),
-            row,
-            problem,
-        }
+    fn error(&self, row: usize, problem: impl Display) -> Error {
+        Error::User(format!("{}, row {row}: {problem}", self.path.display()))
     }
 }
 
@@ -255,7 +228,7 @@ mod tests {
     }
 
     /// Returns the message from the name of the file on.
-    fn without_folder(error: &ManualPointsError) -> String {
+    fn without_folder(error: &Error) -> String {
         let text = error.to_string();
         text[text.find("manual.csv").unwrap()..].to_owned()
     }

@@ -17,19 +17,21 @@ pub struct EntryResult {
 }
 
 /// The outcome of grading an entry.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "state", content = "why", rename_all = "snake_case")]
 pub enum EntryOutcome {
-    /// The entry was graded.
-    Graded(Box<ScoreSummary>),
+    /// The entry was graded. A stamp is stored without the score, which is in `score.json`.
+    Graded(#[serde(skip)] Box<ScoreSummary>),
     /// There was nothing to grade, for this reason. The teacher decides how many points the
     /// submission gets.
+    #[serde(rename = "no_submission")]
     NothingToGrade(String),
     /// The grader or the machine failed, for this reason. The next run tries again.
     Fault(String),
 }
 
 /// The parts of `score.json` that the class's files need.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct ScoreSummary {
     /// The sum of the points of all tasks.
     pub points: u32,
@@ -99,27 +101,20 @@ pub struct Stamp {
     /// if there is no score.
     pub key: String,
     /// The round of the run in which the entry was graded.
-    #[serde(default)]
     pub round: u32,
     /// Information about the submission, such as its people.
     #[serde(rename = "about")]
     pub info: EntryInfo,
-    /// The outcome of grading the entry, without the score.
+    /// The outcome of grading the entry. Its score is empty until it is read.
     #[serde(flatten)]
-    pub state: EntryState,
+    pub outcome: EntryOutcome,
 }
 
-/// An outcome without the score, which is in `score.json`.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(tag = "state", content = "why", rename_all = "snake_case")]
-pub enum EntryState {
-    /// The entry was graded.
-    Graded,
-    /// There was nothing to grade, for this reason.
-    #[serde(rename = "no_submission")]
-    NothingToGrade(String),
-    /// The grader or the machine failed, for this reason.
-    Fault(String),
+impl Stamp {
+    /// Returns whether the entry was graded.
+    pub fn is_graded(&self) -> bool {
+        matches!(self.outcome, EntryOutcome::Graded(_))
+    }
 }
 
 impl ScoreSummary {

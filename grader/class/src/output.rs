@@ -1,22 +1,68 @@
 //! Writes the files of a graded class, and prints the summary.
 
+use grader::policy::Policy;
 use grader::printing::{print, print_line};
 
 use crate::cli::Lists;
 use crate::drift::Changes;
+use crate::entry::Person;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::hand_back::{ARCHIVE, hand_back};
-use crate::model::GradedClass;
+use crate::manual::ManualPointsList;
+use crate::model::{GradedClass, count_points};
+use crate::outcome::EntryResult;
 use crate::report::{grades, page, text};
 use crate::run::Run;
 use crate::store::{Store, json};
 use crate::summary::ClassSummary;
-use crate::table::TableError;
 
-/// Writes the files of the class, and prints a summary.
-pub fn write_results(
+/// Whether every submission of a class was graded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Completion {
+    /// Every submission was graded or had nothing to grade.
+    Complete,
+    /// Some submissions were not graded because of a fault in the grader or the machine.
+    Incomplete,
+}
+
+/// What the files of a class depend on, apart from the results of its submissions.
+pub struct ClassContext<'a> {
+    /// The output folder.
+    pub store: &'a Store,
+    /// The run, or what the runs of all parts have in common.
+    pub run: &'a Run,
+    /// The lists.
+    pub lists: &'a Lists,
+    /// The course's policy.
+    pub policy: &'a Policy,
+    /// The points by hand.
+    pub manual: &'a ManualPointsList,
+    /// The people on lists who submitted nothing.
+    pub missing: Vec<Person>,
+}
+
+impl ClassContext<'_> {
+    /// Counts the points, writes the files of the class, and prints a summary.
+    pub fn finish(self, results: Vec<EntryResult>, changes: Changes) -> Result<Completion, Error> {
+        let settings = &self.run.settings;
+        let class = GradedClass {
+            exam: settings.exam.clone(),
+            exam_hash: settings.exam_hash.clone(),
+            isolation: settings.isolation.clone(),
+            rows: count_points(results, self.policy, self.manual, &self.run.tasks)?,
+            missing: self.missing,
+        };
+        write_results(&class, self.store, self.lists, self.run, changes)?;
+        Ok(match class.fault_count() {
+            0 => Completion::Complete,
+            _ => Completion::Incomplete,
+        })
+    }
+}
+
+fn write_results(
     class: &GradedClass,
     store: &Store,
     lists: &Lists,
@@ -72,7 +118,7 @@ pub fn write_results(
 }
 
 /// Checks that the gradebooks can be filled in, before the class is graded.
-pub fn check_lists(lists: &Lists) -> Result<(), TableError> {
+pub fn check_lists(lists: &Lists) -> Result<(), Error> {
     fill_gradebooks(&GradedClass::default(), lists).map(drop)
 }
 
@@ -80,7 +126,7 @@ pub fn check_lists(lists: &Lists) -> Result<(), TableError> {
 fn fill_gradebooks(
     class: &GradedClass,
     lists: &Lists,
-) -> Result<Vec<(&'static str, FilledGradebook)>, TableError> {
+) -> Result<Vec<(&'static str, FilledGradebook)>, Error> {
     let mut all = Vec::new();
     if let Some(path) = &lists.canvas {
         all.push((

@@ -2,7 +2,6 @@
 //! that scores from different settings are never mixed.
 
 use std::collections::BTreeMap;
-use std::ops::Not;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,14 +15,8 @@ pub struct Run {
     pub schema: u32,
     /// The round, counted from 1; `--regrade` starts the next one.
     pub round: u32,
-    /// Whether every entry of the round is done.
-    pub finished: bool,
-    /// Whether the round was finished at least once, even if a later run of this round was killed.
-    #[serde(default)]
-    pub was_finished: bool,
-    /// Whether the scores from before a regrade must still be saved. Until then, nothing is graded.
-    #[serde(default, skip_serializing_if = "Not::not")]
-    pub must_save_previous: bool,
+    /// How far the round has come.
+    pub state: RoundState,
     /// The part of the class that is graded; `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
@@ -35,17 +28,29 @@ pub struct Run {
     pub tasks: BTreeMap<String, u32>,
     /// The ids of the entries. The folder may have others, of students who are no longer in the
     /// input.
-    #[serde(default)]
     pub entries: Vec<String>,
     /// The hash of the ids of all entries of the class, also of those in other shards. Merging shards
     /// of different classes could leave somebody out.
-    #[serde(default)]
     pub class: String,
     /// The settings that the scores depend on.
     pub settings: Settings,
     /// The settings of the last finished round before this one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub before: Option<Settings>,
+}
+
+/// How far a round has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RoundState {
+    /// The scores from before a regrade must still be saved. Until then, nothing is graded.
+    SavesPrevious,
+    /// Some entries may not be done.
+    Started,
+    /// Every entry is done.
+    Finished,
+    /// Every entry was done once, and a later run of the round has started.
+    Resumed,
 }
 
 /// Everything that scores depend on, apart from the submissions.
@@ -74,9 +79,7 @@ impl Run {
         Run {
             schema: SCHEMA,
             round: 1,
-            finished: false,
-            was_finished: false,
-            must_save_previous: false,
+            state: RoundState::Started,
             shard: None,
             lists: KeptLists::new(),
             tasks: BTreeMap::new(),
@@ -91,36 +94,39 @@ impl Run {
     /// that was finished. An abandoned regrade has already replaced some scores, so the scores that
     /// were saved before it are kept for the comparison.
     pub fn next_round(&self, settings: Settings) -> Self {
-        let (before, must_save_previous) = if self.is_unfinished_regrade() {
-            (self.before.clone(), self.must_save_previous)
+        let (before, state) = if self.is_unfinished_regrade() {
+            (self.before.clone(), self.state)
         } else {
-            (Some(self.settings.clone()), true)
+            (Some(self.settings.clone()), RoundState::SavesPrevious)
         };
         Run {
-            schema: SCHEMA,
             round: self.round + 1,
-            finished: false,
-            was_finished: false,
-            must_save_previous,
-            shard: None,
-            lists: KeptLists::new(),
-            tasks: BTreeMap::new(),
-            entries: Vec::new(),
-            class: String::new(),
-            settings,
+            state,
             before,
+            ..Run::first_round(settings)
         }
     }
 
+    /// Returns the run when it is started again.
+    #[must_use]
+    pub fn resume(self) -> Self {
+        let state = match self.state {
+            RoundState::Finished => RoundState::Resumed,
+            state @ (RoundState::SavesPrevious | RoundState::Started | RoundState::Resumed) => {
+                state
+            }
+        };
+        Run { state, ..self }
+    }
+
     /// Returns whether the round was finished, in this run or in an earlier one.
-    pub fn was_ever_finished(&self) -> bool {
-        // Older grader's runs did not record earlier ones.
-        self.finished || self.was_finished
+    pub fn was_finished(&self) -> bool {
+        matches!(self.state, RoundState::Finished | RoundState::Resumed)
     }
 
     /// Returns whether this is a regrade that was never finished.
     pub fn is_unfinished_regrade(&self) -> bool {
-        !self.was_finished && self.before.is_some()
+        !self.was_finished() && self.before.is_some()
     }
 }
 
@@ -158,37 +164,36 @@ mod tests {
     #[test]
     fn a_regrade_is_compared_with_the_last_finished_round() {
         let first = Run {
-            finished: true,
-            was_finished: true,
+            state: RoundState::Finished,
             entries: vec!["a".to_owned()],
             ..run()
         };
         assert!(!first.is_unfinished_regrade());
         assert!(!run().is_unfinished_regrade(), "there is nothing before it");
         let second = first.next_round(other_settings());
-        assert_eq!((second.round, second.finished), (2, false));
+        assert_eq!((second.round, second.state), (2, RoundState::SavesPrevious));
         assert_eq!(second.before, Some(first.settings.clone()));
         assert_eq!(second.settings, other_settings());
-        assert!(second.must_save_previous && second.is_unfinished_regrade());
+        assert!(second.is_unfinished_regrade());
         assert!(second.entries.is_empty());
 
         // It is stopped, after the scores were saved: those scores stay.
         let saved = Run {
-            must_save_previous: false,
+            state: RoundState::Started,
             ..second.clone()
         };
         let third = saved.next_round(first.settings.clone());
-        assert_eq!((third.round, third.must_save_previous), (3, false));
+        assert_eq!((third.round, third.state), (3, RoundState::Started));
         assert_eq!(third.before, Some(first.settings.clone()));
 
         // It is finished, so that the next regrade is compared with it.
         let finished = Run {
-            was_finished: true,
+            state: RoundState::Resumed,
             ..saved
         };
         assert!(!finished.is_unfinished_regrade());
         let third = finished.next_round(first.settings);
-        assert_eq!((third.round, third.must_save_previous), (3, true));
+        assert_eq!((third.round, third.state), (3, RoundState::SavesPrevious));
         assert_eq!(third.before, Some(other_settings()));
     }
 

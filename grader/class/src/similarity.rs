@@ -9,39 +9,16 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grader::files::{self, PathError};
+use grader::files;
 use grader::handed_out::HandedOut;
 use judging::content_hash::ContentHash;
 
 use crate::entry::{Entry, EntryInfo};
+use crate::error::Error;
 use crate::input::collect_submission;
 use crate::paths::contains;
 use crate::report::text::one_line;
 use crate::table::{Table, safe_cell};
-
-/// A reason why the folder cannot be written.
-#[derive(Debug, thiserror::Error)]
-pub enum SimilarityError {
-    /// The folder has files.
-    #[error("{} is not empty: name a new folder for --similarity-input", .0.display())]
-    NotEmpty(PathBuf),
-    /// The folder is in the input or the output, or contains one of them.
-    #[error(
-        "{} and {} must not contain each other, or names and reports would get to the checker: \
-         choose another folder for --similarity-input",
-        folder.display(),
-        other.display()
-    )]
-    Overlap {
-        /// The folder.
-        folder: PathBuf,
-        /// The input or the output.
-        other: PathBuf,
-    },
-    /// A file cannot be written.
-    #[error(transparent)]
-    File(#[from] PathError),
-}
 
 /// A submission, and the lines that its students wrote in each file.
 struct OwnWork<'a> {
@@ -65,16 +42,21 @@ impl OwnWork<'_> {
 }
 
 /// Checks that the folder is empty, and apart from the input and the output.
-pub fn check_folder(folder: &Path, others: &[&Path]) -> Result<(), SimilarityError> {
+pub fn check_folder(folder: &Path, others: &[&Path]) -> Result<(), Error> {
     if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
-        return Err(SimilarityError::NotEmpty(folder.to_owned()));
+        return Err(Error::User(format!(
+            "{} is not empty: name a new folder for --similarity-input",
+            folder.display()
+        )));
     }
     for other in others {
         if contains(folder, other) || contains(other, folder) {
-            return Err(SimilarityError::Overlap {
-                folder: folder.to_owned(),
-                other: (*other).to_owned(),
-            });
+            return Err(Error::User(format!(
+                "{} and {} must not contain each other, or names and reports would get to the \
+                 checker: choose another folder for --similarity-input",
+                folder.display(),
+                other.display()
+            )));
         }
     }
     Ok(())
@@ -86,7 +68,7 @@ pub fn write_input(
     folder: &Path,
     entries: &[Entry],
     handed_out: &'static HandedOut,
-) -> Result<String, SimilarityError> {
+) -> Result<String, Error> {
     let mut all = Vec::new();
     for entry in entries {
         let Ok(submission) = collect_submission(entry, handed_out) else {

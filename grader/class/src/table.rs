@@ -1,10 +1,12 @@
 //! CSV tables as platforms export them: separated by commas, semicolons or tabs, with or without a byte
 //! order mark.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use grader::files::{self, PathError};
+use grader::files;
 use judging::sanitize::sanitize_line;
+
+use crate::error::Error;
 
 /// A CSV table. Cells are kept as text: numbers and dates are not parsed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,56 +21,17 @@ pub struct Table {
     has_byte_order_mark: bool,
 }
 
-/// An error that prevents a table from being used.
-#[derive(Debug, thiserror::Error)]
-pub enum TableError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The file is not valid CSV.
-    #[error("{path}: {why}; export it again, as CSV in UTF-8")]
-    Csv {
-        /// The file's path.
-        path: PathBuf,
-        /// The position and the problem.
-        why: String,
-    },
-    /// Two rows of a roster have the same key, but are about different people.
-    #[error(
-        "{path}: rows {} and {} both have {key:?}, but differ otherwise: correct one of them",
-        rows[0], rows[1]
-    )]
-    DuplicateKey {
-        /// The file's path.
-        path: PathBuf,
-        /// The email address, student number or account name.
-        key: String,
-        /// The rows, as spreadsheets number them.
-        rows: [usize; 2],
-    },
-    /// A column is missing.
-    #[error("{path} has no column {column}: {remedy}")]
-    MissingColumn {
-        /// The file's path.
-        path: PathBuf,
-        /// The column's name or description.
-        column: String,
-        /// Advice for the user.
-        remedy: String,
-    },
-}
-
 /// The delimiters that spreadsheets write. If several are as frequent, the first counts.
 const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl Table {
     /// Reads a CSV file.
-    pub fn read(path: &Path) -> Result<Self, TableError> {
-        let bytes = files::read(path)?;
-        Table::parse(&bytes).map_err(|why| TableError::Csv {
-            path: path.to_owned(),
-            why,
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let bytes = files::read(path).map_err(Error::user)?;
+        Table::parse(&bytes).map_err(|why| {
+            let path = path.display();
+            Error::User(format!("{path}: {why}; export it again, as CSV in UTF-8"))
         })
     }
 
@@ -136,6 +99,13 @@ impl Table {
         self.header.iter().position(same)
     }
 
+    /// Returns the index of the column with this name. If there is no such column, the error says what
+    /// to do. `path` is that of the table.
+    pub fn require_column(&self, path: &Path, name: &str, remedy: &str) -> Result<usize, Error> {
+        let column = self.column(name);
+        column.ok_or_else(|| missing_column(path, name, remedy))
+    }
+
     /// Returns the table with only these columns, in this order.
     pub fn select_columns(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| {
@@ -174,6 +144,12 @@ impl Table {
             text
         }
     }
+}
+
+/// Returns an error about a column, with a remedy.
+pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
+    let path = path.display();
+    Error::User(format!("{path} has no column {column}: {remedy}"))
 }
 
 /// Returns the number of blank lines after a row, which the reader skips. `read` is the number of bytes

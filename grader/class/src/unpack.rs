@@ -10,10 +10,11 @@ use grader::build::build_dir::BuildDir;
 use grader::files::{self, AtPath, PathError};
 use grader::handed_out::HandedOut;
 use grader::submission::{
-    Archive, ArchiveError, ArchiveLimits, Member, is_archive_name, may_be_task_file,
+    Archive, ArchiveError, ArchiveLimits, Member, is_archive_name, is_skipped_name,
+    may_be_task_file,
 };
 
-use crate::input_error::ClassInputError;
+use crate::error::Error;
 use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
 
 /// The maximum size of a student's archive or a platform's list, in bytes.
@@ -27,8 +28,6 @@ const MAX_TEXT_BYTES: u64 = 1 << 20;
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
 /// The number of bytes that each byte of the archive adds to [`MAX_TOTAL_BYTES`].
 const MAX_EXPANSION: u64 = 4;
-/// The names of folders that contain nothing to grade.
-const SKIPPED: [&str; 4] = [".git", "target", "node_modules", "__MACOSX"];
 
 /// The name of the folder for the unpacked files. It is in the temporary folder, which also
 /// contains a lock file.
@@ -46,21 +45,22 @@ pub struct Unpacked {
 }
 
 /// Unpacks an archive into a temporary folder in `parent`.
-pub fn unpack(
-    path: &Path,
-    parent: &Path,
-    handed_out: &HandedOut,
-) -> Result<Unpacked, ClassInputError> {
-    let archive_error = |why| ClassInputError::Archive {
-        path: path.to_owned(),
-        why,
+pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpacked, Error> {
+    let archive_error = |why: ArchiveError| {
+        let path = path.display();
+        Error::User(format!(
+            "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
+        ))
     };
-    let bytes = fs::metadata(path).at("read", path)?.len();
+    let bytes = fs::metadata(path)
+        .at("read", path)
+        .map_err(Error::user)?
+        .len();
     let mut archive = Archive::open(path, ArchiveLimits::class()).map_err(archive_error)?;
     let listing = archive.listing().map_err(archive_error)?;
-    let build_dir = BuildDir::new_in(parent)?;
+    let build_dir = BuildDir::new_in(parent).map_err(Error::user)?;
     let folder = &build_dir.path().join(CLASS_FOLDER);
-    files::create_dir_all(folder)?;
+    files::create_dir_all(folder).map_err(Error::user)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let unmatched = |why: String| UnmatchedPath {
         name: name.clone().into_owned(),
@@ -71,7 +71,7 @@ pub fn unpack(
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
         let put = extract_to(folder, path, |target| files::create_dir_all(target));
-        problems.extend(put?.map(unmatched));
+        problems.extend(put.map_err(Error::user)?.map(unmatched));
     }
 
     let members = listing
@@ -107,7 +107,7 @@ pub fn unpack(
     });
     put_all.map_err(|error| match error {
         UnpackError::Archive(why) => archive_error(why),
-        UnpackError::File(error) => error.into(),
+        UnpackError::File(error) => Error::user(error),
     })?;
     Ok(Unpacked {
         build_dir,
@@ -182,7 +182,7 @@ fn select<'a>(
 }
 
 fn is_wanted(path: &str) -> bool {
-    !path.split('/').any(|part| SKIPPED.contains(&part))
+    !path.split('/').any(is_skipped_name)
 }
 
 /// Returns the maximum number of bytes of a file that are needed later. For most files, it is 0,

@@ -25,6 +25,7 @@ use search::Search;
 
 pub use archive::{Archive, ArchiveError, ArchiveLimits, Listing, Member};
 pub use budget::Limit;
+pub use choice::is_skipped_name;
 pub use error::{SubmissionError, TaskFileError, listed, places};
 pub use names::{is_archive_name, may_be_task_file};
 

@@ -11,11 +11,12 @@ use judging::content_hash::ContentHash;
 use judging::sanitize::sanitize;
 
 use crate::entry::Entry;
+use crate::error::Error;
 use crate::input::{NotCollected, collect_submission};
-use crate::outcome::{EntryOutcome, EntryResult, EntryState, ScoreSummary};
+use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 use crate::progress::Progress;
 use crate::run::Run;
-use crate::store::{Store, StoreError};
+use crate::store::Store;
 use crate::submission_grader::SubmissionGrader;
 
 /// The maximum number of attempts to grade an entry. If all of them fail, the entry gets no score
@@ -38,16 +39,14 @@ pub struct EntryGrader<'a> {
 
 impl EntryGrader<'_> {
     /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one.
-    pub fn grade(&self, slot: usize, entry: &Entry) -> Result<EntryResult, StoreError> {
+    pub fn grade(&self, slot: usize, entry: &Entry) -> Result<EntryResult, Error> {
         let (result, is_new) = match collect_submission(entry, self.grader.handed_out()) {
             Err(NotCollected::MachineFault(why)) => {
                 self.store.set_score_aside(&entry.id, self.run.round)?;
                 (self.finish(entry, fault(&why), "")?, true)
             }
             Err(NotCollected::NothingToGrade(why)) => {
-                let is_new = !self
-                    .store
-                    .has_state(&entry.id, &EntryState::NothingToGrade(why.clone()));
+                let is_new = !self.store.has_nothing_to_grade(&entry.id, &why);
                 self.store.set_score_aside(&entry.id, self.run.round)?;
                 let result = self.finish(entry, EntryOutcome::NothingToGrade(why), "")?;
                 (result, is_new)
@@ -75,7 +74,7 @@ impl EntryGrader<'_> {
         entry: &Entry,
         submission: &Submission,
         key: &str,
-    ) -> Result<EntryResult, StoreError> {
+    ) -> Result<EntryResult, Error> {
         self.store.set_score_aside(&entry.id, self.run.round)?;
         self.store.remove_stamp(&entry.id)?;
         let mut why = String::new();
@@ -118,7 +117,7 @@ impl EntryGrader<'_> {
         entry: &Entry,
         outcome: EntryOutcome,
         key: &str,
-    ) -> Result<EntryResult, StoreError> {
+    ) -> Result<EntryResult, Error> {
         let result = EntryResult {
             id: entry.id.clone(),
             info: entry.info.clone(),
@@ -127,7 +126,7 @@ impl EntryGrader<'_> {
         self.save(result, key)
     }
 
-    fn save(&self, result: EntryResult, key: &str) -> Result<EntryResult, StoreError> {
+    fn save(&self, result: EntryResult, key: &str) -> Result<EntryResult, Error> {
         self.store.save_result(&result, key, self.run.round)?;
         Ok(result)
     }

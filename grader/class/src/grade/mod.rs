@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
+use grader::handed_out::HandedOut;
 use grader::options::GradeOptions;
 use grader::printing::print;
 use grader::workspace::Workspace;
@@ -23,29 +24,21 @@ use crate::late::warn_about_extensions;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
 use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
-use crate::manual::{ManualPointsError, ManualPointsList};
-use crate::model::{GradedClass, count_points};
+use crate::manual::ManualPointsList;
 use crate::outcome::EntryResult;
-use crate::output::{check_lists, write_results};
+use crate::output::{ClassContext, check_lists};
 use crate::paths::contains;
 use crate::progress::Progress;
 use crate::queue;
 use crate::report::preview::{render_preview, render_warnings};
 use crate::roster;
-use crate::run::{Run, Settings};
+use crate::run::{RoundState, Run, Settings};
 use crate::shard::Shard;
 use crate::similarity;
-use crate::store::{Store, StoreError};
+use crate::store::Store;
 use crate::submission_grader::SubmissionGrader;
 
-/// Whether every submission of a class was graded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Completion {
-    /// Every submission was graded or had nothing to grade.
-    Complete,
-    /// Some submissions were not graded because of a fault in the grader or the machine.
-    Incomplete,
-}
+pub use crate::output::Completion;
 
 /// Reads the input, grades the submissions without a valid result, and writes the class's files.
 /// Each submission is graded with `options`.
@@ -97,7 +90,7 @@ pub fn grade_class_with(
     recognised.notes.extend_from_slice(&findings.warnings);
     let listed = findings.check(&lists, all);
     let missing = findings.missing;
-    let manual = read_manual_points(given, options)?;
+    let manual = read_manual_points(given, options.handed_out)?;
     let entries = recognised.entries.iter();
     let people: Vec<&Person> = entries.flat_map(|entry| &entry.info.people).collect();
     manual.check_students(&people)?;
@@ -160,8 +153,7 @@ pub fn grade_class_with(
     }
     let results = grade_entries(grader.as_ref(), &store, &run, &entries, slots)?;
     let run = Run {
-        finished: true,
-        was_finished: true,
+        state: RoundState::Finished,
         ..run
     };
     store.write_run(&run)?;
@@ -172,20 +164,16 @@ pub fn grade_class_with(
         removed,
         grades: None,
     };
-    let rows = count_points(results, grader.policy(), &manual, &run.tasks)?;
-    let class = GradedClass {
-        exam: run.settings.exam.clone(),
-        exam_hash: run.settings.exam_hash.clone(),
-        isolation: run.settings.isolation.clone(),
-        rows,
+    print(warnings);
+    let class = ClassContext {
+        store: &store,
+        run: &run,
+        lists: given,
+        policy: grader.policy(),
+        manual: &manual,
         missing,
     };
-    print(warnings);
-    write_results(&class, &store, given, &run, changes)?;
-    Ok(match class.fault_count() {
-        0 => Completion::Complete,
-        _ => Completion::Incomplete,
-    })
+    class.finish(results, changes)
 }
 
 /// Returns the lists on the command line and those that the output folder has from the last run.
@@ -209,10 +197,10 @@ fn choose_lists(arguments: &ClassArguments, options: &GradeOptions) -> Result<Us
 /// Reads the manual points, if a file is given.
 pub fn read_manual_points(
     lists: &Lists,
-    options: &GradeOptions,
-) -> Result<ManualPointsList, ManualPointsError> {
+    handed_out: &HandedOut,
+) -> Result<ManualPointsList, Error> {
     match &lists.manual_points {
-        Some(path) => ManualPointsList::read(path, options.handed_out),
+        Some(path) => ManualPointsList::read(path, handed_out),
         None => Ok(ManualPointsList::default()),
     }
 }
@@ -235,22 +223,26 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
 /// the existing ones, and existing scores are replaced only with `--regrade`.
 fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error> {
     let run = match (store.read_run()?, regrade) {
-        (None, true) => return Err(Error::NothingToRegrade(store.folder().to_owned())),
+        (None, true) => {
+            let out = store.folder().display();
+            return Err(Error::User(format!(
+                "{out} holds no scores yet: leave out --regrade"
+            )));
+        }
         (None, false) => Run::first_round(settings),
         // A stopped regrade is resumed, with or without `--regrade`. But a round that was finished once
         // is regraded, even if a later run of it, or an estimate, has not come to its end.
-        (Some(run), _) if run.settings == settings && (!regrade || !run.was_ever_finished()) => {
-            Run {
-                finished: false,
-                ..run
-            }
+        (Some(run), _) if run.settings == settings && (!regrade || !run.was_finished()) => {
+            run.resume()
         }
         (Some(run), true) => run.next_round(settings),
         (Some(run), false) => {
-            return Err(Error::SettingsChanged {
-                out: store.folder().to_owned(),
-                differences: run.settings.differences(&settings),
-            });
+            return Err(Error::User(format!(
+                "{} has scores that cannot be compared with new ones: {} changed; use --regrade to \
+                 grade everything again and list the changes, or name a new folder",
+                store.folder().display(),
+                run.settings.differences(&settings).join(", ")
+            )));
         }
     };
     Ok(run)
@@ -259,13 +251,13 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
 /// Saves the scores from before a regrade, unless that has been done. The round has already started in
 /// `run.json`, so that a run killed here cannot be resumed as the last round, whose comparison with the
 /// one before it would be lost.
-fn save_previous_scores(store: &Store, run: Run) -> Result<Run, StoreError> {
-    if !run.must_save_previous {
+fn save_previous_scores(store: &Store, run: Run) -> Result<Run, Error> {
+    if run.state != RoundState::SavesPrevious {
         return Ok(run);
     }
     store.save_previous_scores()?;
     let run = Run {
-        must_save_previous: false,
+        state: RoundState::Started,
         ..run
     };
     store.write_run(&run)?;
@@ -276,21 +268,23 @@ fn save_previous_scores(store: &Store, run: Run) -> Result<Run, StoreError> {
 fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Error> {
     let out = store.folder();
     if input.is_dir() && contains(input, out) {
-        return Err(Error::OutInInput {
-            out: out.to_owned(),
-            input: input.to_owned(),
-        });
+        return Err(Error::User(format!(
+            "{} is in {}: the results would be taken for submissions; choose another folder for --out",
+            out.display(),
+            input.display()
+        )));
     }
     let title = |shard: Option<Shard>| match shard {
         Some(shard) => format!("part {shard}"),
         None => "the whole class".to_owned(),
     };
     match store.read_run()? {
-        Some(run) if run.shard != shard => Err(Error::OtherShard {
-            out: out.to_owned(),
-            was: title(run.shard),
-            now: title(shard),
-        }),
+        Some(run) if run.shard != shard => Err(Error::User(format!(
+            "{} has the results of {}, and not of {}: name another folder, or remove this one",
+            out.display(),
+            title(run.shard),
+            title(shard)
+        ))),
         Some(_) | None => Ok(()),
     }
 }
@@ -360,7 +354,7 @@ fn find_regrade_changes(
     store: &Store,
     run: &Run,
     results: &[EntryResult],
-) -> Result<Option<RegradeChanges>, StoreError> {
+) -> Result<Option<RegradeChanges>, Error> {
     let Some(before) = &run.before else {
         return Ok(None);
     };

@@ -32,31 +32,28 @@ fn a_folder_without_scores_starts_the_first_round_and_cannot_be_regraded() {
     let first = start_or_resume(&store, run().settings, false).unwrap();
     assert_eq!(first, run());
     let error = start_or_resume(&store, run().settings, true).unwrap_err();
-    assert!(matches!(error, Error::NothingToRegrade(_)), "{error}");
+    assert!(error.to_string().contains("holds no scores yet"), "{error}");
 }
 
 #[test]
 fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
     let (_folder, store) = store();
-    let round = |finished: bool, was_finished: bool, regrade: bool| {
-        let written = Run {
-            finished,
-            was_finished,
-            ..run()
-        };
+    use RoundState::{Finished, Resumed, SavesPrevious, Started};
+    let next = |state: RoundState, regrade: bool| {
+        let written = Run { state, ..run() };
         store.write_run(&written).unwrap();
         let next = start_or_resume(&store, run().settings, regrade).unwrap();
-        assert!(!next.finished);
-        next.round
+        (next.round, next.state)
     };
-    assert_eq!(round(false, false, false), 1);
-    assert_eq!(round(true, true, false), 1);
-    assert_eq!(round(false, false, true), 1, "a stopped regrade is resumed");
-    assert_eq!(round(true, true, true), 2);
+    assert_eq!(next(Started, false), (1, Started));
+    assert_eq!(next(SavesPrevious, false), (1, SavesPrevious));
+    assert_eq!(next(Finished, false), (1, Resumed));
+    // A stopped regrade is resumed.
+    assert_eq!(next(Started, true), (1, Started));
+    assert_eq!(next(Finished, true), (2, SavesPrevious));
     // Its second run was stopped, or was an estimate.
-    assert_eq!(round(false, true, false), 1);
-    assert_eq!(round(false, true, true), 2);
-    assert_eq!(round(true, false, true), 2, "of an older grader");
+    assert_eq!(next(Resumed, false), (1, Resumed));
+    assert_eq!(next(Resumed, true), (2, SavesPrevious));
 }
 
 #[test]
@@ -64,10 +61,7 @@ fn other_settings_need_a_regrade() {
     let (_folder, store) = store();
     store.write_run(&run()).unwrap();
     let error = start_or_resume(&store, other_settings(), false).unwrap_err();
-    assert!(
-        matches!(&error, Error::SettingsChanged { differences, .. } if differences == &["the exam"]),
-        "{error}"
-    );
+    assert!(error.to_string().contains(": the exam changed;"), "{error}");
     let next = start_or_resume(&store, other_settings(), true).unwrap();
     assert_eq!((next.round, next.settings), (2, other_settings()));
 }
@@ -80,7 +74,7 @@ fn the_scores_before_a_regrade_are_saved_once() {
     assert_eq!(unchanged, run());
     assert_eq!(store.previous_score("a").unwrap(), None);
     let regrade = Run {
-        must_save_previous: true,
+        state: RoundState::SavesPrevious,
         ..run()
     };
     let saved = save_previous_scores(&store, regrade).unwrap();
@@ -102,7 +96,10 @@ fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
         check_out(&store, input, Some(part)).unwrap();
     }
     let error = check_out(&store, folder.path(), None).unwrap_err();
-    assert!(matches!(error, Error::OutInInput { .. }), "{error}");
+    assert!(
+        error.to_string().contains("taken for submissions"),
+        "{error}"
+    );
 
     let of_part = Run {
         shard: Some(part),
@@ -112,8 +109,9 @@ fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
     check_out(&store, &input, Some(part)).unwrap();
     let error = check_out(&store, &input, None).unwrap_err();
     assert!(
-        matches!(&error, Error::OtherShard { was, now, .. }
-            if was == "part 1/2" && now == "the whole class"),
+        error
+            .to_string()
+            .contains("of part 1/2, and not of the whole class"),
         "{error}"
     );
 }
@@ -178,8 +176,7 @@ fn a_given_number_of_slots_counts_and_otherwise_there_is_at_least_one() {
 #[test]
 fn files_that_are_not_given_are_not_read() {
     let folder = tempfile::tempdir().unwrap();
-    let options = GradeOptions::default();
-    let none = read_manual_points(&Lists::default(), &options).unwrap();
+    let none = read_manual_points(&Lists::default(), &RAYS).unwrap();
     assert_eq!(none, ManualPointsList::default());
     let path = folder.path().join("manual.csv");
     fs::write(
@@ -191,7 +188,7 @@ fn files_that_are_not_given_are_not_read() {
         manual_points: Some(path),
         ..Lists::default()
     };
-    let list = read_manual_points(&lists, &options).unwrap();
+    let list = read_manual_points(&lists, &RAYS).unwrap();
     assert_eq!(list.of(&Person::named("Ann"))[0].delta, 1);
 }
 

@@ -5,12 +5,12 @@
 use std::path::Path;
 
 use super::{
-    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning,
-    non_empty, require_column,
+    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning, non_empty,
 };
 use crate::entry::Person;
+use crate::error::Error;
 use crate::model::GradedClass;
-use crate::table::{Table, TableError};
+use crate::table::{Table, missing_column};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
 /// The last column that identifies people.
@@ -37,11 +37,11 @@ pub fn fill_canvas(
     path: &Path,
     column: Option<&str>,
     class: &GradedClass,
-) -> Result<FilledGradebook, TableError> {
+) -> Result<FilledGradebook, Error> {
     let table = Table::read(path)?;
-    let student = require_column(&table, path, "Student", REMEDY)?;
-    let id = require_column(&table, path, "ID", REMEDY)?;
-    let section = require_column(&table, path, SECTION, REMEDY)?;
+    let student = table.require_column(path, "Student", REMEDY)?;
+    let id = table.require_column(path, "ID", REMEDY)?;
+    let section = table.require_column(path, SECTION, REMEDY)?;
     let target = find_target(&table, section, path, column)?;
     let title = table.header[target].clone();
     let columns: Vec<usize> = (0..=section).chain([target]).collect();
@@ -92,7 +92,7 @@ fn find_target(
     section: usize,
     path: &Path,
     column: Option<&str>,
-) -> Result<usize, TableError> {
+) -> Result<usize, Error> {
     let names = table.header.iter().enumerate().skip(section + 1);
     let names: Vec<(usize, &str)> = names.map(|(index, name)| (index, name.trim())).collect();
     let is_ignored = |name: &str| IGNORED_TITLES.iter().any(|title| name.contains(title));
@@ -108,28 +108,19 @@ fn find_target(
         .into_iter()
         .filter(|(_, name)| is_wanted(name))
         .collect();
-    let missing = |remedy: String| TableError::MissingColumn {
-        path: path.to_owned(),
-        column: column
-            .unwrap_or("that is clearly the assignment's")
-            .to_owned(),
-        remedy,
-    };
+    let title = column.unwrap_or("that is clearly the assignment's");
+    let missing = |remedy: &str| Err(missing_column(path, title, remedy));
     match found.as_slice() {
-        [(_, name)] if is_ignored(name) => Err(missing(format!(
+        [(_, name)] if is_ignored(name) => missing(&format!(
             "Canvas ignores columns with a title like {name:?}: rename the assignment"
-        ))),
-        [(index, _)] => Ok(*index),
-        [] => Err(missing(
-            "with --column, name a column by its title or by the number at the end of the title"
-                .to_owned(),
         )),
+        [(index, _)] => Ok(*index),
+        [] => missing(
+            "with --column, name a column by its title or by the number at the end of the title",
+        ),
         several => {
             let names: Vec<&str> = several.iter().map(|(_, name)| *name).collect();
-            Err(missing(format!(
-                "choose one with --column: {}",
-                names.join("; ")
-            )))
+            missing(&format!("choose one with --column: {}", names.join("; ")))
         }
     }
 }

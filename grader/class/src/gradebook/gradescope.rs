@@ -5,19 +5,19 @@ use std::path::Path;
 
 use super::{
     FilledGradebook, GradebookSpec, KeyKind, column_key, fill, maximum_warning, non_empty,
-    require_column,
 };
+use crate::error::Error;
 use crate::model::GradedClass;
-use crate::table::{Table, TableError};
+use crate::table::Table;
 
 const REMEDY: &str =
     "download the grades from the assignment's page (Review Grades, Download Grades)";
 
 /// Reads the grades at `path` and fills in the class's points as the total score.
-pub fn fill_gradescope(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
+pub fn fill_gradescope(path: &Path, class: &GradedClass) -> Result<FilledGradebook, Error> {
     let table = Table::read(path)?;
-    let target = require_column(&table, path, "Total Score", REMEDY)?;
-    let email = require_column(&table, path, "Email", REMEDY)?;
+    let target = table.require_column(path, "Total Score", REMEDY)?;
+    let email = table.require_column(path, "Email", REMEDY)?;
     let names: Vec<usize> = ["First Name", "Last Name", "Name"]
         .iter()
         .filter_map(|name| table.column(name))

@@ -9,12 +9,11 @@ mod gradescope;
 mod moodle;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 use crate::entry::Person;
 use crate::model::{ClassRow, GradeProblem, GradedClass, PersonGrade};
 use crate::names::{are_alike, are_equal, fold};
-use crate::table::{Table, TableError};
+use crate::table::Table;
 
 pub use canvas::fill_canvas;
 pub use gradescope::fill_gradescope;
@@ -303,21 +302,6 @@ fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
              the policy",
             counted.max_points
         )
-    })
-}
-
-/// Returns the index of the column with this name. If there is no such column, the error says what
-/// to do.
-fn require_column(
-    table: &Table,
-    path: &Path,
-    name: &str,
-    remedy: &str,
-) -> Result<usize, TableError> {
-    table.column(name).ok_or_else(|| TableError::MissingColumn {
-        path: path.to_owned(),
-        column: name.to_owned(),
-        remedy: remedy.to_owned(),
     })
 }
 

@@ -4,11 +4,11 @@
 use std::path::Path;
 
 use super::{
-    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning,
-    non_empty, require_column,
+    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning, non_empty,
 };
+use crate::error::Error;
 use crate::model::GradedClass;
-use crate::table::{Table, TableError};
+use crate::table::Table;
 
 const REMEDY: &str =
     "download the grading worksheet from the assignment's page (it must allow offline grading)";
@@ -17,15 +17,15 @@ const TRANSLATED: &str = "it is a grading worksheet in another language than Eng
     to English in its menu or in your preferences, and download it again";
 
 /// Reads the worksheet at `path` and fills in the class's points.
-pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, TableError> {
+pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, Error> {
     let table = Table::read(path)?;
     let remedy = if is_translated(&table) {
         TRANSLATED
     } else {
         REMEDY
     };
-    let identifier = require_column(&table, path, "Identifier", remedy)?;
-    let target = require_column(&table, path, "Grade", remedy)?;
+    let identifier = table.require_column(path, "Identifier", remedy)?;
+    let target = table.require_column(path, "Grade", remedy)?;
     let name = table.column("Full name");
     let locked = table.column("Grade can be changed");
     let maximum = table.column("Maximum Grade");

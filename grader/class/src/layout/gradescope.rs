@@ -8,18 +8,11 @@ use serde::de::IgnoredAny;
 
 use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::error::Error;
 use crate::listing::Node;
 
 /// The name of the file that lists the people who submitted each folder.
 pub const METADATA: &str = "submission_metadata.yml";
-
-/// An error in the metadata file.
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "cannot read {METADATA}: {0}; export the submissions again, or delete the file to go by folder \
-     names"
-)]
-pub struct MetadataError(String);
 
 /// The metadata of one submission. Other keys, such as earlier results, are ignored.
 #[derive(Debug, Deserialize)]
@@ -49,7 +42,7 @@ enum Scalar {
     Other(IgnoredAny),
 }
 
-pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, MetadataError> {
+pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, Error> {
     let mut known = parse(metadata)?;
     let (mut entries, mut others) = (Vec::new(), Vec::new());
     for node in root.children() {
@@ -71,7 +64,7 @@ pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, Metada
     Ok((entries, others))
 }
 
-fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, MetadataError> {
+fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, Error> {
     // The exports of large classes include all earlier results, and exceed the default limits,
     // which are meant for untrusted input.
     let budget = serde_saphyr::budget! {
@@ -81,8 +74,12 @@ fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, MetadataError> {
         max_total_scalar_bytes: 256 << 20,
     };
     let options = serde_saphyr::options! { budget: budget };
-    serde_saphyr::from_str_with_options(metadata, options)
-        .map_err(|error| MetadataError(error.to_string()))
+    serde_saphyr::from_str_with_options(metadata, options).map_err(|error| {
+        Error::User(format!(
+            "cannot read {METADATA}: {error}; export the submissions again, or delete the file to go \
+             by folder names"
+        ))
+    })
 }
 
 fn entry(node: &Node, metadata: Metadata) -> Entry {

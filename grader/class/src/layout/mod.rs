@@ -19,12 +19,13 @@ use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
 
 use crate::entry::{Entry, Source};
+use crate::error::Error;
 use crate::listing::Node;
 use crate::roster::Member;
 
 pub use class_folder::find_class_folder;
 pub use github::CLASSROOM50_SCORES;
-pub use gradescope::{METADATA, MetadataError};
+pub use gradescope::METADATA;
 pub use mixture::side_by_side;
 
 /// The layout and the entries of a class.
@@ -87,7 +88,7 @@ pub fn recognise(
     metadata: Option<&str>,
     handed_out: &HandedOut,
     known: &[Member],
-) -> Result<RecognisedClass, MetadataError> {
+) -> Result<RecognisedClass, Error> {
     let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
         (Layout::Gradescope, gradescope::read(root, metadata)?)
     } else if is_majority(root, |node| canvas::is_name(&node.name))

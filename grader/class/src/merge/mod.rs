@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use grader::options::GradeOptions;
+use grader::handed_out::HandedOut;
 use grader::policy::Policy;
 use grader::printing::print;
 use judging::sanitize::sanitize_line;
@@ -12,19 +12,21 @@ use crate::cli::MergeArguments;
 use crate::drift::{Changes, RemovedEntry, find_removed, find_resubmitted};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::grade::{Completion, read_manual_points};
+use crate::grade::read_manual_points;
 use crate::late::warn_about_extensions;
 use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
-use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
-use crate::output::write_results;
-use crate::run::Run;
+use crate::output::{ClassContext, Completion};
+use crate::run::{RoundState, Run};
 use crate::shard::Shard;
 use crate::store::Store;
 
 /// Copies the shards' results into one folder, and writes the class's files.
-pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
+pub fn merge_shards(
+    arguments: &MergeArguments,
+    handed_out: &HandedOut,
+) -> Result<Completion, Error> {
     check_out(arguments)?;
     let shards: Result<Vec<(&PathBuf, Run)>, Error> = arguments
         .shards
@@ -39,7 +41,12 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let parts: Vec<Shard> = shards.iter().filter_map(|(_, run)| run.shard).collect();
     let missing = Shard::missing(&parts);
     if !missing.is_empty() {
-        return Err(Error::MissingShards(missing));
+        let missing: Vec<String> = missing.iter().map(Shard::to_string).collect();
+        return Err(Error::User(format!(
+            "results are missing for {}: name the output folders of all parts, or the merged grades \
+             would lack submissions",
+            missing.join(", ")
+        )));
     }
     let out = Store::new(&arguments.out);
     let used = choose_lists(arguments, &out, &shards)?;
@@ -51,16 +58,15 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
     let mut sources: BTreeMap<String, &Path> = BTreeMap::new();
     for (path, run) in &shards {
         let shard = Store::new(path);
-        // Older runs did not list their entries. In others, no entry means that the class has fewer
-        // entries than shards, and the folder may have those of students who are gone.
-        let current = |id: &String| run.class.is_empty() || run.entries.contains(id);
+        // The folder may also have the entries of students who are gone.
+        let current = |id: &String| run.entries.contains(id);
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), path) {
-                return Err(Error::DuplicateEntry {
-                    id,
-                    one: other.to_owned(),
-                    other: (*path).clone(),
-                });
+                return Err(Error::User(format!(
+                    "{id} is in {} and in {}: were both given the same --shard?",
+                    other.display(),
+                    path.display()
+                )));
             }
         }
     }
@@ -94,7 +100,7 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
         print(format!("  {}\n", sanitize_line(warning, 400)));
     }
     let missing = findings.missing;
-    let manual = read_manual_points(lists, &GradeOptions::default())?;
+    let manual = read_manual_points(lists, handed_out)?;
     let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
     manual.check_students(&people)?;
     let all: Vec<&Person> = people.into_iter().chain(&missing).collect();
@@ -113,18 +119,15 @@ pub fn merge_shards(arguments: &MergeArguments) -> Result<Completion, Error> {
         removed,
         grades: None,
     };
-    let class = GradedClass {
-        exam: run.settings.exam.clone(),
-        exam_hash: run.settings.exam_hash.clone(),
-        isolation: run.settings.isolation.clone(),
-        rows: count_points(rows, &policy, &manual, &run.tasks)?,
+    let class = ClassContext {
+        store: &out,
+        run,
+        lists,
+        policy: &policy,
+        manual: &manual,
         missing,
     };
-    write_results(&class, &out, lists, run, changes)?;
-    Ok(match class.fault_count() {
-        0 => Completion::Complete,
-        _ => Completion::Incomplete,
-    })
+    class.finish(rows, changes)
 }
 
 /// Rejects an output folder in the results of a shard: each entry would be replaced while it is
@@ -137,10 +140,11 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     };
     let holds_out = |shard: &&PathBuf| shard.canonicalize().is_ok_and(|s| out.starts_with(s));
     match arguments.shards.iter().find(holds_out) {
-        Some(shard) => Err(Error::MergeIntoShard {
-            out: arguments.out.clone(),
-            shard: shard.clone(),
-        }),
+        Some(shard) => Err(Error::User(format!(
+            "{} is, or is in, the results of the shard {}: choose another folder for --out",
+            arguments.out.display(),
+            shard.display()
+        ))),
         None => Ok(()),
     }
 }
@@ -172,11 +176,15 @@ fn choose_lists(
 
 fn read_finished_run(path: &Path) -> Result<Run, Error> {
     let run = Store::new(path).read_run()?;
-    let run = run.ok_or_else(|| Error::NotAShard(path.to_owned()))?;
-    if run.finished {
-        Ok(run)
-    } else {
-        Err(Error::UnfinishedShard(path.to_owned()))
+    let path = path.display();
+    match run {
+        Some(run) if run.state == RoundState::Finished => Ok(run),
+        Some(_) => Err(Error::User(format!(
+            "{path} is not finished: run its `cargo class --shard` again"
+        ))),
+        None => Err(Error::User(format!(
+            "{path} contains no results of `cargo class --shard`"
+        ))),
     }
 }
 
@@ -190,20 +198,19 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
     ];
     let mut what = one.1.settings.differences(&other.1.settings);
     what.retain(|what| !local.contains(what));
-    if one.1.class != other.1.class {
-        Err(Error::DifferentClasses {
-            one: one.0.clone(),
-            other: other.0.clone(),
-        })
-    } else if what.is_empty() {
-        Ok(())
+    let why = if one.1.class != other.1.class {
+        ", or somebody could be missing: submissions were added or removed between them; run each \
+         `cargo class --shard` again, which keeps what is graded"
+            .to_owned()
+    } else if !what.is_empty() {
+        format!(": they differ in {}", what.join(", "))
     } else {
-        Err(Error::IncompatibleShards {
-            one: one.0.clone(),
-            other: other.0.clone(),
-            differences: what,
-        })
-    }
+        return Ok(());
+    };
+    let (one, other) = (one.0.display(), other.0.display());
+    Err(Error::User(format!(
+        "{one} and {other} cannot be merged{why}"
+    )))
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ use grader::policy::{CountedPoints, Policy};
 
 use crate::attempts::apply_rule;
 use crate::entry::Person;
+use crate::error::Error;
 use crate::late::{UnclearTime, is_undated, lateness};
-use crate::manual::{ManualPoints, ManualPointsError, ManualPointsList};
+use crate::manual::{ManualPoints, ManualPointsList};
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
 
 /// The results of a class.
@@ -252,7 +253,7 @@ pub fn count_points(
     policy: &Policy,
     manual: &ManualPointsList,
     tasks: &BTreeMap<String, u32>,
-) -> Result<Vec<ClassRow>, ManualPointsError> {
+) -> Result<Vec<ClassRow>, Error> {
     let mut rows = Vec::new();
     for result in results {
         let people = result.info.people.iter();

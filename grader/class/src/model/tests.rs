@@ -294,7 +294,7 @@ fn points_by_hand_are_added_for_their_person_and_checked() {
         let rows = count_points(results, &Policy::default(), &manual, &tasks)?;
         let points = rows.iter().flat_map(|row| &row.grades);
         let points = points.map(|grade| grade.counted.map(|counted| counted.points));
-        Ok::<_, ManualPointsError>(points.collect::<Vec<_>>())
+        Ok::<_, Error>(points.collect::<Vec<_>>())
     };
     assert_eq!(count("5").unwrap(), [Some(80), Some(85), None]);
     let error = count("21").unwrap_err().to_string();

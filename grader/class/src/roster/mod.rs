@@ -7,9 +7,10 @@ use std::path::Path;
 
 use crate::cli::Lists;
 use crate::entry::Person;
+use crate::error::Error;
 use crate::moodle_status::MoodleStatus;
 use crate::names::{are_equal, fold};
-use crate::table::{Table, TableError};
+use crate::table::{Table, missing_column};
 
 pub use times::set_submission_times;
 
@@ -97,14 +98,11 @@ impl Member {
 }
 
 /// Reads the people in a roster or in a platform's gradebook.
-pub fn read_members(path: &Path) -> Result<Vec<Member>, TableError> {
-    parse_members(&Table::read(path)?).ok_or_else(|| TableError::MissingColumn {
-        path: path.to_owned(),
-        column: "that identifies people".to_owned(),
-        remedy: "it needs at least one of the columns name, email, sid and username; in another \
-            language, column heads are not recognised"
-            .to_owned(),
-    })
+pub fn read_members(path: &Path) -> Result<Vec<Member>, Error> {
+    let remedy = "it needs at least one of the columns name, email, sid and username; in another \
+        language, column heads are not recognised";
+    let members = parse_members(&Table::read(path)?);
+    members.ok_or_else(|| missing_column(path, "that identifies people", remedy))
 }
 
 fn parse_members(table: &Table) -> Option<Vec<Member>> {
@@ -187,7 +185,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
 
 /// Rejects a roster in which two rows have the same email address, student number or account name,
 /// but differ in something else. A row may be repeated, for example for each attempt or section.
-fn check_keys(path: &Path, members: &[Member]) -> Result<(), TableError> {
+fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
     let mut rows: BTreeMap<(usize, String), usize> = BTreeMap::new();
     for (index, member) in members.iter().enumerate() {
         let Person {
@@ -199,11 +197,12 @@ fn check_keys(path: &Path, members: &[Member]) -> Result<(), TableError> {
             }
             let first = *rows.entry((kind, fold(key))).or_insert(index);
             if !is_repetition(&members[first].person, &member.person) {
-                return Err(TableError::DuplicateKey {
-                    path: path.to_owned(),
-                    key: key.clone(),
-                    rows: [members[first].row, member.row],
-                });
+                return Err(Error::User(format!(
+                    "{}: rows {} and {} both have {key:?}, but differ otherwise: correct one of them",
+                    path.display(),
+                    members[first].row,
+                    member.row
+                )));
             }
         }
     }
@@ -224,14 +223,14 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
 }
 
 /// Reads a roster, and checks that no two people have the same identifier.
-pub fn read_roster(path: &Path) -> Result<Vec<Member>, TableError> {
+pub fn read_roster(path: &Path) -> Result<Vec<Member>, Error> {
     let members = read_members(path)?;
     check_keys(path, &members)?;
     Ok(members)
 }
 
 /// Reads the people on all lists. A person has a row in each list that knows them.
-pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, TableError> {
+pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
     let mut rows = match &lists.roster {
         Some(path) => read_roster(path)?,
         None => Vec::new(),

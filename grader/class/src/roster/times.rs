@@ -7,14 +7,11 @@ use jiff::tz::TimeZone;
 use super::{Member, read_members};
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, ListedTime};
-use crate::table::TableError;
+use crate::error::Error;
 
 /// Notes the submission times in the roster, Gradescope's list or Moodle's worksheet, where the
 /// platform's export says none.
-pub fn set_submission_times(
-    lists: &Lists,
-    entries: &mut [&mut EntryInfo],
-) -> Result<(), TableError> {
+pub fn set_submission_times(lists: &Lists, entries: &mut [&mut EntryInfo]) -> Result<(), Error> {
     let mut members = Vec::new();
     for path in [&lists.roster, &lists.gradescope, &lists.moodle]
         .into_iter()

@@ -14,7 +14,8 @@ use serde::de::DeserializeOwned;
 
 use crate::archive;
 use crate::entry::Entry;
-use crate::outcome::{EntryOutcome, EntryResult, EntryState, ScoreSummary, Stamp};
+use crate::error::Error;
+use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
 use crate::run::Run;
 
 const SCORE: &str = "score.json";
@@ -35,29 +36,12 @@ pub struct Store {
     folder: PathBuf,
 }
 
-/// An error that prevents the output folder from being used.
-#[derive(Debug, thiserror::Error)]
-pub enum StoreError {
-    /// A file or folder cannot be read or written.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A file has invalid contents.
-    #[error("{path} is damaged ({why}): delete it and grade again")]
-    Damaged {
-        /// The path of the damaged file.
-        path: PathBuf,
-        /// The parser's message.
-        why: String,
-    },
-}
-
-impl StoreError {
-    fn damaged(path: PathBuf, error: &serde_json::Error) -> Self {
-        StoreError::Damaged {
-            path,
-            why: error.to_string(),
-        }
-    }
+/// Returns the error of a file with invalid contents.
+fn damaged(path: &Path, why: &serde_json::Error) -> Error {
+    let path = path.display();
+    Error::Machine(format!(
+        "{path} is damaged ({why}): delete it and grade again"
+    ))
 }
 
 impl Store {
@@ -74,7 +58,7 @@ impl Store {
     }
 
     /// Removes the temporary files of a killed run.
-    pub fn remove_temporary_files(&self) -> Result<(), StoreError> {
+    pub fn remove_temporary_files(&self) -> Result<(), Error> {
         let entries = self.ids()?.into_iter().map(|id| self.entry_folder(&id));
         for folder in entries.chain([self.folder.clone()]) {
             for file in list_if_exists(&folder)? {
@@ -98,39 +82,34 @@ impl Store {
     }
 
     /// Reads `run.json`; returns `None` in a new folder.
-    pub fn read_run(&self) -> Result<Option<Run>, StoreError> {
+    pub fn read_run(&self) -> Result<Option<Run>, Error> {
         self.read(RUN)
     }
 
     /// Writes `run.json`.
-    pub fn write_run(&self, run: &Run) -> Result<(), StoreError> {
+    pub fn write_run(&self, run: &Run) -> Result<(), Error> {
         self.write(RUN, json(run))
     }
 
     /// Reads a JSON file of the class; returns `None` if it does not exist.
-    pub fn read<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, StoreError> {
+    pub fn read<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, Error> {
         read_json(self.folder.join(name))
     }
 
     /// Returns the paths of the files in a folder in the output folder.
-    pub fn list(&self, name: &str) -> Result<Vec<PathBuf>, StoreError> {
+    pub fn list(&self, name: &str) -> Result<Vec<PathBuf>, Error> {
         Ok(list_if_exists(&self.folder.join(name))?)
     }
 
     /// Writes a file of the class, such as `class.json`, into the output folder.
-    pub fn write(
-        &self,
-        name: impl AsRef<Path>,
-        contents: impl AsRef<[u8]>,
-    ) -> Result<(), StoreError> {
+    pub fn write(&self, name: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), Error> {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
     /// Returns the stored result of an entry if it was graded with this cache key.
     pub fn cached_result(&self, entry: &Entry, key: &str) -> Option<EntryResult> {
         let stamp = self.read_stamp(&entry.id).ok()??;
-        let score = (stamp.key == key && stamp.state == EntryState::Graded)
-            .then(|| self.read_score(&entry.id));
+        let score = (stamp.key == key && stamp.is_graded()).then(|| self.read_score(&entry.id));
         Some(EntryResult {
             id: entry.id.clone(),
             info: entry.info.clone(),
@@ -138,27 +117,19 @@ impl Store {
         })
     }
 
-    /// Returns whether the stored state of the entry equals `state`.
-    pub fn has_state(&self, id: &str, state: &EntryState) -> bool {
+    /// Returns whether the entry is stored with nothing to grade, for this reason.
+    pub fn has_nothing_to_grade(&self, id: &str, why: &str) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
-        stamp.is_some_and(|stamp| stamp.state == *state)
+        stamp.is_some_and(
+            |stamp| matches!(stamp.outcome, EntryOutcome::NothingToGrade(stored) if stored == why),
+        )
     }
 
     /// Writes the stamp of an entry. If the entry has a score, it must already have been written.
     /// Otherwise, the entry's files from earlier runs are removed. `round` is the round of the run.
-    pub fn save_result(
-        &self,
-        result: &EntryResult,
-        key: &str,
-        round: u32,
-    ) -> Result<(), StoreError> {
+    pub fn save_result(&self, result: &EntryResult, key: &str, round: u32) -> Result<(), Error> {
         let folder = self.entry_folder(&result.id);
-        let state = match &result.outcome {
-            EntryOutcome::Graded(_) => EntryState::Graded,
-            EntryOutcome::NothingToGrade(why) => EntryState::NothingToGrade(why.clone()),
-            EntryOutcome::Fault(why) => EntryState::Fault(why.clone()),
-        };
-        if state != EntryState::Graded {
+        if result.score().is_none() {
             // The files of an earlier run must not be mistaken for those of this run. Its stamp is
             // removed first: it must not be left without a score.
             for file in [STAMP, SCORE, REPORT, FEEDBACK, SUBMISSION] {
@@ -169,19 +140,19 @@ impl Store {
             key: key.to_owned(),
             round,
             info: result.info.clone(),
-            state,
+            outcome: result.outcome.clone(),
         };
         Ok(atomic_write::write(json(&stamp), &folder.join(STAMP))?)
     }
 
     /// Writes the page that the student may see.
-    pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), StoreError> {
+    pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), Error> {
         let path = self.entry_folder(id).join(FEEDBACK);
         Ok(atomic_write::write(page, &path)?)
     }
 
     /// Writes the task files that are graded.
-    pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), StoreError> {
+    pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
         let path = self.entry_folder(id).join(SUBMISSION);
         let files = submission.files.iter();
         let files = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
@@ -189,12 +160,12 @@ impl Store {
     }
 
     /// Reads the page that the student may see.
-    pub fn read_feedback(&self, id: &str) -> Result<String, StoreError> {
+    pub fn read_feedback(&self, id: &str) -> Result<String, Error> {
         Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
     }
 
     /// Puts sentences about what the score counts towards the grade into the entry's pages.
-    pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), StoreError> {
+    pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
         for name in [REPORT, FEEDBACK] {
             let path = self.entry_folder(id).join(name);
             // A shard's older results may lack a page.
@@ -205,9 +176,9 @@ impl Store {
 
     /// Keeps the score of an entry whose submission has changed, before it is graded again. Scores
     /// from earlier rounds are kept by [`save_previous_scores`](Self::save_previous_scores).
-    pub fn set_score_aside(&self, id: &str, round: u32) -> Result<(), StoreError> {
+    pub fn set_score_aside(&self, id: &str, round: u32) -> Result<(), Error> {
         let stamp = self.read_stamp(id)?;
-        let is_kept = |stamp: Stamp| stamp.state == EntryState::Graded && stamp.round == round;
+        let is_kept = |stamp: Stamp| stamp.is_graded() && stamp.round == round;
         if stamp.is_some_and(is_kept) {
             let folder = self.entry_folder(id);
             let path = folder.join(REPLACED);
@@ -218,18 +189,18 @@ impl Store {
     }
 
     /// Returns the score of an earlier version of the submission in the same round, if there is one.
-    pub fn replaced_score(&self, id: &str) -> Result<Option<ScoreSummary>, StoreError> {
+    pub fn replaced_score(&self, id: &str) -> Result<Option<ScoreSummary>, Error> {
         self.read_kept_score(id, REPLACED)
     }
 
     /// Removes the stamp of an entry, before its other files change.
-    pub fn remove_stamp(&self, id: &str) -> Result<(), StoreError> {
+    pub fn remove_stamp(&self, id: &str) -> Result<(), Error> {
         Ok(files::remove_if_exists(self.entry_folder(id).join(STAMP))?)
     }
 
     /// Replaces an entry's files by those in another store. As in grading, the stamp is removed first
     /// and written last, so a killed merge never leaves a stamp beside another run's score.
-    pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), StoreError> {
+    pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), Error> {
         let folder = self.entry_folder(id);
         files::create_dir_all(&folder)?;
         self.remove_stamp(id)?;
@@ -255,44 +226,45 @@ impl Store {
     }
 
     /// Returns all results, in the order of their ids.
-    pub fn results(&self) -> Result<Vec<EntryResult>, StoreError> {
+    pub fn results(&self) -> Result<Vec<EntryResult>, Error> {
         let ids = self.ids()?;
         let results = ids.iter().map(|id| self.result(id));
         results.filter_map(Result::transpose).collect()
     }
 
     /// Returns the result of an entry, or `None` if it has none.
-    pub fn result(&self, id: &str) -> Result<Option<EntryResult>, StoreError> {
-        let Some(Stamp { info, state, .. }) = self.read_stamp(id)? else {
+    pub fn result(&self, id: &str) -> Result<Option<EntryResult>, Error> {
+        let Some(stamp) = self.read_stamp(id)? else {
             return Ok(None);
         };
-        let outcome = match state {
-            EntryState::Graded => EntryOutcome::Graded(Box::new(self.read_score(id)?)),
-            EntryState::NothingToGrade(why) => EntryOutcome::NothingToGrade(why),
-            EntryState::Fault(why) => EntryOutcome::Fault(why),
-        };
-        Ok(Some(EntryResult {
+        let mut result = EntryResult {
             id: id.to_owned(),
-            info,
-            outcome,
-        }))
+            info: stamp.info,
+            outcome: stamp.outcome,
+        };
+        if let EntryOutcome::Graded(score) = &mut result.outcome {
+            **score = self.read_score(id)?;
+        }
+        Ok(Some(result))
     }
 
     /// Saves the last score of every entry as its previous score. If there was nothing to grade, the
     /// previous score is removed. If this is interrupted, it can be done again.
-    pub fn save_previous_scores(&self) -> Result<(), StoreError> {
+    pub fn save_previous_scores(&self) -> Result<(), Error> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
-            let last = match self.read_stamp(&id)?.map(|stamp| stamp.state) {
-                Some(EntryState::Graded) => Some(files::read_to_string(folder.join(SCORE))?),
-                Some(EntryState::NothingToGrade(_)) => {
+            let last = match self.read_stamp(&id)?.map(|stamp| stamp.outcome) {
+                Some(EntryOutcome::Graded(_)) => Some(files::read_to_string(folder.join(SCORE))?),
+                Some(EntryOutcome::NothingToGrade(_)) => {
                     files::remove_if_exists(&path)?;
                     None
                 }
                 // Grading it again has failed or was interrupted. If that was in this round, the score
                 // was set aside; otherwise, it is already the previous one.
-                Some(EntryState::Fault(_)) | None => files::read_if_exists(folder.join(REPLACED))?,
+                Some(EntryOutcome::Fault(_)) | None => {
+                    files::read_if_exists(folder.join(REPLACED))?
+                }
             };
             if let Some(text) = last {
                 atomic_write::write(&text, &path)?;
@@ -303,31 +275,31 @@ impl Store {
     }
 
     /// Returns the previous score of an entry, if there is one.
-    pub fn previous_score(&self, id: &str) -> Result<Option<ScoreSummary>, StoreError> {
+    pub fn previous_score(&self, id: &str) -> Result<Option<ScoreSummary>, Error> {
         self.read_kept_score(id, PREVIOUS)
     }
 
-    fn read_kept_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, StoreError> {
+    fn read_kept_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, Error> {
         let path = self.entry_folder(id).join(name);
         let text = files::read_if_exists(&path)?;
         let score = text.map(|text| ScoreSummary::parse(&text)).transpose();
-        score.map_err(|error| StoreError::damaged(path, &error))
+        score.map_err(|error| damaged(&path, &error))
     }
 
     /// Returns the ids of all entries, sorted.
-    pub fn ids(&self) -> Result<Vec<String>, StoreError> {
+    pub fn ids(&self) -> Result<Vec<String>, Error> {
         let entries = list_if_exists(&self.folder.join("students"))?;
         let names = entries.iter().filter_map(|path| path.file_name()?.to_str());
         Ok(names.map(str::to_owned).collect())
     }
 
-    fn read_score(&self, id: &str) -> Result<ScoreSummary, StoreError> {
+    fn read_score(&self, id: &str) -> Result<ScoreSummary, Error> {
         let path = self.entry_folder(id).join(SCORE);
         let text = files::read_to_string(&path)?;
-        ScoreSummary::parse(&text).map_err(|error| StoreError::damaged(path, &error))
+        ScoreSummary::parse(&text).map_err(|error| damaged(&path, &error))
     }
 
-    fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, StoreError> {
+    fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, Error> {
         read_json(self.entry_folder(id).join(STAMP))
     }
 }
@@ -352,10 +324,10 @@ pub fn json(value: &impl serde::Serialize) -> String {
 }
 
 /// Reads a JSON file, or returns `None` if it does not exist.
-fn read_json<T: DeserializeOwned>(path: PathBuf) -> Result<Option<T>, StoreError> {
+fn read_json<T: DeserializeOwned>(path: PathBuf) -> Result<Option<T>, Error> {
     let text = files::read_if_exists(&path)?;
     let value = text.map(|text| serde_json::from_str(&text)).transpose();
-    value.map_err(|error| StoreError::damaged(path, &error))
+    value.map_err(|error| damaged(&path, &error))
 }
 
 #[cfg(test)]

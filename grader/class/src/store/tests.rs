@@ -63,7 +63,7 @@ fn entry(id: &str) -> Entry {
     }
 }
 
-fn points(score: Result<Option<ScoreSummary>, StoreError>) -> Option<u32> {
+fn points(score: Result<Option<ScoreSummary>, Error>) -> Option<u32> {
     score.unwrap().map(|score| score.points)
 }
 
@@ -183,12 +183,12 @@ fn a_stamp_is_never_left_without_its_score() {
 #[test]
 fn a_state_is_compared_with_its_reason() {
     let (_folder, store) = store();
-    let empty = EntryState::NothingToGrade("empty".to_owned());
-    assert!(!store.has_state("a", &empty));
+    assert!(!store.has_nothing_to_grade("a", "empty"));
     store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
-    assert!(store.has_state("a", &empty));
-    assert!(!store.has_state("a", &EntryState::NothingToGrade("other".to_owned())));
-    assert!(!store.has_state("a", &EntryState::Graded));
+    assert!(store.has_nothing_to_grade("a", "empty"));
+    assert!(!store.has_nothing_to_grade("a", "other"));
+    store.save_graded(&result("a", &["Ann"], graded(80)), "", 1);
+    assert!(!store.has_nothing_to_grade("a", "empty"));
 }
 
 #[test]

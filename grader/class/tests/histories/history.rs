@@ -261,7 +261,7 @@ impl History {
                 runs.iter()
                     .all(|run| hash(run, kind) == hash(&runs[0], kind))
             };
-            let finished = runs.iter().all(|run| run["finished"] == true);
+            let finished = runs.iter().all(|run| run["state"] == "finished");
             let own = self.has_own_manual_points();
             let has_manual = own || runs[0]["lists"]["manual-points"].is_object();
             let mut ids = runs

@@ -75,13 +75,14 @@ impl Observed {
 
     /// Returns whether the last run of this folder has ended normally.
     pub fn is_finished(&self) -> bool {
-        self.flag("finished")
+        self.state() == Some("finished")
     }
 
     /// Returns whether a regrade has started, and has never ended normally.
     pub fn is_unfinished_regrade(&self) -> bool {
         let run = self.run.as_ref();
-        run.is_some_and(|run| !run["before"].is_null()) && !self.flag("was_finished")
+        let was_finished = matches!(self.state(), Some("finished" | "resumed"));
+        run.is_some_and(|run| !run["before"].is_null()) && !was_finished
     }
 
     /// Returns the end of the path that a list was given as, if the folder has it.
@@ -90,8 +91,8 @@ impl Observed {
         path.rsplit('/').next()
     }
 
-    fn flag(&self, name: &str) -> bool {
-        self.run.as_ref().is_some_and(|run| run[name] == true)
+    fn state(&self) -> Option<&str> {
+        self.run.as_ref()?["state"].as_str()
     }
 }
 

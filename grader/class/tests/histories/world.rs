@@ -207,7 +207,7 @@ impl World {
         let cli = Cli::parse_from(words);
         faulty_disk::start(&self.root, disk);
         let result = match &cli.command {
-            Some(Command::Merge(arguments)) => merge_shards(arguments),
+            Some(Command::Merge(arguments)) => merge_shards(arguments, &RAYS),
             None => {
                 let options = cli.class.grading.resolve();
                 let prepare: &PrepareGrader =

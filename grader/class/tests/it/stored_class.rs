@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use class::entry::{EntryInfo, Person};
 use class::outcome::{EntryOutcome, EntryResult, ScoreSummary};
-use class::run::{Run, Settings};
+use class::run::{RoundState, Run, Settings};
 use class::shard::Shard;
 use class::store::Store;
 use grader::handed_out::RAYS;
@@ -121,8 +121,7 @@ pub fn write_shard(folder: &Path, class: &[StoredEntry], shard: Option<Shard>, s
     let ids: Vec<String> = (0..class.len()).map(id).collect();
     let run = Run {
         shard,
-        finished: true,
-        was_finished: true,
+        state: RoundState::Finished,
         entries: own.iter().map(|(index, _)| id(*index)).collect(),
         class: file_hash(ids.join("\n").as_bytes()),
         tasks: RAYS

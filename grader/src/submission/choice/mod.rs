@@ -89,9 +89,14 @@ pub(super) enum AmbiguousSource {
     },
 }
 
+/// Returns whether nothing in a folder of this name is handed in, whatever the assignment is.
+pub fn is_skipped_name(name: &str) -> bool {
+    SKIPPED.contains(&name)
+}
+
 /// Returns whether nothing in a folder of this name is handed in.
 pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
-    SKIPPED.contains(&name) || handed_out.assignment.other_folders.contains(&name)
+    is_skipped_name(name) || handed_out.assignment.other_folders.contains(&name)
 }
 
 /// Chooses the folder with most task files that differ from the starter's. `None` if there are no

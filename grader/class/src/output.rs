@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::hand_back::{ARCHIVE, hand_back};
+use crate::list_kind::ListKind;
 use crate::manual::ManualPointsList;
 use crate::model::{GradedClass, count_points};
 use crate::outcome::EntryResult;
@@ -103,7 +104,14 @@ fn write_results(
         store.write(name, filled.table.to_csv())?;
         print_line(format_args!("  {}", store.folder().join(name).display()));
     }
-    if lists.hand_back {
+    for kind in &lists.drop_list {
+        // The copy of a gradebook that is dropped would have outdated points.
+        if let ListKind::Canvas | ListKind::Moodle | ListKind::Gradescope = kind {
+            store.remove(&format!("{}.csv", kind.name()))?;
+        }
+    }
+    // An archive that an earlier run was asked for would be outdated.
+    if lists.hand_back || store.folder().join(ARCHIVE).exists() {
         let hand_back = hand_back(class, store)?;
         store.write(ARCHIVE, &hand_back.archive)?;
         print(text::render_hand_back(&hand_back));

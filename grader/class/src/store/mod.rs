@@ -106,6 +106,11 @@ impl Store {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
+    /// Removes a file of the class from the output folder, if it exists.
+    pub fn remove(&self, name: &str) -> Result<(), Error> {
+        Ok(files::remove_if_exists(self.folder.join(name))?)
+    }
+
     /// Returns the stored result of an entry if it was graded with this cache key.
     pub fn cached_result(&self, entry: &Entry, key: &str) -> Option<EntryResult> {
         let stamp = self.read_stamp(&entry.id).ok()??;

@@ -89,11 +89,11 @@ impl FreshRuns {
             if last == "class.html" && has_changes(world, history) {
                 continue;
             }
-            // A list is remembered, and the archive to hand back is asked for each time.
-            if last == "hand-back.zip" && !is_handed_back {
-                continue;
-            }
             let Some(found) = found.get(name) else {
+                // A list is remembered. The archive to hand back is asked for, and then kept up to date.
+                if last == "hand-back.zip" && !is_handed_back {
+                    continue;
+                }
                 return Err(format!("{target:?} lacks {}", name.display()));
             };
             let is_same = match &*last {

@@ -76,7 +76,8 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     );
     assert!(preview.contains("Zoe Z"), "{preview}");
 
-    let dropped = ["--drop-list", "manual-points", "--drop-list", "roster"];
+    let dropped = ["manual-points", "roster", "canvas"];
+    let dropped = dropped.map(|list| ["--drop-list", list]).concat();
     let [text, _] = graded.run(&dropped);
     let changed = "1 final grade changed (changed: the roster, the table of points by hand)";
     assert!(text.contains(changed), "{text}");
@@ -85,6 +86,7 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     assert!(again.contains(changed), "{again}");
     assert!(!error.contains("points by hand"), "{error}");
     assert!(!graded.class.read("grades.csv").contains("Tess"));
+    assert!(!graded.class.out().join("canvas.csv").exists());
 }
 
 #[test]

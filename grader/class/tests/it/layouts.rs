@@ -185,33 +185,6 @@ fn canvas_attachments_are_in_the_order_of_their_numbers() {
 }
 
 #[test]
-fn a_canvas_group_submission_counts_for_all_its_members() {
-    let class = TestClass::named("submissions")
-        .with("doejane_7001_9001_hw.zip", archive())
-        .with("oharabob_7003_9030_hw.zip", archive());
-    let groups = class.write_beside(
-        "groups.csv",
-        "name,canvas_user_id,user_id,login_id,sections,group_name,canvas_group_id,group_id
-Jane Doe,7001,u1,jane,Lab 2,Team A,51,
-\"Núñez, José\",7002,u2,jose,Lab 2,Team A,51,
-Bob O'Hara,7003,u3,bob,Lab 1,,,
-Ann Lee,7004,u4,ann,Lab 1,Team B,52,
-",
-    );
-    let preview = class.preview_of(&class.input(), &["--roster", &groups]);
-    let (graded, missing) = preview.split_once("nothing submitted:").unwrap();
-    assert!(
-        graded.contains("  Jane Doe + Núñez, José: all 5 files"),
-        "{preview}"
-    );
-    assert!(graded.contains("  Bob O'Hara: all 5 files"), "{preview}");
-    assert!(
-        missing.contains("Ann Lee") && !missing.contains("José"),
-        "{preview}"
-    );
-}
-
-#[test]
 fn reads_moodle_folders_with_files_or_an_archive() {
     let class = TestClass::named("CG-Path tracing-77")
         .with_minimal_submission("José Núñez_301_assignsubmission_file_")
@@ -231,23 +204,6 @@ fn reads_moodle_folders_with_files_or_an_archive() {
             "text",
         );
     assert_snapshot!(class.preview());
-}
-
-#[test]
-fn moodle_numbers_distinguish_people_of_the_same_name() {
-    let class = TestClass::named("moodle")
-        .with_minimal_submission("Ann Lee_307_assignsubmission_file_")
-        .with_minimal_submission("Ann Lee_308_assignsubmission_file_");
-    let worksheet = class.write_beside(
-        "worksheet.csv",
-        "Identifier,Full name,Email address,Grade
-Participant 307,Ann Lee,a@example.edu,
-Participant 308,Ann Lee,b@example.edu,
-",
-    );
-    let preview = class.preview_of(&class.input(), &["--moodle", &worksheet]);
-    assert!(!preview.contains("same person"), "{preview}");
-    assert!(!preview.contains("nothing submitted"), "{preview}");
 }
 
 #[test]

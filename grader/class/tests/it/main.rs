@@ -19,7 +19,6 @@ mod recipes;
 mod resuming;
 #[cfg(unix)]
 mod runner_commands;
-mod score_files;
 mod second_run;
 mod shards;
 mod similarity;

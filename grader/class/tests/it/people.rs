@@ -1,8 +1,6 @@
 //! Rules for single people: extensions, several attempts, and points by hand.
 
-use std::fs;
-
-use crate::harness::{TestClass, cell, class_command, exit_code_and_stderr, successful_stdout};
+use crate::harness::{TestClass, cell, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const DUE: &str =
@@ -104,32 +102,6 @@ fn the_policy_says_which_of_several_attempts_counts() {
     assert_eq!(cell(&class, "u1", "Ann Lee", "status"), "several attempts");
 }
 
-#[test]
-fn the_latest_attempt_counts_if_all_times_are_known() {
-    let metadata = |submission: u32, time: &str| {
-        format!(
-            "submission_{submission}:\n  :submitters:\n  - :name: Ann\n    :email: a@x.edu\n  :created_at: {time}\n"
-        )
-    };
-    let times = ["2026-11-20 12:00:00 Z", "2026-11-20 14:00:00 +0300"];
-    let export = |second: &str| format!("---\n{}{}", metadata(1, times[0]), metadata(2, second));
-    let class = TestClass::named("export")
-        .with("submission_metadata.yml", export(times[1]))
-        .with_reference("submission_1")
-        .with_starter("submission_2");
-    let exam = class.small_exam(&ITEMS);
-    let policy = class.write_beside("policy.toml", "[attempts]\ncounts = 'latest'\n");
-    let status = |class: &TestClass, submission| cell(class, submission, "Ann", "status");
-    successful_stdout(&class.grade(&exam, &["--policy", &policy]));
-    assert_eq!(status(&class, "submission_1"), "graded");
-    assert_eq!(status(&class, "submission_2"), "another attempt counts");
-    let class = class.with("submission_metadata.yml", export("later"));
-    successful_stdout(&class.grade(&exam, &["--policy", &policy]));
-    for submission in ["submission_1", "submission_2"] {
-        assert_eq!(status(&class, submission), "several attempts");
-    }
-}
-
 /// Returns a class of two people in a group, and one alone.
 fn class_with_group() -> (TestClass, String, String) {
     let class = TestClass::named("class")
@@ -200,72 +172,4 @@ Ann Lee,camera,0,see me,Tess
     let score = class.read("students/carl/score.json");
     assert!(score.contains("\"points\": 0"), "{score}");
     assert!(!score.contains("Tess"));
-
-    // A shard has only some of the people, and its results can be merged.
-    let part = class.path_beside("part");
-    let shard = |number: u32| {
-        let shard = format!("{number}/2");
-        let mut command = class_command();
-        command
-            .arg(class.input())
-            .args(["--exam", &exam, "--no-reference"]);
-        command
-            .args(["--isolation", "none", "--shard", &shard])
-            .args(arguments);
-        command.arg("--out").arg(part.join(number.to_string()));
-        successful_stdout(&command.output().unwrap());
-    };
-    [1, 2].into_iter().for_each(shard);
-    let alone = class.read("grades.csv");
-    fs::remove_dir_all(class.out()).unwrap();
-    let mut command = class_command();
-    command.arg("merge").args([part.join("1"), part.join("2")]);
-    command.arg("--out").arg(class.out()).args(arguments);
-    successful_stdout(&command.output().unwrap());
-    assert_eq!(class.read("grades.csv"), alone);
-}
-
-#[test]
-fn a_mistake_in_manual_points_names_its_row_and_nothing_is_written() {
-    let (class, exam, roster) = class_with_group();
-    let reject = |rows: &str| {
-        let text = format!("student,task,delta,comment,author\ncarl,sphere,1,,Tess\n{rows}");
-        let manual = class.write_beside("manual.csv", &text);
-        let output = class.grade(&exam, &["--roster", &roster, "--manual-points", &manual]);
-        let (code, error) = exit_code_and_stderr(&output);
-        assert_eq!(code, 2, "{error}");
-        assert!(!class.out().join("grades.csv").exists());
-        let last = error.lines().last().unwrap();
-        last.replace(&manual, "manual.csv")
-    };
-    let rejections = [
-        "dave,camera,1,,Tess\n",
-        "bea,light,1,,Tess\n",
-        "bea,camera,NaN,,Tess\n",
-        "bea,camera,0.5,,Tess\n",
-        "bea,camera,1,,\n",
-        "carl@x.edu,sphere,1,,Tess\n",
-        "ann,camera,1,,Tess\n",
-        "carl,camera,-1,,Tess\n",
-        "carl,bvh,1,,Tess\n",
-        "carl,build,1,,Tess\n",
-    ];
-    insta::assert_snapshot!(rejections.map(reject).join("\n"));
-}
-
-#[test]
-fn a_roster_with_one_key_for_two_people_is_refused() {
-    let (class, exam, _) = class_with_group();
-    let grade = |rows: &str| {
-        let roster = class.write_beside("roster.csv", &format!("name,username,email\n{rows}"));
-        exit_code_and_stderr(&class.grade(&exam, &["--roster", &roster]))
-    };
-    let (code, error) = grade("Ann,ann,a@x.edu\nCarl,carl,c@x.edu\nAnna,anna,A@x.edu\n");
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("rows 2 and 4 both have \"A@x.edu\""),
-        "{error}"
-    );
-    let (code, error) = grade("Ann,ann,a@x.edu\nCarl,carl,c@x.edu\nAnn,ann,A@x.edu\n");
-    assert_eq!(code, 0, "{error}");
 }

@@ -62,29 +62,6 @@ fn a_killed_run_resumes_to_the_same_results() {
 }
 
 #[test]
-fn only_what_changed_is_graded_again() {
-    let class = sample_class("class");
-    let exam = class.small_exam(&ITEMS);
-    let first = class.grade(&exam, &[]);
-    successful_stdout(&first);
-    let class = class.with("bob/notes.rs", "").with_reference("zoë");
-    let second = class.grade(&exam, &[]);
-    successful_stdout(&second);
-    let lines = String::from_utf8(second.stderr).unwrap();
-    let graded = |id: &str| {
-        lines
-            .lines()
-            .any(|line| line.contains(&format!("] {id}: ")))
-    };
-    // The additional file adds a note to the report, so the submission is graded again.
-    assert!(graded("bob") && graded("zoë"), "{lines}");
-    assert!(
-        !graded("ann") && !graded("carl") && !graded("dora"),
-        "{lines}"
-    );
-}
-
-#[test]
 fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
     let class = sample_class("class");
     let exam = class.small_exam(&ITEMS);
@@ -132,25 +109,6 @@ fn exam_with_changed_points(class: &TestClass, exam: &str, by: i64) -> (i64, Str
     camera["points"] = (worth + by).into();
     let name = format!("revalued-{by}.json");
     (worth, class.write_beside(&name, &other.to_string()))
-}
-
-#[test]
-fn an_abandoned_regrade_keeps_the_old_scores() {
-    let class = sample_class("class");
-    let exam = class.small_exam(&ITEMS);
-    successful_stdout(&class.grade(&exam, &[]));
-    let (_, wrong) = exam_with_changed_points(&class, &exam, 1);
-    successful_stdout(&class.grade(&wrong, &["--regrade"]));
-    // Simulates a regrade that was interrupted because it used the wrong exam.
-    let run = class.out().join("run.json");
-    let text = fs::read_to_string(&run).unwrap();
-    let text = text.replace("inished\": true", "inished\": false");
-    fs::write(&run, text).unwrap();
-
-    let (worth, right) = exam_with_changed_points(&class, &exam, -1);
-    let text = successful_stdout(&class.grade(&right, &["--regrade"]));
-    let change = format!("camera.offset {worth} → {}: pass", worth - 1);
-    assert!(text.contains(&change), "{text}");
 }
 
 #[test]

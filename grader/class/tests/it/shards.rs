@@ -3,9 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use crate::harness::{
-    TestClass, class_command, comparable_files, exit_code_and_stderr, successful_stdout,
-};
+use crate::harness::{TestClass, class_command, comparable_files, successful_stdout};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
@@ -61,77 +59,6 @@ fn merged_shards_equal_an_unsharded_run() {
     };
     assert_eq!(files(&out), files(&class.out()));
     assert!(class.read("grades.csv").contains("graded,7,"));
-
-    let refused = |shards: &[&str], why: &str| {
-        let (code, error) = exit_code_and_stderr(&merge(shards, &out));
-        assert_eq!(code, 2);
-        assert!(error.contains(why), "{error}");
-    };
-    refused(&[one, two, one], "were both given the same --shard?");
-    refused(&[one], "results are missing for 2/2");
-    for out in [one.to_owned(), format!("{two}/merged")] {
-        let before = comparable_files(Path::new(one));
-        let merged = merge(&[one, two], Path::new(&out));
-        let (code, error) = exit_code_and_stderr(&merged);
-        assert_eq!(code, 2);
-        assert!(error.contains("choose another folder for --out"), "{error}");
-        assert_eq!(comparable_files(Path::new(one)), before);
-    }
-    let other = class.write_beside("other.toml", "[points]\nout_of = 8\n");
-    grade_shard(&class, &exam, "2/2", &["--policy", &other]);
-    refused(&[one, two], "the policy differs");
-}
-
-/// Every second submission of one list and of a longer one could leave somebody out.
-#[test]
-fn parts_of_different_lists_of_submissions_are_refused() {
-    let class = TestClass::of_three();
-    let exam = class.small_exam(&ITEMS);
-    let one = grade_shard(&class, &exam, "1/2", &[]);
-    let class = class.with_folder("dora").with_folder("eve");
-    let two = grade_shard(&class, &exam, "2/2", &[]);
-    let out = class.path_beside("merged");
-    let (code, error) = exit_code_and_stderr(&merge(&[&one, &two], &out));
-    assert_eq!(code, 2);
-    let why = "submissions were added or removed between them";
-    assert!(error.contains(why), "{error}");
-    assert!(!out.exists());
-    grade_shard(&class, &exam, "1/2", &[]);
-    successful_stdout(&merge(&[&one, &two], &out));
-    let grades = std::fs::read_to_string(out.join("grades.csv")).unwrap();
-    assert_eq!(grades.lines().count(), 6, "{grades}");
-}
-
-#[test]
-fn results_of_another_part_or_among_the_submissions_are_refused() {
-    let class = TestClass::of_three();
-    let exam = class.small_exam(&ITEMS);
-    grade_shard(&class, &exam, "1/2", &[]);
-    let grade = |out: &Path, more: &[&str]| {
-        let mut command = class_command();
-        command
-            .arg(class.input())
-            .args(["--exam", &exam, "--isolation", "none"]);
-        command
-            .arg("--no-reference")
-            .args(more)
-            .arg("--out")
-            .arg(out);
-        exit_code_and_stderr(&command.output().unwrap())
-    };
-    let shard = class.path_beside("shard-1-2");
-    for more in [&["--shard", "1/3"][..], &[]] {
-        let (code, error) = grade(&shard, more);
-        assert_eq!(code, 2);
-        assert!(
-            error.contains("has the results of part 1/2, and not of"),
-            "{error}"
-        );
-    }
-    let (code, error) = grade(&class.input().join("graded"), &[]);
-    assert_eq!(code, 2);
-    assert!(error.contains("would be taken for submissions"), "{error}");
-    assert!(!class.input().join("graded").exists());
 }
 
 #[test]

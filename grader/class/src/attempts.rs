@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
+use crate::graded_class::{ClassRow, GradeProblem};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
-use crate::model::{ClassRow, GradeProblem};
 use crate::outcome::EntryOutcome;
 
 /// Applies the policy's rule: of several attempts, only one keeps its points.
@@ -94,7 +94,7 @@ fn choose(
 mod tests {
     use super::*;
     use crate::entry::Person;
-    use crate::model::tests::{graded, policy, result};
+    use crate::graded_class::tests::{graded, policy, result};
 
     /// Returns a row for each submission: its id, its outcome and its time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {

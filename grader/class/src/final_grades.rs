@@ -7,8 +7,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::entry::Person;
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::list_kind::{KeptLists, ListKind};
-use crate::model::{ClassRow, GradedClass, PersonGrade};
 use crate::outcome::{EntryOutcome, id_and_names};
 use crate::run::{Run, Settings};
 

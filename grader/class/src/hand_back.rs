@@ -16,7 +16,7 @@ use zip::ZipWriter;
 use crate::archive;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
-use crate::model::{ClassRow, GradedClass, PersonGrade};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::store::Store;
 
 /// The name of the archive in the output folder.

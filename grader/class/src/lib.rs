@@ -4,21 +4,28 @@
 //! Each submission is graded in this process, as `cargo grade` would grade it; student code runs in
 //! separate processes. A submission that fails affects only its own result.
 //!
-//! Layers, from top to bottom; a module imports only from its own layer or those below:
+//! Layers, from top to bottom. A module imports only from layers below its own:
 //!
 //! | layer | modules |
 //! |---|---|
-//! | commands | [`grade`], [`merge`]; [`output`] |
-//! | reports | [`report`], [`gradebook`], [`hand_back`], [`similarity`], [`estimate`], [`summary`], [`distribution`] |
-//! | grading of entries | [`entry_grader`], [`submission_grader`], [`queue`], [`progress`] |
-//! | results | [`drift`], [`final_grades`], [`list_memory`], [`store`], [`run`], [`outcome`], [`model`], [`attempts`], [`late`], [`manual`] |
-//! | input | [`input`], [`unpack`], [`layout`], [`listing`], [`lists`], [`list_kind`], [`roster`], [`groups`], [`table`], [`entry`], [`moodle_status`], [`identity`], [`names`], [`shard`], [`paths`], [`archive`], [`cli`], [`error`] |
+//! | merging of shards | [`merge`] |
+//! | grading of a class | [`grade`] |
+//! | files of a class | [`output`], [`similarity`] |
+//! | reports for people | [`report`] |
+//! | grading of entries, and changes of scores | [`entry_grader`], [`regrade_diff`] |
+//! | what is made of grades; the input | [`counting`], [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
+//! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
+//! | a graded class | [`graded_class`] |
+//! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
+//! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
+//! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
+//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
 
 pub mod archive;
 pub mod attempts;
 pub mod cli;
+pub mod counting;
 pub mod distribution;
-pub mod drift;
 pub mod entry;
 pub mod entry_grader;
 pub mod error;
@@ -26,6 +33,7 @@ pub mod estimate;
 pub mod final_grades;
 pub mod grade;
 pub mod gradebook;
+pub mod graded_class;
 pub mod groups;
 pub mod hand_back;
 pub mod identity;
@@ -36,9 +44,8 @@ pub mod list_kind;
 pub mod list_memory;
 pub mod listing;
 pub mod lists;
-pub mod manual;
+pub mod manual_points;
 pub mod merge;
-pub mod model;
 pub mod moodle_status;
 pub mod names;
 pub mod outcome;
@@ -46,6 +53,7 @@ pub mod output;
 pub mod paths;
 pub mod progress;
 pub mod queue;
+pub mod regrade_diff;
 pub mod report;
 pub mod roster;
 pub mod run;

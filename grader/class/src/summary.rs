@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::distribution::Distribution;
-use crate::model::{ClassRow, GradeProblem, GradedClass};
+use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
 use crate::outcome::{EntryOutcome, ScoreSummary, id_and_names};
 
 /// The format version of `class.json`.

@@ -1,9 +1,9 @@
 //! Score files that `cargo class` reads back, from other machines or from a run that was killed.
 
-use class::drift::Changes;
 use class::entry::EntryInfo;
-use class::model::{ClassRow, GradedClass};
+use class::graded_class::{ClassRow, GradedClass};
 use class::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
+use class::regrade_diff::Changes;
 use class::report::{grades, page, text};
 use class::run::Run;
 use class::summary::ClassSummary;

@@ -1,22 +1,25 @@
-//! The modules use each other only from top to bottom, in the order of the table in `src/lib.rs`.
+//! The modules of a crate use each other only from top to bottom, in the order of the table in its
+//! `lib.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+/// The sources of the crates whose modules are in layers.
+const SOURCES: [&str; 2] = [
+    concat!(env!("CARGO_MANIFEST_DIR"), "/src"),
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../../grader/class/src"),
+];
+
 /// Returns each module's row in the table of layers.
-fn layers() -> BTreeMap<String, usize> {
-    let text = fs::read_to_string(source().join("lib.rs")).unwrap();
+fn layers(source: &Path) -> BTreeMap<String, usize> {
+    let text = fs::read_to_string(source.join("lib.rs")).unwrap();
     let rows = text.lines().filter(|line| line.starts_with("//! | "));
     let modules = rows.enumerate().flat_map(|(row, line)| {
         let names = line.split("[`").skip(1);
         names.map(move |name| (name.split('`').next().unwrap().to_owned(), row))
     });
     modules.collect()
-}
-
-fn source() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))
 }
 
 /// Returns the modules that a file or folder uses, except in its tests.
@@ -27,7 +30,8 @@ fn used_modules(path: &Path) -> BTreeSet<String> {
             .flat_map(|entry| used_modules(&entry.unwrap().path()))
             .collect();
     }
-    if path.extension().is_none_or(|extension| extension != "rs") {
+    let is_tests = path.ends_with("tests.rs");
+    if is_tests || path.extension().is_none_or(|extension| extension != "rs") {
         return BTreeSet::new();
     }
     let text = fs::read_to_string(path).unwrap();
@@ -42,23 +46,29 @@ fn used_modules(path: &Path) -> BTreeSet<String> {
 
 #[test]
 fn every_module_is_in_the_table() {
-    let text = fs::read_to_string(source().join("lib.rs")).unwrap();
-    let modules = text
-        .lines()
-        .filter_map(|line| line.strip_prefix("pub mod "));
-    let modules: BTreeSet<&str> = modules.map(|name| name.trim_end_matches(';')).collect();
-    let layers = layers();
-    assert_eq!(
-        layers.keys().map(String::as_str).collect::<BTreeSet<_>>(),
-        modules
-    );
+    for source in SOURCES.map(Path::new) {
+        let text = fs::read_to_string(source.join("lib.rs")).unwrap();
+        let modules = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("pub mod "));
+        let modules: BTreeSet<&str> = modules.map(|name| name.trim_end_matches(';')).collect();
+        let layers = layers(source);
+        assert_eq!(
+            layers.keys().map(String::as_str).collect::<BTreeSet<_>>(),
+            modules
+        );
+    }
 }
 
 #[test]
 fn modules_use_only_lower_layers() {
-    let layers = layers();
-    for (module, layer) in &layers {
-        let paths = [source().join(module), source().join(format!("{module}.rs"))];
+    let crates = SOURCES.map(|source| (Path::new(source), layers(Path::new(source))));
+    let modules = crates.iter().flat_map(|(source, layers)| {
+        let rows = layers.iter();
+        rows.map(move |(module, layer)| (source, layers, module, layer))
+    });
+    for (source, layers, module, layer) in modules {
+        let paths = [source.join(module), source.join(format!("{module}.rs"))];
         let paths = paths.iter().filter(|path| path.exists());
         let mut used: BTreeSet<String> = paths.flat_map(|path| used_modules(path)).collect();
         used.remove(module);

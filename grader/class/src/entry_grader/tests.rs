@@ -12,7 +12,7 @@ use grader::score::Score;
 
 use super::*;
 use crate::entry::{EntryInfo, Person, Source};
-use crate::model::tests::{graded, result};
+use crate::graded_class::tests::{graded, result};
 use crate::run::Settings;
 use crate::store::tests::run;
 

@@ -14,7 +14,6 @@ use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
 use crate::cli::{ClassArguments, Lists};
-use crate::drift::{Changes, RegradeChanges, compare_scores, find_removed, find_resubmitted};
 use crate::entry::{Entry, EntryInfo, Person};
 use crate::entry_grader::{EntryGrader, is_done};
 use crate::error::Error;
@@ -24,12 +23,15 @@ use crate::late::warn_about_extensions;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
 use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
-use crate::manual::ManualPointsList;
+use crate::manual_points::ManualPointsList;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
 use crate::paths::contains;
 use crate::progress::Progress;
 use crate::queue;
+use crate::regrade_diff::{
+    Changes, RegradeChanges, compare_scores, find_removed, find_resubmitted,
+};
 use crate::report::preview::{render_preview, render_warnings};
 use crate::roster;
 use crate::run::{RoundState, Run, Settings};

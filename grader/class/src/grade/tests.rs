@@ -8,7 +8,7 @@ use grader::handed_out::RAYS;
 
 use super::*;
 use crate::entry_grader::tests::{FailingGrader, missing, written};
-use crate::model::tests::{graded, result};
+use crate::graded_class::tests::{graded, result};
 use crate::store::tests::run;
 
 /// Returns an empty store in a temporary folder.

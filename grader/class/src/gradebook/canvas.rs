@@ -9,7 +9,7 @@ use super::{
 };
 use crate::entry::Person;
 use crate::error::Error;
-use crate::model::GradedClass;
+use crate::graded_class::GradedClass;
 use crate::table::{Table, missing_column};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";

@@ -11,7 +11,7 @@ mod moodle;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::Person;
-use crate::model::{ClassRow, GradeProblem, GradedClass, PersonGrade};
+use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
 use crate::names::{are_alike, are_equal, fold};
 use crate::table::Table;
 

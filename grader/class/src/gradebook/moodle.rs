@@ -7,7 +7,7 @@ use super::{
     FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning, non_empty,
 };
 use crate::error::Error;
-use crate::model::GradedClass;
+use crate::graded_class::GradedClass;
 use crate::table::Table;
 
 const REMEDY: &str =

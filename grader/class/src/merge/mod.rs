@@ -9,7 +9,6 @@ use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
 use crate::cli::MergeArguments;
-use crate::drift::{Changes, RemovedEntry, find_removed, find_resubmitted};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::grade::read_manual_points;
@@ -18,6 +17,7 @@ use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, Completion};
+use crate::regrade_diff::{Changes, RemovedEntry, find_removed, find_resubmitted};
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
 use crate::store::Store;

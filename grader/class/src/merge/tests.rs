@@ -7,8 +7,8 @@ use grader::handed_out::RAYS;
 use super::*;
 use crate::cli::Lists;
 use crate::entry::ListedTime;
+use crate::graded_class::tests::{graded, result};
 use crate::list_kind::ListKind;
-use crate::model::tests::{graded, result};
 use crate::outcome::EntryOutcome;
 use crate::store::tests::run;
 

@@ -1,7 +1,7 @@
 //! Writes `grades.csv`, which has a row for each student.
 
 use crate::entry::Person;
-use crate::model::{ClassRow, GradedClass, PersonGrade};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::table::{Table, safe_cell};
 
 const COLUMNS_BEFORE_TASKS: [&str; 9] = [

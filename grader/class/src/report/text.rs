@@ -7,10 +7,10 @@ use anstyle::Style;
 use judging::sanitize::sanitize_line;
 
 use crate::distribution::Distribution;
-use crate::drift::{Drift, RegradeChanges, RemovedEntry};
 use crate::final_grades::GradeChanges;
 use crate::gradebook::FilledGradebook;
 use crate::hand_back::HandBack;
+use crate::regrade_diff::{Drift, RegradeChanges, RemovedEntry};
 use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();

@@ -4,7 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::entry::{EntryInfo, Person, Source};
-use crate::model::tests::{graded, result};
+use crate::graded_class::tests::{graded, result};
 use crate::run::Settings;
 
 impl Store {

@@ -1,17 +1,17 @@
 //! Characters that could affect the text around them, such as escape sequences and direction marks.
 //! Nothing that a student chooses may bring them to the teacher's terminal, tables or pages.
 
-use class::drift::{Changes, Drift, ItemChange, RegradeChanges, RemovedEntry};
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::final_grades::{GradeChange, GradeChanges};
 use class::gradebook::{CellChange, FilledGradebook};
+use class::graded_class::{ClassRow, GradedClass};
 use class::hand_back::HandBack;
 use class::layout::{Layout, RecognisedClass, UnmatchedPath};
-use class::manual::ManualPoints;
-use class::model::{ClassRow, GradedClass};
+use class::manual_points::ManualPoints;
 use class::outcome::{
     EntryOutcome, EntryResult, FileNotes, Hint, ItemScore, ScoreSummary, TaskScore,
 };
+use class::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges, RemovedEntry};
 use class::report::grades::grades_table;
 use class::report::page::render_page;
 use class::report::preview::render_preview;

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::sanitized;
 use super::submissions::report_link;
-use crate::drift::{Changes, Drift};
+use crate::regrade_diff::{Changes, Drift};
 use crate::report::text::with_changed_points;
 
 /// Renders the differences from earlier runs, if there are any.

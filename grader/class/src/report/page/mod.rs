@@ -14,8 +14,8 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use crate::distribution::Distribution;
-use crate::drift::Changes;
-use crate::model::GradedClass;
+use crate::graded_class::GradedClass;
+use crate::regrade_diff::Changes;
 use crate::summary::{ClassSummary, Outlier};
 
 const STYLE: &str = include_str!("page.css");

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::sanitized;
-use crate::model::{ClassRow, GradedClass};
+use crate::graded_class::{ClassRow, GradedClass};
 use crate::outcome::ScoreSummary;
 use crate::report::grades::LATE;
 

@@ -6,7 +6,7 @@ use maud::{Markup, html};
 
 use super::sanitized;
 use crate::entry::Person;
-use crate::model::{ClassRow, GradeProblem, GradedClass, PersonGrade};
+use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
 
 /// Renders the section, if anything is known about times.
 pub(super) fn section(class: &GradedClass) -> Markup {

@@ -216,7 +216,7 @@ mod tests {
     use grader::handed_out::RAYS;
 
     use super::*;
-    use crate::model::tests::{graded, result};
+    use crate::graded_class::tests::{graded, result};
 
     /// Reads a list with these rows. The columns are in another order than in the documentation.
     fn read(rows: &[&str]) -> Result<ManualPointsList, String> {

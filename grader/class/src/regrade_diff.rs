@@ -168,7 +168,7 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::tests::{graded, result};
+    use crate::graded_class::tests::{graded, result};
     use crate::outcome::{EntryOutcome, FileNotes, TaskScore};
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {

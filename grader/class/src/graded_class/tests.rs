@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::*;
+use crate::counting::count_points;
 use crate::entry::EntryInfo;
+use crate::error::Error;
+use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};
 
 /// Returns the result of a submission by these people, with this outcome.

@@ -1,14 +1,10 @@
 //! The data of a graded class, from which all files of the class are written.
 
-use std::collections::BTreeMap;
-
 use grader::policy::{CountedPoints, Policy};
 
-use crate::attempts::apply_rule;
 use crate::entry::Person;
-use crate::error::Error;
 use crate::late::{UnclearTime, is_undated, lateness};
-use crate::manual::{ManualPoints, ManualPointsList};
+use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
 
 /// The results of a class.
@@ -227,7 +223,7 @@ impl ClassRow {
 
 impl PersonGrade {
     /// Returns whether other attempts of the person count, or may still be chosen.
-    fn is_set_aside(&self) -> bool {
+    pub fn is_set_aside(&self) -> bool {
         match &self.problem {
             Some(GradeProblem::OtherAttempt(_) | GradeProblem::SeveralAttempts(_)) => true,
             Some(GradeProblem::UnclearTime(_)) | None => false,
@@ -245,28 +241,6 @@ impl PersonGrade {
         let manual = self.manual.iter().map(ToString::to_string);
         counts.into_iter().chain(manual).collect()
     }
-}
-
-/// Applies the policy and the manual points to all results.
-pub fn count_points(
-    results: Vec<EntryResult>,
-    policy: &Policy,
-    manual: &ManualPointsList,
-    tasks: &BTreeMap<String, u32>,
-) -> Result<Vec<ClassRow>, Error> {
-    let mut rows = Vec::new();
-    for result in results {
-        let people = result.info.people.iter();
-        let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
-        rows.push(ClassRow::new(result, policy, own, tasks.values().sum()));
-    }
-    apply_rule(policy, &mut rows);
-    for row in &rows {
-        for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
-            manual.check_range(&grade.manual, &row.result.outcome, tasks)?;
-        }
-    }
-    Ok(rows)
 }
 
 #[cfg(test)]

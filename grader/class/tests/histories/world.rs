@@ -135,9 +135,9 @@ impl World {
         self.submissions.insert(student, version);
     }
 
-    /// Returns whether there is something to grade. A single empty folder is no class.
+    /// Returns whether there is a class. A single folder is a class of one, even if it is empty.
     pub fn is_class(&self) -> bool {
-        self.submissions.len() > 1 || self.submissions.values().any(Option::is_some)
+        !self.submissions.is_empty()
     }
 
     /// Removes a student.

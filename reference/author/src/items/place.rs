@@ -2,7 +2,7 @@
 //! sizes, or on being near the origin, is right in one place and wrong in another.
 
 use glam::{DVec3, Vec3};
-use protocol::{Interval, Ray, Shape};
+use protocol::{Interval, Ray, Shape, TreeNode};
 
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -44,14 +44,56 @@ impl Place {
         }
     }
 
-    fn point(self, point: Vec3) -> Vec3 {
+    /// Returns a place at the origin for things that are a quarter of a millionth as large. The
+    /// factor is a power of two, so code without an absolute number computes the same digits, and is
+    /// as far from any decision as before.
+    pub(super) fn dust() -> Self {
+        Place {
+            scale: 1.0 / f64::from(1 << 22),
+            offset: DVec3::ZERO,
+        }
+    }
+
+    /// Returns a place as far from the origin as the Cornell box, for things of this size, which are
+    /// then about as large as it is. Small integers stay exact: the factor is a power of two, and
+    /// the offset consists of integers.
+    pub(super) fn exact_room(rng: &mut Rng, size: f64) -> Self {
+        const SIZE: f64 = 64.0;
+        let mut far = || rng.sign() * rng.uniform(150.0, 400.0).round();
+        Place {
+            scale: (SIZE / size).log2().floor().exp2(),
+            offset: DVec3::new(far(), far(), far()),
+        }
+    }
+
+    /// Moves a point here.
+    pub(super) fn point(self, point: Vec3) -> Vec3 {
         (point.as_dvec3() * self.scale + self.offset).as_vec3()
+    }
+
+    /// Scales a length.
+    pub(super) fn length(self, length: f32) -> f32 {
+        (f64::from(length) * self.scale) as f32
     }
 
     /// Moves a shape here.
     pub(super) fn shape(self, shape: &Shape) -> Shape {
-        let length = |length: f32| (f64::from(length) * self.scale) as f32;
-        moved_shape(shape, |point| self.point(point), length)
+        let mut shape = *shape;
+        match &mut shape {
+            Shape::Triangle { vertices, .. } => {
+                for vertex in vertices {
+                    vertex.position = self.point(vertex.position);
+                }
+            }
+            Shape::FlatTriangle { corners, .. } => {
+                *corners = corners.map(|corner| self.point(corner));
+            }
+            Shape::Sphere { center, radius, .. } => {
+                *center = self.point(*center);
+                *radius = self.length(*radius);
+            }
+        }
+        shape
     }
 
     /// Moves all shapes here.
@@ -70,8 +112,7 @@ impl Place {
 
     /// Scales times along a ray.
     pub(super) fn interval(self, times: Interval) -> Interval {
-        let scaled = |time: f32| (f64::from(time) * self.scale) as f32;
-        Interval::new(scaled(times.min), scaled(times.max))
+        Interval::new(self.length(times.min), self.length(times.max))
     }
 
     /// Moves a box here. Its corners stay exact in single precision.
@@ -82,26 +123,17 @@ impl Place {
             max: moved(bounds.max),
         }
     }
-}
 
-/// Returns a shape whose points and lengths are moved.
-pub(super) fn moved_shape(
-    shape: &Shape,
-    point: impl Fn(Vec3) -> Vec3,
-    length: impl Fn(f32) -> f32,
-) -> Shape {
-    let mut shape = *shape;
-    match &mut shape {
-        Shape::Triangle { vertices, .. } => {
-            for vertex in vertices {
-                vertex.position = point(vertex.position);
+    /// Moves a node here. A sphere's centre and its box are rounded separately, so the box gets
+    /// larger by two units in the last place, to contain the sphere. A flat box stays flat.
+    pub(super) fn node(self, node: &TreeNode) -> TreeNode {
+        let (mut min, mut max) = (self.point(node.min), self.point(node.max));
+        for axis in 0..3 {
+            if self.offset != DVec3::ZERO && min[axis] < max[axis] {
+                min[axis] = min[axis].next_down().next_down();
+                max[axis] = max[axis].next_up().next_up();
             }
         }
-        Shape::FlatTriangle { corners, .. } => *corners = corners.map(point),
-        Shape::Sphere { center, radius, .. } => {
-            *center = point(*center);
-            *radius = length(*radius);
-        }
+        TreeNode { min, max, ..*node }
     }
-    shape
 }

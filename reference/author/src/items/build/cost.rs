@@ -28,12 +28,12 @@ pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuest
 
 /// The maximum cost of a correct builder's tree, relative to the exact sweep's tree. The judge
 /// gives full marks up to 1.12.
-pub const MAX_CORRECT_COST: f64 = 1.06;
+const MAX_CORRECT_COST: f64 = 1.06;
 
 /// The minimum cost of a tree whose builder compares only the two buckets next to a plane, relative
 /// to the exact sweep's tree. Meshes with a lower cost are not used, because they would hide this
 /// common mistake.
-pub const MIN_ADJACENT_COST: f64 = 1.2;
+const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// Creates an item with questions about two random meshes, one around the origin and one far from it.
 /// For them, correct builders come close to the exact sweep, and builders that compare only adjacent

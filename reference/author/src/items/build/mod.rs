@@ -14,7 +14,7 @@ use super::meshes;
 use crate::items::{Declaration, DeclaredItem, draw_items};
 use crate::seed::Seed;
 
-pub use cost::{MAX_CORRECT_COST, MIN_ADJACENT_COST, relative_cost};
+pub use cost::relative_cost;
 
 /// Returns the items of the task `build`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {

@@ -11,10 +11,12 @@ use super::pages::{Page, Snippet};
 use super::source_file::SourceFile;
 use crate::cli::Cli;
 
-/// The files that define the options of `cargo render` and `cargo view`. They are read as text,
-/// because the crates are not linked here.
-const RENDER_OPTIONS: &str = "student/framework/src/cli/options.rs";
-const VIEW_OPTIONS: &str = "grader/view/src/cli.rs";
+/// The files that define the options of `cargo render` and `cargo view`, each as a field. They are
+/// read as text, because the crates are not linked here.
+const OPTIONS: [&str; 2] = [
+    "student/framework/src/cli/options.rs",
+    "grader/view/src/cli.rs",
+];
 /// The flags of `cargo examples`, whose command line is not linked here.
 const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands of other programs that the handout uses.
@@ -81,10 +83,10 @@ fn unknown_command(
         "handin" => HandInArguments::try_parse_from(&line).err(),
         "author" => Cli::try_parse_from(&line).err(),
         "class" => ClassCli::try_parse_from(&line).err(),
-        "render" | "render-reference" => {
-            return unknown_option("render", RENDER_OPTIONS, &line[1..], sources);
+        "render" | "render-reference" | "view" => {
+            let mut flags = line.iter().filter(|word| word.starts_with("--"));
+            return flags.find_map(|flag| unknown_flag(flag, sources));
         }
-        "view" => return unknown_option("view", VIEW_OPTIONS, &line[1..], sources),
         "examples" => return unknown_example(&line[1..], sources),
         _ => None,
     }?;
@@ -93,46 +95,24 @@ fn unknown_command(
     (error.use_stderr()).then(|| format!("`{text}`: {first}"))
 }
 
-/// Returns the problem with a flag that the text mentions, or `None` if some command has the flag.
+/// Returns the problem with a flag, or `None` if some command has it.
 fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');
-    let takes = |command: clap::Command| {
-        command
-            .get_arguments()
-            .any(|argument| argument.get_long() == Some(name))
-    };
-    let is_authors = Cli::command().get_subcommands().cloned().any(takes);
-    let is_classes = takes(ClassArguments::augment_args(clap::Command::default()));
-    let known = takes(Arguments::command())
-        || takes(HandInArguments::command())
-        || is_authors
-        || is_classes
-        || EXAMPLES_FLAGS.contains(&flag);
-    if known {
-        return None;
-    }
-    let is_unknown = |command, file| unknown_option(command, file, &[flag], sources).is_some();
-    (is_unknown("render", RENDER_OPTIONS) && is_unknown("view", VIEW_OPTIONS))
-        .then(|| format!("no command has the flag {flag}"))
-}
-
-/// Returns the problem with the first flag that a command does not have. Each of its flags is a
-/// field in the file of its options.
-fn unknown_option(
-    command: &str,
-    file: &str,
-    words: &[&str],
-    sources: &[SourceFile],
-) -> Option<String> {
-    let options = sources.iter().find(|source| source.path == file);
-    let options = options.map_or("", |source| source.text.as_str());
-    let mut flags = words.iter().filter_map(|word| word.strip_prefix("--"));
-    let unknown = flags.find(|flag| {
-        let field = format!(" {}:", flag.replace('-', "_"));
-        !options.contains(&field)
-    })?;
-    Some(format!("cargo {command} has no flag --{unknown}"))
+    let mut commands = vec![
+        Arguments::command(),
+        HandInArguments::command(),
+        ClassArguments::augment_args(clap::Command::default()),
+    ];
+    commands.extend(Cli::command().get_subcommands().cloned());
+    let mut arguments = commands.iter().flat_map(clap::Command::get_arguments);
+    let field = format!(" {}:", name.replace('-', "_"));
+    let is_known = EXAMPLES_FLAGS.contains(&flag)
+        || arguments.any(|argument| argument.get_long() == Some(name))
+        || sources
+            .iter()
+            .any(|source| OPTIONS.contains(&&*source.path) && source.text.contains(&field));
+    (!is_known).then(|| format!("no command has the flag {flag}"))
 }
 
 /// Returns the problem with the first argument of `cargo examples` that is neither the name of a
@@ -155,8 +135,8 @@ mod tests {
             text: text.to_owned(),
         };
         let sources = [
-            source(RENDER_OPTIONS, "    pub(super) view: View,"),
-            source(VIEW_OPTIONS, "    pub no_open: bool,"),
+            source(OPTIONS[0], "    pub(super) view: View,"),
+            source(OPTIONS[1], "    pub no_open: bool,"),
             source("student/src/bvh.rs", ""),
         ];
         let aliases = [
@@ -182,12 +162,12 @@ mod tests {
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
             "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres'",
             "a.md:4: cargo has no command gradee",
-            "a.md:5: cargo render has no flag --views",
+            "a.md:5: no command has the flag --views",
             "a.md:6: there is no file tree.rs with examples",
             "a.md:7: unknown command make",
             "a.md:8: `cargo handin --zip`: error: unexpected argument '--zip' found",
             "a.md:9: `cargo class a --shard 9/8`: error: invalid value '9/8'",
-            "a.md:10: cargo view has no flag --opens",
+            "a.md:10: no command has the flag --opens",
             "a.md:12: no command has the flag --hint",
         ];
         assert_eq!(problems.len(), starts.len(), "{problems:#?}");

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use grader::files::{self, PathError};
+use anyhow::{Result, bail};
+use grader::files;
 
 /// A generated file and its contents.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,22 +34,6 @@ pub enum Mode {
     Check,
 }
 
-/// The reason why generated files cannot be written, or fail the check.
-#[derive(Debug, thiserror::Error)]
-pub enum GeneratedFileError {
-    /// Files differ from what would be generated, or are missing.
-    #[error("out of date: {}; run `{command}`", paths.join(", "))]
-    Differs {
-        /// The paths of all files that differ or are missing.
-        paths: Vec<String>,
-        /// The command that writes them.
-        command: String,
-    },
-    /// A file cannot be written.
-    #[error(transparent)]
-    File(#[from] PathError),
-}
-
 /// Writes the files below `root`, or compares them with the files there. `command` is the command
 /// that writes the files, for the error message.
 pub fn write_or_check(
@@ -56,7 +41,7 @@ pub fn write_or_check(
     root: &Path,
     mode: Mode,
     command: &str,
-) -> Result<(), GeneratedFileError> {
+) -> Result<()> {
     match mode {
         Mode::Write => files
             .iter()
@@ -68,8 +53,7 @@ pub fn write_or_check(
             if paths.is_empty() {
                 return Ok(());
             }
-            let command = command.to_owned();
-            Err(GeneratedFileError::Differs { paths, command })
+            bail!("out of date: {}; run `{command}`", paths.join(", "))
         }
     }
 }
@@ -80,7 +64,7 @@ fn differs(file: &GeneratedFile, root: &Path) -> bool {
     !found.is_ok_and(|found| found == file.contents.as_bytes())
 }
 
-fn write(file: &GeneratedFile, root: &Path) -> Result<(), GeneratedFileError> {
+fn write(file: &GeneratedFile, root: &Path) -> Result<()> {
     let path = root.join(&file.path);
     Ok(files::write_with_parents(path, &file.contents)?)
 }

@@ -14,7 +14,6 @@ use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
 use author::exams;
-use grader::given_files;
 use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
@@ -52,11 +51,6 @@ fn archives_are_reproducible_and_unpack_to_the_same_files() {
     let bytes = fs::read(archive).unwrap();
     assert!(bytes == zip(&BUNDLE).unwrap());
     assert!(unzip(&bytes).unwrap() == *BUNDLE);
-}
-
-#[test]
-fn the_bundle_holds_no_secret() {
-    assert_eq!(secrets().search(&BUNDLE), []);
 }
 
 #[test]
@@ -273,26 +267,6 @@ fn its_documents_name_the_rust_version_of_the_manifest() {
     }
 }
 
-/// Checks that the profiles name no missing package: otherwise, cargo would print a warning for
-/// each one whenever a student runs a command.
-#[test]
-fn its_profiles_name_only_packages_that_it_has() {
-    let manifest: toml::Table = BUNDLE.text("Cargo.toml").unwrap().parse().unwrap();
-    let lock = BUNDLE.text("Cargo.lock").unwrap();
-    let profiles = manifest["profile"].as_table().unwrap();
-    let packages = profiles
-        .values()
-        .filter_map(|profile| profile.get("package"));
-    let names = packages.flat_map(|packages| packages.as_table().unwrap().keys());
-    let unknown = names.filter(|name| {
-        *name != "*"
-            && !lock
-                .lines()
-                .any(|line| line == format!("name = \"{name}\""))
-    });
-    assert_eq!(unknown.collect::<Vec<_>>(), [""; 0]);
-}
-
 #[test]
 fn the_first_stub_is_where_the_first_page_says() {
     let page = BUNDLE.text("handout/src/start.md").unwrap();
@@ -335,16 +309,4 @@ fn an_update_has_everything_but_the_students_files_and_the_same_version() {
             .collect::<Vec<_>>()
     );
     assert_eq!(update.version(), BUNDLE.version());
-}
-
-#[test]
-fn the_given_code_is_listed_as_it_is() {
-    let list = BUNDLE.text(given_files::LIST).unwrap();
-    for file in [
-        "student/protocol/src/interval.rs",
-        "student/framework/src/lib.rs",
-    ] {
-        assert!(list.contains(&format!("  {file}\n")), "{list}");
-    }
-    assert_eq!(list, given_files::list(&BUNDLE.files));
 }

@@ -2,8 +2,9 @@
 //! gives the same bytes on every machine.
 
 use std::io::{Cursor, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use anyhow::{Result, bail};
 use grader::files::{self, PathError};
 use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
@@ -14,27 +15,9 @@ use crate::bundle::Bundle;
 /// The folder that the archive unpacks to.
 pub const TOP_FOLDER: &str = "pathtracing";
 
-/// The reason why a bundle cannot be written.
-#[derive(Debug, thiserror::Error)]
-pub enum WriteError {
-    /// The folder already contains files, which are not overwritten.
-    #[error(
-        "{} is not empty: choose a new folder or a name that ends with .zip, or remove everything \
-         but .git from this folder",
-        .0.display()
-    )]
-    NotEmpty(PathBuf),
-    /// A file operation failed.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The archive cannot be created.
-    #[error("cannot create the archive: {0}")]
-    Zip(#[from] ZipError),
-}
-
 /// Writes the bundle as an archive if `out` ends with `.zip`, and otherwise as a folder. The folder
 /// may be an empty Git repository.
-pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
+pub fn write(bundle: &Bundle, out: &Path) -> Result<()> {
     if out.extension().is_some_and(|extension| extension == "zip") {
         return Ok(files::write(out, zip(bundle)?)?);
     }
@@ -42,13 +25,17 @@ pub fn write(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
 }
 
 /// Writes the bundle as a folder. The folder may already exist if it contains nothing but `.git`.
-pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<(), WriteError> {
+pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<()> {
     files::create_dir_all(out)?;
     if files::read_dir(out)?
         .iter()
         .any(|path| !path.ends_with(".git"))
     {
-        return Err(WriteError::NotEmpty(out.to_owned()));
+        bail!(
+            "{} is not empty: choose a new folder or a name that ends with .zip, or remove \
+             everything but .git from this folder",
+            out.display()
+        );
     }
     Ok(write_files(bundle, out)?)
 }

@@ -4,22 +4,9 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
-use grader::files::{self, PathError};
+use anyhow::{Context, Result, anyhow};
+use grader::files;
 use serde::Deserialize;
-
-/// The reason why the crates of a lock file cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum CratesError {
-    /// Cargo's home folder is unknown.
-    #[error("cannot find cargo's home folder: set CARGO_HOME")]
-    NoCargoHome,
-    /// The lock file is invalid.
-    #[error("cannot read the bundle's lock file: {0}")]
-    Lock(#[from] toml::de::Error),
-    /// A file operation failed.
-    #[error(transparent)]
-    File(#[from] PathError),
-}
 
 #[derive(Deserialize)]
 struct LockFile {
@@ -35,8 +22,9 @@ struct Package {
 /// Returns the files of cargo's registry folder that are needed to build the crates of a lock file,
 /// with their paths in that folder: each crate's index entry and archive. Crates for other systems
 /// are skipped: cargo has not fetched them, and does not need them here.
-pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>, CratesError> {
-    let lock: LockFile = toml::from_str(lock)?;
+pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>> {
+    let lock: LockFile = toml::from_str(lock)
+        .map_err(|error| anyhow!("cannot read the bundle's lock file: {error}"))?;
     let registry = cargo_home()?.join("registry");
     let mut files = Vec::new();
     for path in registry_paths(&lock, &registry)? {
@@ -49,16 +37,16 @@ pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>, CratesError>
     Ok(files)
 }
 
-fn cargo_home() -> Result<PathBuf, CratesError> {
+fn cargo_home() -> Result<PathBuf> {
     env::var_os("CARGO_HOME")
         .map(PathBuf::from)
         .or_else(|| Some(env::home_dir()?.join(".cargo")))
-        .ok_or(CratesError::NoCargoHome)
+        .context("cannot find cargo's home folder: set CARGO_HOME")
 }
 
 /// Returns the paths, relative to the registry folder and separated by `/`, of all files that could
 /// belong to these crates. Some of them may not exist.
-fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>, CratesError> {
+fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>> {
     let mut paths = Vec::new();
     for registry in entry_names(&folder.join("index"))? {
         let index = format!("index/{registry}");
@@ -72,7 +60,7 @@ fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>, CratesE
     Ok(paths)
 }
 
-fn entry_names(folder: &Path) -> Result<Vec<String>, CratesError> {
+fn entry_names(folder: &Path) -> Result<Vec<String>> {
     let paths = files::read_dir(folder)?.into_iter();
     let names = paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
     Ok(names.collect())

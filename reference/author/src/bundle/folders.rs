@@ -2,9 +2,10 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use grader::files::{self, AtPath, PathError};
+use anyhow::{Context, Result, bail};
+use grader::files::{self, AtPath};
 
 use crate::bundle::Bundle;
 
@@ -41,34 +42,15 @@ const EXAMS: &str = "grader/exams";
 /// The exam that is handed out.
 const PRACTICE: &str = "grader/exams/practice.json";
 
-/// The reason why a file or folder of the repository cannot be copied.
-#[derive(Debug, thiserror::Error)]
-pub enum FoldersError {
-    /// A file operation failed.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A path leads to a symbolic link or a device, or its name is not UTF-8.
-    #[error(
-        "{} is not a regular file or folder with a UTF-8 name, so students could not unpack it: \
-         remove it",
-        .0.display()
-    )]
-    NotAPlainFile(PathBuf),
-}
-
 /// Copies the files and folders in `COPIED` into the bundle.
-pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<(), FoldersError> {
+pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<()> {
     COPIED
         .iter()
         .try_for_each(|path| copy_tree(&root.join(path), path, bundle))
 }
 
 /// Copies the file `source`, or everything below the folder `source`, to `path` in the bundle.
-pub(crate) fn copy_tree(
-    source: &Path,
-    path: &str,
-    bundle: &mut Bundle,
-) -> Result<(), FoldersError> {
+pub(crate) fn copy_tree(source: &Path, path: &str, bundle: &mut Bundle) -> Result<()> {
     let kind = fs::symlink_metadata(source).at("read", source)?.file_type();
     if kind.is_file() {
         let mut bytes = files::read(source)?;
@@ -79,17 +61,25 @@ pub(crate) fn copy_tree(
         return Ok(());
     }
     if !kind.is_dir() {
-        return Err(FoldersError::NotAPlainFile(source.to_owned()));
+        bail!(not_plain(source));
     }
     for below in files::read_dir(source)? {
         let name = below.file_name().and_then(OsStr::to_str);
-        let name = name.ok_or_else(|| FoldersError::NotAPlainFile(below.clone()))?;
+        let name = name.with_context(|| not_plain(&below))?;
         let path = format!("{path}/{name}");
         if is_handed_out(&path, name) {
             copy_tree(&below, &path, bundle)?;
         }
     }
     Ok(())
+}
+
+fn not_plain(path: &Path) -> String {
+    format!(
+        "{} is not a regular file or folder with a UTF-8 name, so students could not unpack it: \
+         remove it",
+        path.display()
+    )
 }
 
 /// Returns the names of the pages for instructors in the built book at `path` in the bundle.

@@ -7,25 +7,15 @@ use std::env;
 use std::path::Path;
 use std::process::Command;
 
-use grader::files::{self, AtPath, PathError};
+use anyhow::{Result, bail};
+use grader::files::{self, AtPath};
 use tempfile::TempDir;
 
 use crate::bundle::Bundle;
 use crate::bundle::archive;
 
-/// The reason why the lock file cannot be created.
-#[derive(Debug, thiserror::Error)]
-pub enum LockError {
-    /// A file operation failed.
-    #[error("cannot create the bundle's lock file: {0}")]
-    File(#[from] PathError),
-    /// Cargo failed.
-    #[error("cargo cannot create the bundle's lock file; run `cargo fetch`, then try again:\n{0}")]
-    Cargo(String),
-}
-
 /// Returns the text of the bundle's lock file.
-pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String, LockError> {
+pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String> {
     let folder = TempDir::new().at("create a folder in", env::temp_dir())?;
     archive::write_files(bundle, folder.path())?;
     let lock = folder.path().join("Cargo.lock");
@@ -38,8 +28,10 @@ pub(super) fn lock_file(root: &Path, bundle: &Bundle) -> Result<String, LockErro
         .output()
         .at("run", cargo)?;
     if !output.status.success() {
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(LockError::Cargo(message));
+        bail!(
+            "cargo cannot create the bundle's lock file; run `cargo fetch`, then try again:\n{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
     Ok(files::read_to_string(lock)?)
 }

@@ -3,8 +3,9 @@
 
 use std::path::Path;
 
-use grader::files::{self, PathError};
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, TomlError, value};
+use anyhow::{Context, Result, anyhow};
+use grader::files;
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, value};
 
 use crate::bundle::Bundle;
 
@@ -19,33 +20,9 @@ const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 /// in the bundle.
 const STAFF_PROFILES: [&str; 2] = ["bench", "mutants"];
 
-/// The reason why a manifest cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum ManifestError {
-    /// A file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A file is not valid TOML.
-    #[error("{path} is not valid TOML: {source}")]
-    Toml {
-        /// The path of the file.
-        path: String,
-        /// The parse error, with its line and column.
-        source: TomlError,
-    },
-    /// A required key is missing.
-    #[error("{path} no longer has the key `{key}`: adapt reference/author/src/bundle/manifests.rs")]
-    MissingKey {
-        /// The path of the manifest.
-        path: &'static str,
-        /// The missing key.
-        key: &'static str,
-    },
-}
-
 /// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
 /// staff. Also trims the manifests that are already in the bundle.
-pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), ManifestError> {
+pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     let text = |path: &str| files::read_to_string(root.join(path));
     bundle.insert(STUDENT_MANIFEST, text(STUDENT_MANIFEST)?);
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
@@ -68,10 +45,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     let members = manifest["workspace"].get_mut("members");
     let members = members
         .and_then(Item::as_array_mut)
-        .ok_or(ManifestError::MissingKey {
-            path: "Cargo.toml",
-            key: "workspace.members",
-        })?;
+        .with_context(|| missing_key("Cargo.toml", "workspace.members"))?;
     keep_members(members, bundle);
     // Cargo warns about profile settings of packages that are missing.
     if let Some(profiles) = manifest["profile"].as_table_like_mut() {
@@ -84,7 +58,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<(), Manife
     let path = ".cargo/config.toml";
     let mut config = parse(path, &text(path)?)?;
     let aliases = config["alias"].as_table_mut();
-    let aliases = aliases.ok_or(ManifestError::MissingKey { path, key: "alias" })?;
+    let aliases = aliases.with_context(|| missing_key(path, "alias"))?;
     aliases.retain(|name, _| ALIASES.contains(&name));
     bundle.insert(path, config.to_string());
     Ok(())
@@ -112,9 +86,11 @@ fn keep_members(members: &mut Array, bundle: &Bundle) {
     });
 }
 
-pub(super) fn parse(path: &str, text: &str) -> Result<DocumentMut, ManifestError> {
-    text.parse().map_err(|source| ManifestError::Toml {
-        path: path.to_owned(),
-        source,
-    })
+pub(super) fn parse(path: &str, text: &str) -> Result<DocumentMut> {
+    text.parse()
+        .map_err(|error| anyhow!("{path} is not valid TOML: {error}"))
+}
+
+fn missing_key(path: &str, key: &str) -> String {
+    format!("{path} no longer has the key `{key}`: adapt reference/author/src/bundle/manifests.rs")
 }

@@ -18,13 +18,11 @@ mod version;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use anyhow::{Result, bail};
 use grader::given_files;
 use grader::handed_out::HandedOut;
 
-use crate::bundle::folders::FoldersError;
-use crate::bundle::lock::LockError;
-use crate::bundle::manifests::ManifestError;
-use crate::starter::{self, StarterError};
+use crate::starter;
 
 /// The paths in the bundle and the contents of the files that only students see.
 const STUDENT_ONLY: [(&str, &str); 8] = [
@@ -61,38 +59,10 @@ pub struct Bundle {
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
-/// The reason why a bundle cannot be collected.
-#[derive(Debug, thiserror::Error)]
-pub enum BundleError {
-    /// A file or folder of the repository cannot be used.
-    #[error(transparent)]
-    Folders(#[from] FoldersError),
-    /// The built book has chapters for instructors.
-    #[error(
-        "the book has chapters for instructors ({}): add the one that `cargo book --students` \
-         builds in target/students-handout",
-        .0.join(", ")
-    )]
-    StaffBook(Vec<String>),
-    /// The starter cannot be generated.
-    #[error(transparent)]
-    Starter(#[from] StarterError),
-    /// A manifest cannot be used.
-    #[error(transparent)]
-    Manifest(#[from] ManifestError),
-    /// The lock file cannot be created.
-    #[error(transparent)]
-    Lock(#[from] LockError),
-}
-
 impl Bundle {
     /// Collects the bundle of an assignment in the workspace at `root`, including the built book if
     /// one is given. Fails if the book has chapters for instructors.
-    pub fn collect(
-        root: &Path,
-        handed_out: &HandedOut,
-        book: Option<&Path>,
-    ) -> Result<Self, BundleError> {
+    pub fn collect(root: &Path, handed_out: &HandedOut, book: Option<&Path>) -> Result<Self> {
         let mut bundle = Bundle::default();
         folders::copy(root, &mut bundle)?;
         test_modules::remove(&mut bundle);
@@ -101,7 +71,11 @@ impl Bundle {
             // With these pages, the book's search index has their words as well.
             let pages = folders::staff_pages("handout/book", &bundle);
             if !pages.is_empty() {
-                return Err(BundleError::StaffBook(pages));
+                bail!(
+                    "the book has chapters for instructors ({}): add the one that \
+                     `cargo book --students` builds in target/students-handout",
+                    pages.join(", ")
+                );
             }
         }
         for (path, text) in STUDENT_ONLY {

@@ -8,12 +8,13 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::path::Path;
 
-use grader::files::{self, PathError};
+use anyhow::Result;
+use grader::files;
 use grader::handed_out::HandedOut;
 use judging::exam::Exam;
 
 use crate::bundle::Bundle;
-use crate::solutions::catalogue::{CatalogueError, mistakes};
+use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
 /// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
@@ -53,25 +54,10 @@ pub enum Leak {
     },
 }
 
-/// The reason why the secrets cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum SecretsError {
-    /// A file or folder cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The catalogue of mistakes cannot be used.
-    #[error(transparent)]
-    Catalogue(#[from] CatalogueError),
-}
-
 impl Secrets {
     /// Collects the secrets of an assignment in the workspace at `root`, except lines that also occur
     /// in the bundle's given files.
-    pub fn gather(
-        root: &Path,
-        handed_out: &'static HandedOut,
-        bundle: &Bundle,
-    ) -> Result<Self, SecretsError> {
+    pub fn gather(root: &Path, handed_out: &'static HandedOut, bundle: &Bundle) -> Result<Self> {
         let mut secrets = Secrets {
             lines: HashMap::new(),
         };
@@ -112,7 +98,7 @@ impl Secrets {
         Ok(secrets)
     }
 
-    fn read(&mut self, root: &Path, path: &str) -> Result<(), SecretsError> {
+    fn read(&mut self, root: &Path, path: &str) -> Result<()> {
         let full_path = root.join(path);
         if full_path.is_dir() {
             for entry in files::read_dir(&full_path)? {

@@ -6,23 +6,20 @@
 
 use std::path::Path;
 
+use anyhow::Result;
 use grader::files;
 use grader::handed_out::HandedOut;
 use judging::content_hash::ContentHash;
 use toml_edit::{DocumentMut, value};
 
 use crate::bundle::Bundle;
-use crate::bundle::manifests::{ManifestError, parse};
+use crate::bundle::manifests::parse;
 
 /// The number of digits of a version.
 const DIGITS: usize = 12;
 
 /// Adds the version to all manifests of a bundle, which has no lock file yet.
-pub(super) fn add(
-    root: &Path,
-    handed_out: &HandedOut,
-    bundle: &mut Bundle,
-) -> Result<(), ManifestError> {
+pub(super) fn add(root: &Path, handed_out: &HandedOut, bundle: &mut Bundle) -> Result<()> {
     let mut hash = ContentHash::default();
     // The dependencies are part of what students get.
     hash.add(&files::read(root.join("Cargo.lock"))?);

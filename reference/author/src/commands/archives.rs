@@ -38,9 +38,9 @@ fn write_bundle(
     check: bool,
 ) -> CommandResult {
     let leaks = secrets.search(bundle);
-    let mut problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
+    let problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
     if check && leaks.is_empty() {
-        problems = bundle::check::check(root, HANDED_OUT, bundle)?;
+        bundle::check::check(root, HANDED_OUT, bundle)?;
     }
     let (count, size) = (bundle.files.len(), bundle.size() / 1000);
     let version = bundle.version();
@@ -53,7 +53,8 @@ fn write_bundle(
     Ok(())
 }
 
-/// Writes a platform's package. A template repository is searched for secrets first.
+/// Writes a platform's package, and runs it as the platform does if `check` is set. A template
+/// repository is searched for secrets first.
 fn write_package(
     root: &Path,
     platform: Platform,
@@ -73,38 +74,26 @@ fn write_package(
             files::write_with_parents(out, archive::zip_with_prefix(package, "")?)?;
             let (count, size) = (package.files.len(), package.size() / 1_000_000);
             println!("{count} files, {size} MB unpacked: {}", out.display());
-            if check {
-                report(
-                    &trial::gradescope::check(HANDED_OUT, root, out)?,
-                    "the package grades correctly when run as on Gradescope",
-                )
-            } else {
-                Ok(())
-            }
         }
         Platform::Classroom50 => {
             archive::write_folder(package, out)?;
             println!("{} files: {}", package.files.len(), out.display());
-            if check {
-                report(
-                    &trial::classroom50::check(HANDED_OUT, root, out)?,
-                    "the package grades a checkout correctly when run as on classroom50",
-                )
-            } else {
-                Ok(())
-            }
         }
         Platform::Github => {
             let secrets = Secrets::gather(root, HANDED_OUT, package)?;
             write_bundle(root, package, &secrets, Some(out), false)?;
-            if check {
-                report(
-                    &trial::github::check(HANDED_OUT, root, package)?,
-                    "the template's workflow grades a checkout correctly",
-                )
-            } else {
-                Ok(())
-            }
         }
     }
+    if !check {
+        return Ok(());
+    }
+    let line = match platform {
+        Platform::Gradescope => "the package grades correctly when run as on Gradescope",
+        Platform::Classroom50 => {
+            "the package grades a checkout correctly when run as on classroom50"
+        }
+        Platform::Github => "the template's workflow grades a checkout correctly",
+    };
+    let problems = trial::check(HANDED_OUT, root, platform, package, out)?;
+    report(&problems, line)
 }

@@ -10,13 +10,14 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
-use grader::files::{self, PathError};
+use anyhow::Result;
+use grader::files;
 use grader::handed_out::HandedOut;
 use judging::assignment::TaskInfo;
 use judging::exam::Exam;
 
 use crate::generated_file::GeneratedFile;
-use crate::solutions::toml_file::{TomlFileError, read_toml};
+use crate::solutions::toml_file::read_toml;
 use cells::Counts;
 use list::{Listed, Sentence};
 
@@ -26,17 +27,6 @@ const SENTENCES: &str = "coverage.toml";
 const TABLE: &str = "coverage.md";
 /// The fewest questions of a cell, so that no mistake passes by luck.
 const FEWEST: usize = 3;
-
-/// The reason why the coverage cannot be determined.
-#[derive(Debug, thiserror::Error)]
-pub enum CoverageError {
-    /// A file of the reference cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The list of sentences cannot be used.
-    #[error(transparent)]
-    Toml(#[from] TomlFileError),
-}
 
 /// The table, and what is wrong with it.
 #[derive(Debug)]
@@ -65,11 +55,7 @@ impl Coverage {
 }
 
 /// Determines the coverage of the contract by an exam.
-pub fn coverage(
-    root: &Path,
-    handed_out: &HandedOut,
-    exam: &Exam,
-) -> Result<Coverage, CoverageError> {
+pub fn coverage(root: &Path, handed_out: &HandedOut, exam: &Exam) -> Result<Coverage> {
     let folder = root.join(handed_out.solutions());
     let listed: Listed = read_toml(&folder.join(SENTENCES))?;
     let mut coverage = Coverage {

@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
+use anyhow::Result;
 use grader::handed_out::HandedOut;
 
 use crate::bundle::{Bundle, archive};
-use crate::package::{PackageError, grader_files};
+use crate::package::grader_files;
 
 /// The file name and the contents of the script that the runner starts.
 const ENTRY_POINT: (&str, &str) = (
@@ -15,11 +16,7 @@ const ENTRY_POINT: (&str, &str) = (
 );
 
 /// Collects all files of the folder.
-pub(super) fn package(
-    root: &Path,
-    handed_out: &HandedOut,
-    policy: &str,
-) -> Result<Bundle, PackageError> {
+pub(super) fn package(root: &Path, handed_out: &HandedOut, policy: &str) -> Result<Bundle> {
     let students = Bundle::collect(root, handed_out, None)?;
     let mut grader = Bundle::default();
     for (path, contents) in grader_files(&students) {

@@ -3,11 +3,12 @@
 
 use std::path::Path;
 
+use anyhow::Result;
 use grader::handed_out::HandedOut;
 
 use crate::bundle::folders::copy_tree;
 use crate::bundle::{Bundle, crates};
-use crate::package::{PackageError, grader_files, package_path};
+use crate::package::{grader_files, package_path};
 
 /// The two scripts that Gradescope runs, and the one that both of them call.
 const SCRIPTS: [(&str, &str); 3] = [
@@ -27,7 +28,7 @@ pub(super) fn package(
     handed_out: &HandedOut,
     exam: &str,
     policy: &str,
-) -> Result<Bundle, PackageError> {
+) -> Result<Bundle> {
     let students = Bundle::collect(root, handed_out, None)?;
     let mut package = Bundle::default();
     for (path, contents) in grader_files(&students) {

@@ -10,16 +10,14 @@ pub mod trial;
 
 use std::path::Path;
 
+use anyhow::{Result, bail};
 use clap::ValueEnum;
-use grader::exam_source::{ExamSource, ExamSourceError};
-use grader::files::{self, PathError};
+use grader::exam_source::ExamSource;
+use grader::files;
 use grader::handed_out::HandedOut;
-use grader::policy::{self, Policy, PolicyError};
+use grader::policy::{self, Policy};
 
-use crate::bundle::crates::CratesError;
-use crate::bundle::folders::FoldersError;
-use crate::bundle::{Bundle, BundleError, archive};
-use crate::exams::ExamGenerationError;
+use crate::bundle::{Bundle, archive};
 
 /// A platform that grades submissions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -41,45 +39,6 @@ pub struct Course {
     pub policy: String,
 }
 
-/// The reason why a package cannot be collected.
-#[derive(Debug, thiserror::Error)]
-pub enum PackageError {
-    /// The students' bundle cannot be collected.
-    #[error(transparent)]
-    Bundle(#[from] BundleError),
-    /// The reference cannot be read.
-    #[error(transparent)]
-    Folders(#[from] FoldersError),
-    /// The crates of the lock file cannot be read.
-    #[error(transparent)]
-    Crates(#[from] CratesError),
-    /// The archive in the package cannot be created.
-    #[error("cannot create the archive: {0}")]
-    Zip(#[from] zip::result::ZipError),
-    /// The exam of the seed cannot be generated.
-    #[error(transparent)]
-    Exam(#[from] ExamGenerationError),
-    /// The exam file is invalid.
-    #[error(transparent)]
-    ExamFile(#[from] ExamSourceError),
-    /// The policy file is invalid.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
-    /// The exam file or policy file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A final exam was given for a platform that would show it to students.
-    #[error("students can read {0}: only a package for gradescope can contain a final exam")]
-    ExamNotSecret(&'static str),
-    /// No final exam was given for Gradescope. The practice exam, which students have, is never
-    /// used instead.
-    #[error(
-        "the final exam is missing: add --exam-seed S, a long number that is hard to guess, or \
-         --exam FILE"
-    )]
-    MissingExam,
-}
-
 impl Course {
     /// Generates the exam from a seed or reads its file, if either is given. Reads the policy file,
     /// or uses the default policy.
@@ -88,7 +47,7 @@ impl Course {
         seed: Option<u64>,
         exam: Option<&Path>,
         policy: Option<&Path>,
-    ) -> Result<Self, PackageError> {
+    ) -> Result<Self> {
         let exam = match (seed, exam) {
             (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
             (None, Some(path)) => {
@@ -114,18 +73,24 @@ pub fn collect(
     handed_out: &HandedOut,
     platform: Platform,
     course: Course,
-) -> Result<Bundle, PackageError> {
+) -> Result<Bundle> {
+    const NOT_SECRET: &str = "only a package for gradescope can contain a final exam";
     match (platform, course.exam) {
         (Platform::Gradescope, Some(exam)) => {
             gradescope::package(root, handed_out, &exam, &course.policy)
         }
-        (Platform::Gradescope, None) => Err(PackageError::MissingExam),
+        (Platform::Gradescope, None) => bail!(
+            "the final exam is missing: add --exam-seed S, a long number that is hard to guess, or \
+             --exam FILE"
+        ),
         (Platform::Classroom50, None) => classroom50::package(root, handed_out, &course.policy),
-        (Platform::Github, None) => Ok(Bundle::collect(root, handed_out, None)?),
+        (Platform::Github, None) => Bundle::collect(root, handed_out, None),
         (Platform::Classroom50, Some(_)) => {
-            Err(PackageError::ExamNotSecret("classroom50's folder"))
+            bail!("students can read classroom50's folder: {NOT_SECRET}")
         }
-        (Platform::Github, Some(_)) => Err(PackageError::ExamNotSecret("a template repository")),
+        (Platform::Github, Some(_)) => {
+            bail!("students can read a template repository: {NOT_SECRET}")
+        }
     }
 }
 

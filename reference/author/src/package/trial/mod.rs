@@ -1,82 +1,109 @@
-//! Trials of packages: each package is set up and run as on its platform.
+//! Trials of packages: each package is set up and run as on its platform, with submissions whose
+//! points are known.
 
-pub mod classroom50;
-pub mod github;
-pub mod gradescope;
 mod machine;
-mod runner;
+mod setup;
 mod submission;
-mod thief;
 
+use std::fs;
+use std::path::Path;
 use std::time::Duration;
 
-use grader::doctor::package::PackageError;
-use grader::files::PathError;
-use zip::result::ZipError;
+use anyhow::Result;
+use grader::doctor::package;
+use grader::files::{self, AtPath};
+use grader::handed_out::HandedOut;
 
-use crate::bundle::BundleError;
-use crate::bundle::crates::CratesError;
-use crate::bundle::secrets::SecretsError;
-use crate::package::trial::machine::JobResult;
+use crate::bundle::{Bundle, archive};
+use crate::package::Platform;
+use crate::package::trial::machine::{JobResult, Limits, Machine};
+use crate::package::trial::setup::{Setup, points};
+use crate::package::trial::submission::{REACHED, TrialSubmission, submissions};
 
-/// The reason why a trial cannot be run.
-#[derive(Debug, thiserror::Error)]
-pub enum TrialError {
-    /// The environment variable `CARGO` is not set.
-    #[error("CARGO is not set: run `cargo author package … --check`")]
-    NoCargo,
-    /// The machine cannot run a trial, and `CI` is set.
-    #[error("{0}; trials are not skipped while CI is set")]
-    Unsupported(String),
-    /// The starter no longer has a method that an attack is inserted into, or has it more than
-    /// once.
-    #[error("expected exactly one `{signature}` in {file}: adapt trial/thief.rs to the starter")]
-    MissingAttackPoint {
-        /// The name of the starter's file.
-        file: &'static str,
-        /// The expected first line of the method.
-        signature: String,
-    },
-    /// The package cannot be read.
-    #[error(transparent)]
-    Package(#[from] PackageError),
-    /// The students' bundle cannot be collected.
-    #[error(transparent)]
-    Bundle(#[from] BundleError),
-    /// The crates of the lock file cannot be read.
-    #[error(transparent)]
-    Crates(#[from] CratesError),
-    /// The secrets cannot be read.
-    #[error(transparent)]
-    Secrets(#[from] SecretsError),
-    /// The package cannot be unpacked.
-    #[error("cannot unpack the package: {0}")]
-    Zip(#[from] ZipError),
-    /// A file operation failed.
-    #[error(transparent)]
-    File(#[from] PathError),
+/// The folder of trials, relative to the workspace's root.
+const TRIAL_FOLDER: &str = "target/package";
+/// The score file that Gradescope's script writes for staff.
+const SCORE_FILE: &str = "/opt/pathtracing/target/graded/score.json";
+
+/// Runs the trial of a package, which was written to `path`, and returns the problems found. If this
+/// system cannot imitate a platform's machine, only checks that the package is complete.
+pub fn check(
+    handed_out: &HandedOut,
+    workspace: &Path,
+    platform: Platform,
+    package: &Bundle,
+    path: &Path,
+) -> Result<Vec<String>> {
+    let mut problems = package::problems(path, handed_out)?;
+    let workspace = &workspace.canonicalize().at("read", workspace)?;
+    let name = format!("{TRIAL_FOLDER}/{platform:?}").to_lowercase();
+    let Some(machine) = Machine::create(&workspace.join(name))? else {
+        return Ok(problems);
+    };
+    let setup = Setup::new(&machine, platform, package, path)?;
+    for submission in submissions(handed_out, workspace, platform)? {
+        for folder in setup.run.cleared {
+            let folder = machine.host_path(folder);
+            machine.remove(&folder)?;
+            files::create_dir_all(&folder)?;
+        }
+        archive::write_files(&setup.checkout, &machine.host_path(setup.run.folder))?;
+        submission.write_to(handed_out, &machine.host_path(setup.run.task_files))?;
+        let job = setup.run(&machine, Limits::Platform, &setup.command)?;
+        problems.extend(time_problem(submission.name, &job, setup.run.time_limit));
+        problems.extend(problem(&machine, &setup, &submission, &job));
+    }
+    Ok(problems)
 }
 
-/// Prints the time that a submission took, and adds a problem if it is more than half of the
+/// Prints the time that a submission took, and returns a problem if it is more than half of the
 /// platform's limit. This time is estimated from the CPU time, assuming that the submission gets
 /// half a core, so it does not depend on the load of this machine.
-fn check_time(name: &str, job: &JobResult, limit: Duration, problems: &mut Vec<String>) {
+fn time_problem(name: &str, job: &JobResult, limit: Duration) -> Option<String> {
+    let wall_time = job.wall_time.as_secs_f64();
     let Some(usage) = job.usage else {
-        return println!("{:6.1} s  {name}", job.wall_time.as_secs_f64());
+        println!("{wall_time:6.1} s  {name}");
+        return None;
     };
     let time = 2 * usage.cpu;
     let memory = usage.peak_memory.map_or(String::new(), |bytes| {
         format!(", {} MiB peak memory", bytes >> 20)
     });
     println!(
-        "{:6.1} s at half a core ({:.1} s wall time){memory}: {name}",
+        "{:6.1} s at half a core ({wall_time:.1} s wall time){memory}: {name}",
         time.as_secs_f64(),
-        job.wall_time.as_secs_f64()
     );
-    if time > limit / 2 {
-        problems.push(format!(
+    (time > limit / 2).then(|| {
+        format!(
             "{name} took {time:.0?} at half a core, which is more than half of the platform's \
              limit of {limit:.0?}"
+        )
+    })
+}
+
+/// Returns the problem with the result of a submission, if there is one: it has other points, or
+/// its attack has read a file.
+fn problem(
+    machine: &Machine,
+    setup: &Setup,
+    submission: &TrialSubmission,
+    job: &JobResult,
+) -> Option<String> {
+    let read = |path: &str| fs::read_to_string(machine.host_path(path)).unwrap_or_default();
+    let result = read(setup.run.result);
+    let code = match submission.points {
+        Some(_) => 0,
+        None => setup.run.empty_code,
+    };
+    let output = &job.output;
+    if job.code != Some(code) || points(&result) != submission.points {
+        let expected = submission.points.unwrap_or(0);
+        return Some(format!(
+            "{} should have {expected} points: {result:.300}\n{output}",
+            submission.name
         ));
     }
+    let shown = [result, output.clone(), read(SCORE_FILE)];
+    let stolen = shown.iter().find(|text| text.contains(REACHED))?;
+    Some(format!("{} has read a file:\n{stolen}", submission.name))
 }

@@ -1,70 +1,131 @@
 //! The submissions of a trial, and the points that they must get.
 
-use std::fs;
 use std::path::Path;
 
-use grader::files::{self, AtPath};
+use anyhow::{Result, ensure};
+use grader::files;
 use grader::handed_out::HandedOut;
 
-use crate::package::trial::{TrialError, thief};
+use crate::package::Platform;
 
-/// A submission of a trial, by its contents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TrialSubmission {
-    /// The reference solution.
-    Reference,
-    /// The unchanged starter.
-    Starter,
-    /// A submission without any of the five task files.
-    Empty,
-    /// Task files that try to steal solutions and keys: see [`thief`].
-    Thief,
+/// A file, a method of it, and the attack from the corpus of hostile submissions that is called
+/// there.
+const ATTACKS: [(&str, &str, &str); 2] = [
+    (
+        "camera.rs",
+        "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {",
+        "B01-includes-the-key",
+    ),
+    (
+        "sphere.rs",
+        "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+        "D01-reads-files",
+    ),
+];
+/// The folder of the corpus of hostile submissions.
+const CORPUS: &str = "grader/tests/hostile/entries";
+/// The files that the attacks look for, by their placeholders in the corpus.
+const TARGETS: [(&str, &str); 2] = [
+    ("@KEY@", "/opt/pathtracing/exam.json"),
+    ("@OUT@", "/opt/pathtracing/target/graded"),
+];
+/// The text that an attack prints if it has read a file.
+pub const REACHED: &str = "reached: ";
+
+/// A submission of a trial.
+#[derive(Clone, Debug)]
+pub struct TrialSubmission {
+    /// The name of the submission for messages.
+    pub name: &'static str,
+    /// The points that the submission must get, or `None` if there is nothing to grade.
+    pub points: Option<u64>,
+    /// The names and texts of its task files.
+    pub files: Vec<(&'static str, String)>,
+}
+
+/// Returns the submissions of a platform's trial: the reference, the starter, one without any task
+/// file and, if the exam is secret, one that tries to steal it.
+pub fn submissions(
+    handed_out: &HandedOut,
+    workspace: &Path,
+    platform: Platform,
+) -> Result<Vec<TrialSubmission>> {
+    let submission = |name, points, files| TrialSubmission {
+        name,
+        points,
+        files,
+    };
+    let names = handed_out.file_names();
+    let reference = names.map(|name| {
+        let path = workspace.join(handed_out.reference).join(name);
+        Ok((name, files::read_to_string(path)?))
+    });
+    let files = handed_out.files.iter();
+    let starter: Vec<_> = files
+        .map(|file| (file.name, file.starter.to_owned()))
+        .collect();
+    let mut submissions = vec![
+        submission(
+            "the reference",
+            Some(100),
+            reference.collect::<Result<_>>()?,
+        ),
+        submission("the starter", Some(0), starter.clone()),
+        submission("an empty submission", None, Vec::new()),
+    ];
+    if platform == Platform::Gradescope {
+        let files = with_attacks(starter, workspace)?;
+        submissions.push(submission("an attacking submission", Some(0), files));
+    }
+    Ok(submissions)
+}
+
+fn with_attacks(
+    mut files: Vec<(&'static str, String)>,
+    workspace: &Path,
+) -> Result<Vec<(&'static str, String)>> {
+    for (attacked, head, entry) in ATTACKS {
+        let path = workspace.join(CORPUS).join(entry).join("attack.rs");
+        let mut attack = files::read_to_string(path)?;
+        for (placeholder, path) in TARGETS {
+            attack = attack.replace(placeholder, path);
+        }
+        for (_, text) in files.iter_mut().filter(|(name, _)| *name == attacked) {
+            ensure!(text.contains(head), "{attacked} has no `{head}`");
+            *text = text.replacen(head, &format!("{head}\n        attack();"), 1) + &attack;
+        }
+    }
+    Ok(files)
 }
 
 impl TrialSubmission {
-    /// Returns the name of the submission for messages.
-    pub fn description(self) -> &'static str {
-        match self {
-            TrialSubmission::Reference => "the reference",
-            TrialSubmission::Starter => "the starter",
-            TrialSubmission::Empty => "an empty submission",
-            TrialSubmission::Thief => "an attacking submission",
-        }
-    }
-
-    /// Returns the points that the submission must get.
-    pub fn points(self) -> u64 {
-        match self {
-            TrialSubmission::Reference => 100,
-            TrialSubmission::Starter | TrialSubmission::Empty | TrialSubmission::Thief => 0,
-        }
-    }
-
-    /// Writes the submission's files into a folder, which is emptied first.
-    pub fn write_to(
-        self,
-        handed_out: &HandedOut,
-        workspace: &Path,
-        folder: &Path,
-    ) -> Result<(), TrialError> {
-        if folder.exists() {
-            fs::remove_dir_all(folder).at("remove", folder)?;
-        }
+    /// Writes the submission's files into a folder, in place of the task files there.
+    pub fn write_to(&self, handed_out: &HandedOut, folder: &Path) -> Result<()> {
         files::create_dir_all(folder)?;
-        let from = match self {
-            TrialSubmission::Reference => workspace.join(handed_out.reference),
-            TrialSubmission::Starter => workspace.join(handed_out.starter),
-            TrialSubmission::Empty => return Ok(()),
-            TrialSubmission::Thief => {
-                for (file, text) in thief::files(handed_out, workspace)? {
-                    files::write(folder.join(file), text)?;
-                }
-                return Ok(());
-            }
-        };
-        for file in handed_out.files {
-            files::copy(from.join(file.name), folder.join(file.name))?;
+        for name in handed_out.file_names() {
+            files::remove_if_exists(folder.join(name))?;
+        }
+        for (name, text) in &self.files {
+            files::write(folder.join(name), text)?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use grader::handed_out::RAYS;
+
+    use super::*;
+
+    #[test]
+    fn the_attacks_are_called_in_the_starter() {
+        let workspace = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+        let all = submissions(&RAYS, workspace, Platform::Gradescope).unwrap();
+        let attacking = &all.last().unwrap().files;
+        let attacks = attacking.iter().filter(|(_, text)| {
+            text.contains("attack();") && text.contains("fn attack()") && !text.contains('@')
+        });
+        assert_eq!(attacks.count(), ATTACKS.len());
     }
 }

@@ -53,14 +53,14 @@ GROUPS_OF_TRIAL=$all sh -c '
     exec "$@"' sh "$@" || code=$?
 
 # Only the files of one version of control groups exist. They contain the CPU time, in microseconds
-# or nanoseconds, and the peak memory in bytes.
+# or nanoseconds, and the peak memory in bytes. The time is written first, in microseconds.
 {
     for name in cpu.stat cpuacct.usage memory.peak memory.max_usage_in_bytes; do
         file=$(file "$name")
         case "$file" in
         '') ;;
         */cpu.stat) sed -n 's/^usage_usec /cpu_us /p' "$file" ;;
-        */cpuacct.usage) echo "cpu_ns $(cat "$file")" ;;
+        */cpuacct.usage) echo "cpu_us $(($(cat "$file") / 1000))" ;;
         *) echo "memory $(cat "$file")" ;;
         esac
     done

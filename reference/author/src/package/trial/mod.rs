@@ -22,6 +22,10 @@ use crate::package::trial::submission::{REACHED, TrialSubmission, submissions};
 
 /// The folder of trials, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package";
+/// Grades the last submission for Gradescope without isolation.
+const GRADE_WITHOUT_ISOLATION: &str = "cd /opt/pathtracing && source ./environment && \
+    CARGO_HOME=/opt/pathtracing/crates target/release/grader /autograder/submission \
+    --isolation=none --exam=exam.json --out=target/open";
 /// The score file that Gradescope's script writes for staff.
 const SCORE_FILE: &str = "/opt/pathtracing/target/graded/score.json";
 
@@ -52,6 +56,9 @@ pub fn check(
         let job = setup.run(&machine, Limits::Platform, &setup.command)?;
         problems.extend(time_problem(submission.name, &job, setup.run.time_limit));
         problems.extend(problem(&machine, &setup, &submission, &job));
+    }
+    if platform == Platform::Gradescope {
+        problems.extend(harmless_attack(&machine, &setup)?);
     }
     Ok(problems)
 }
@@ -106,4 +113,20 @@ fn problem(
     let shown = [result, output.clone(), read(SCORE_FILE)];
     let stolen = shown.iter().find(|text| text.contains(REACHED))?;
     Some(format!("{} has read a file:\n{stolen}", submission.name))
+}
+
+/// Returns a problem if the last submission, which attacks, reads nothing even without isolation:
+/// its failure would then prove nothing.
+fn harmless_attack(machine: &Machine, setup: &Setup) -> Result<Option<String>> {
+    let command = ["bash", "-c", GRADE_WITHOUT_ISOLATION].map(str::to_owned);
+    let job = setup.run(machine, Limits::None, &command)?;
+    let score = machine.host_path("/opt/pathtracing/target/open/score.json");
+    let is_harmless = !files::read_to_string(score)?.contains(REACHED);
+    Ok(is_harmless.then(|| {
+        format!(
+            "the attacking submission reads nothing even without isolation, so its failure proves \
+             nothing: adapt trial/submission.rs\n{}",
+            job.output
+        )
+    }))
 }

@@ -33,12 +33,13 @@ pub fn with_drawing_data(mut exam: Exam) -> Exam {
 }
 
 fn drawing_data(question: &Question) -> DrawingData {
+    if let Some((tree, Rays::List(rays))) = Tree::in_question(question) {
+        let steps = rays.iter().map(|ray| traversal_steps(&tree, ray));
+        return DrawingData::Traversals(steps.collect());
+    }
     match question {
         Question::BBox { min, max, queries } => {
-            let bounds = Bounds {
-                min: min.as_dvec3(),
-                max: max.as_dvec3(),
-            };
+            let bounds = Bounds::new(*min, *max);
             DrawingData::Slabs(queries.iter().map(|(ray, _)| slabs(&bounds, ray)).collect())
         }
         // An empty tree has no root area to divide costs by.
@@ -50,23 +51,7 @@ fn drawing_data(question: &Question) -> DrawingData {
             let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
             DrawingData::Sweep(sweep::upper_levels(&boxes, *max_leaf_size as usize))
         }
-        Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            rays: Rays::List(rays),
-        } => {
-            let tree = Tree {
-                shapes: shapes.clone(),
-                nodes: nodes.clone(),
-                root: *root as usize,
-            };
-            DrawingData::Traversals(rays.iter().map(|ray| traversal_steps(&tree, ray)).collect())
-        }
-        Question::Traverse {
-            rays: Rays::View(_),
-            ..
-        }
+        Question::Traverse { .. }
         | Question::Camera { .. }
         | Question::Shapes { .. }
         | Question::BuildAndTraverse { .. }

@@ -8,7 +8,7 @@ use author::oracle::{Ray64, scan};
 use author::tree::{Tree, decoy};
 use judging::assignment::RAYS;
 use judging::exam::Exam;
-use protocol::{Question, Ray, Rays};
+use protocol::{Ray, Rays};
 
 use crate::exams::{SEEDS, exam_of};
 
@@ -19,25 +19,13 @@ fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
         let questions = item.questions.iter();
         questions.map(move |question| (&*item.id, question))
     });
-    questions
-        .filter_map(|(id, question)| {
-            let Question::Traverse {
-                shapes,
-                nodes,
-                root,
-                rays: Rays::List(rays),
-            } = &question.question
-            else {
-                return None;
-            };
-            let tree = Tree {
-                shapes: shapes.clone(),
-                nodes: nodes.clone(),
-                root: *root as usize,
-            };
-            Some((id, tree, rays.clone()))
-        })
-        .collect()
+    let with_tree = questions.filter_map(|(id, question)| {
+        let (tree, Rays::List(rays)) = Tree::in_question(&question.question)? else {
+            return None;
+        };
+        Some((id, tree, rays.clone()))
+    });
+    with_tree.collect()
 }
 
 #[test]

@@ -78,10 +78,7 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
             }
         }
         Question::BBox { min, max, queries } => {
-            let bounds = Bounds {
-                min: min.as_dvec3(),
-                max: max.as_dvec3(),
-            };
+            let bounds = Bounds::new(*min, *max);
             place(&bounds, calls, &mut add);
             for (ray, _) in queries {
                 add(start_at_box(&bounds, ray), 1);

@@ -16,20 +16,12 @@ pub fn flat_triangle(corners: [DVec3; 3], material: u32) -> Shape {
 
 /// Returns the shapes with their indices as materials.
 pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
-    let number = |(index, shape): (u32, Shape)| match shape {
-        Shape::Triangle { vertices, .. } => Shape::Triangle {
-            vertices,
-            material: index,
-        },
-        Shape::FlatTriangle { corners, .. } => Shape::FlatTriangle {
-            corners,
-            material: index,
-        },
-        Shape::Sphere { center, radius, .. } => Shape::Sphere {
-            center,
-            radius,
-            material: index,
-        },
+    let number = |(index, mut shape): (u32, Shape)| {
+        let (Shape::Triangle { material, .. }
+        | Shape::FlatTriangle { material, .. }
+        | Shape::Sphere { material, .. }) = &mut shape;
+        *material = index;
+        shape
     };
     (0..).zip(shapes).map(number).collect()
 }

@@ -27,10 +27,7 @@ pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuest
             .iter()
             .map(scan::bounds)
             .reduce(|all, next| all.union(&next))?,
-        Question::BBox { min, max, .. } => Bounds {
-            min: min.as_dvec3(),
-            max: max.as_dvec3(),
-        },
+        Question::BBox { min, max, .. } => Bounds::new(*min, *max),
         Question::Camera { .. }
         | Question::Build { .. }
         | Question::BuildAndTraverse { .. }
@@ -50,28 +47,8 @@ pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuest
 
 /// Returns whether a question about a tree is fair.
 fn is_fair(asked: &ExamQuestion) -> bool {
-    match &asked.question {
-        Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            rays,
-        } => {
-            let tree = Tree {
-                shapes: shapes.clone(),
-                nodes: nodes.clone(),
-                root: *root as usize,
-            };
-            decoy::is_fair(&tree, &rays.to_vec())
-        }
-        Question::Camera { .. }
-        | Question::Shapes { .. }
-        | Question::BBox { .. }
-        | Question::Build { .. }
-        | Question::BuildAndTraverse { .. }
-        | Question::Radiance { .. }
-        | Question::Done => true,
-    }
+    let tree = Tree::in_question(&asked.question);
+    tree.is_none_or(|(tree, rays)| decoy::is_fair(&tree, &rays.to_vec()))
 }
 
 /// Returns a question at another place, or `None` if it is not about a list of rays.

@@ -1,6 +1,6 @@
 //! Intersections of rays and boxes, by clipping the ray to each pair of planes in turn.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::Ray64;
 
@@ -14,6 +14,14 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// Creates a box from its corners in single precision.
+    pub fn new(min: Vec3, max: Vec3) -> Bounds {
+        Bounds {
+            min: min.as_dvec3(),
+            max: max.as_dvec3(),
+        }
+    }
+
     /// Returns the tightest box around some points.
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Bounds {
         let empty = Bounds {
@@ -24,6 +32,12 @@ impl Bounds {
             min: bounds.min.min(point),
             max: bounds.max.max(point),
         })
+    }
+
+    /// Returns the tightest box around some boxes.
+    pub fn enclosing(boxes: impl IntoIterator<Item = Bounds>) -> Bounds {
+        let empty = Bounds::around([]);
+        boxes.into_iter().fold(empty, |all, next| all.union(&next))
     }
 
     /// Returns the tightest box around this box and another.

@@ -57,17 +57,13 @@ impl BucketedBuilder {
 /// Volume Hierarchies", 2007, section 3.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
     let mut boxes = boxes.to_vec();
-    let root = bounds_of(&boxes).area();
+    let root = Bounds::enclosing(boxes.iter().copied()).area();
     subtree_cost(&mut boxes, max_leaf_size, builder) / root
-}
-
-fn bounds_of(boxes: &[Bounds]) -> Bounds {
-    boxes.iter().fold(EMPTY.bounds, |all, next| all.union(next))
 }
 
 /// Returns the cost of the subtree over these boxes.
 fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
-    let bounds = bounds_of(boxes);
+    let bounds = Bounds::enclosing(boxes.iter().copied());
     if boxes.len() <= max_leaf_size {
         return bounds.area() * boxes.len() as f64;
     }

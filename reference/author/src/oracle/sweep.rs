@@ -164,9 +164,7 @@ fn sort_by_center(boxes: &[Bounds], indices: &mut [usize], axis: usize) {
 }
 
 fn bounds_of(boxes: &[Bounds], indices: &[usize]) -> Bounds {
-    let empty = Bounds::around([]);
-    let all = indices.iter().map(|&index| boxes[index]);
-    all.fold(empty, |bounds, next| bounds.union(&next))
+    Bounds::enclosing(indices.iter().map(|&index| boxes[index]))
 }
 
 #[cfg(test)]

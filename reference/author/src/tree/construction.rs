@@ -9,11 +9,7 @@ use crate::oracle::scan;
 
 /// Builds a tree by median splits along the longest axis of the centres.
 pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
-    let mut tree = Tree {
-        shapes: Vec::new(),
-        nodes: Vec::new(),
-        root: 0,
-    };
+    let mut tree = Tree::default();
     tree.root = tree.add_median_split(shapes, max_leaf_size);
     tree
 }
@@ -21,11 +17,7 @@ pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
 /// Builds a degenerate tree: the left child of each interior node is a leaf with one shape, in the
 /// order of the shapes.
 pub fn chain(shapes: Vec<Shape>) -> Tree {
-    let mut tree = Tree {
-        shapes: Vec::new(),
-        nodes: Vec::new(),
-        root: 0,
-    };
+    let mut tree = Tree::default();
     // From the deepest node upward.
     let mut below: Option<usize> = None;
     for shape in shapes.into_iter().rev() {
@@ -42,8 +34,7 @@ pub fn chain(shapes: Vec<Shape>) -> Tree {
 impl Tree {
     /// Adds a leaf with these shapes and a tight box, and returns its index.
     pub fn add_leaf(&mut self, shapes: Vec<Shape>) -> usize {
-        let boxes = shapes.iter().map(scan::bounds);
-        let bounds = boxes.fold(Bounds::around([]), |all, next| all.union(&next));
+        let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
         let node = TreeNode {
             min: round_outward(bounds.min, f32::next_down),
             max: round_outward(bounds.max, f32::next_up),

@@ -306,11 +306,7 @@ mod tests {
     /// Returns the skip reason of the last leaf in a tree of three leaves: the left child of the
     /// root is a leaf, and the right child has two leaves.
     fn skip_reason_of_last(hit: [f64; 2], middle: [f64; 2], last: [f64; 2]) -> Option<SkipReason> {
-        let mut tree = Tree {
-            shapes: Vec::new(),
-            nodes: Vec::new(),
-            root: 0,
-        };
+        let mut tree = Tree::default();
         let left = tree.add_leaf(vec![slanted_triangle(hit[0], hit[1], true, 0)]);
         let middle = tree.add_leaf(vec![slanted_triangle(middle[0], middle[1], false, 1)]);
         let last = tree.add_leaf(vec![slanted_triangle(last[0], last[1], true, 2)]);

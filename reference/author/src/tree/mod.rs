@@ -11,7 +11,7 @@ use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Rng;
 
 /// A tree of an exam question.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// The primitives, in the order to which the leaves refer. Some may be in no leaf.
     pub shapes: Vec<Shape>,
@@ -33,13 +33,29 @@ pub enum RootPosition {
 }
 
 impl Tree {
+    /// Returns the tree of a question about traversal, and its rays.
+    pub fn in_question(question: &Question) -> Option<(Tree, &Rays)> {
+        let Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } = question
+        else {
+            return None;
+        };
+        let tree = Tree {
+            shapes: shapes.clone(),
+            nodes: nodes.clone(),
+            root: *root as usize,
+        };
+        Some((tree, rays))
+    }
+
     /// Returns the box of a node.
     pub fn bounds(&self, index: usize) -> Bounds {
         let node = &self.nodes[index];
-        Bounds {
-            min: node.min.as_dvec3(),
-            max: node.max.as_dvec3(),
-        }
+        Bounds::new(node.min, node.max)
     }
 
     /// Returns the indices of a node and of all nodes below it, parents before children.

@@ -99,11 +99,7 @@ fn with_detached_subtrees(
 
 pub(super) fn no_nodes(seed: Seed) -> DeclaredItem {
     let mut rng = seed.rng("traverse.no_nodes");
-    let nothing = Tree {
-        shapes: Vec::new(),
-        nodes: Vec::new(),
-        root: 0,
-    };
+    let nothing = Tree::default();
     let mut empty_leaf = nothing.clone();
     empty_leaf.nodes.push(TreeNode {
         min: Vec3::NEG_ONE,

@@ -7,7 +7,6 @@
 mod check50;
 mod classroom50;
 pub mod github;
-mod github_classroom;
 mod gradescope;
 pub mod html;
 mod item_text;
@@ -28,7 +27,7 @@ pub use spec::{FormatContext, FormatSpec, MethodLocation, OutputSpec};
 pub use student_view::{ItemView, StudentView};
 
 /// All formats, in the order in which `--help` lists them.
-pub static FORMATS: [&FormatSpec; 10] = [
+pub static FORMATS: [&FormatSpec; 9] = [
     &json::FORMAT,
     &text::FORMAT,
     &html::FORMAT,
@@ -36,7 +35,6 @@ pub static FORMATS: [&FormatSpec; 10] = [
     &classroom50::FORMAT,
     &junit::FORMAT,
     &github::FORMAT,
-    &github_classroom::FORMAT,
     &check50::FORMAT,
     &prairielearn::FORMAT,
 ];

@@ -91,7 +91,6 @@ pub fn grade_in_all_formats(
         .args(arguments)
         .envs(RUNNER_VARIABLES)
         .env_remove("GITHUB_STEP_SUMMARY")
-        .env_remove("GITHUB_OUTPUT")
         .env_remove("GITHUB_WORKSPACE")
         .env("GITHUB_ACTIONS", "true")
         .output()

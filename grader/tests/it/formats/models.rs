@@ -3,8 +3,6 @@
 
 use std::collections::BTreeSet;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use grader::handed_out::RAYS;
 use quick_junit::{Report, TestCaseStatus};
 use serde::Deserialize;
@@ -16,7 +14,6 @@ pub fn check(format: &str, text: &str) {
         "gradescope" => gradescope(text),
         "classroom50" => classroom50(text),
         "junit" => junit(text),
-        "github-classroom" => github_classroom(text),
         "check50" => check50(text),
         "prairielearn" => prairielearn(text),
         "html" => assert!(!text.contains("src=\"") && text.ends_with("</html>")),
@@ -30,7 +27,6 @@ pub fn check(format: &str, text: &str) {
 /// Returns the text in a form that people can read in a snapshot.
 pub fn readable(format: &str, text: &str) -> String {
     match format {
-        "github-classroom" => format!("{:#}", decoded(text)),
         "html" => without_element(without_element(text, "style"), "script"),
         // The replacement does not change the meaning of the XML. It is needed because quick-junit
         // ignores properties with a separate end tag.
@@ -48,11 +44,6 @@ fn without_element(page: impl AsRef<str>, element: &str) -> String {
     let (before, rest) = page.as_ref().split_once(&format!("<{element}>")).unwrap();
     let (_, after) = rest.split_once(&format!("</{element}>")).unwrap();
     format!("{before}{after}")
-}
-
-fn decoded(text: &str) -> Value {
-    let result = text.strip_prefix("result=").unwrap().trim_end();
-    serde_json::from_slice(&STANDARD.decode(result).unwrap()).unwrap()
 }
 
 #[derive(Deserialize)]
@@ -209,43 +200,6 @@ fn junit(text: &str) {
         .filter(|case| matches!(case.status, TestCaseStatus::NonSuccess { .. }));
     assert_eq!(report.tests, cases.len());
     assert_eq!(report.failures + report.errors, failed.count());
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct GithubClassroom {
-    version: u32,
-    status: String,
-    max_score: u32,
-    tests: Vec<GithubClassroomTest>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "only their presence is tested")]
-struct GithubClassroomTest {
-    name: String,
-    status: String,
-    score: u32,
-    message: Option<String>,
-    test_code: String,
-    filename: String,
-    line_no: u32,
-}
-
-fn github_classroom(text: &str) {
-    assert_eq!(text.lines().count(), 1, "a step output has one line");
-    let result: GithubClassroom = serde_json::from_value(decoded(text)).unwrap();
-    assert_eq!(result.version, 1);
-    assert!(["pass", "fail", "error"].contains(&result.status.as_str()));
-    let statuses = result.tests.iter().map(|test| test.status.as_str());
-    assert!(
-        statuses
-            .clone()
-            .all(|status| ["pass", "fail", "error"].contains(&status))
-    );
-    assert!(result.tests.iter().map(|test| test.score).sum::<u32>() <= result.max_score);
-    assert!(result.tests.iter().all(|test| !test.name.is_empty()));
 }
 
 #[derive(Deserialize)]

@@ -12,7 +12,6 @@ use crate::build::build_dir::BuildDir;
 use crate::build::rustc::{CompileOutcome, CrateKind, Rustc};
 use crate::build::trial;
 use crate::files::{self, PathError};
-use crate::sandbox::Isolation;
 use crate::system;
 
 /// Source of a program that attempts what no submission may do.
@@ -69,20 +68,17 @@ impl Builder {
             }
             CompileOutcome::Failed(why) => return Err(SelfTestError::NotCompiled(why)),
         };
-        // At the level `seccomp-only`, the compiler may read everything that its user may.
-        if self.rustc.sandbox.level() > Isolation::SeccompOnly {
-            let reads = format!("pub const KEY: &str = include_str!({key:?});");
-            match compile(
-                &self.rustc,
-                work.path(),
-                "reads",
-                &reads,
-                CrateKind::Library,
-            )? {
-                CompileOutcome::Errors(errors) if !errors[0].text().contains(SECRET) => {}
-                CompileOutcome::Done(_) | CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
-                    return Err(SelfTestError::CompilerCanRead);
-                }
+        let reads = format!("pub const KEY: &str = include_str!({key:?});");
+        match compile(
+            &self.rustc,
+            work.path(),
+            "reads",
+            &reads,
+            CrateKind::Library,
+        )? {
+            CompileOutcome::Errors(errors) if !errors[0].text().contains(SECRET) => {}
+            CompileOutcome::Done(_) | CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
+                return Err(SelfTestError::CompilerCanRead);
             }
         }
         let input = format!("{}\n", key.display());

@@ -14,9 +14,8 @@ use serde::{Deserialize, Serialize};
 pub enum Isolation {
     /// Limits on time and memory only, for your own work.
     None,
-    /// The program may make only a few system calls; the compiler can read whatever its user can.
-    SeccompOnly,
-    /// In addition, the program and the compiler can open only the files that they need.
+    /// The program may make only a few system calls, and the program and the compiler can open only
+    /// the files that they need.
     NoNamespaces,
     /// In addition, the program and the compiler cannot see other files, processes or networks.
     Full,
@@ -24,18 +23,12 @@ pub enum Isolation {
 
 impl Isolation {
     /// All levels, from the best isolation to none.
-    pub const ALL: [Self; 4] = [
-        Isolation::Full,
-        Isolation::NoNamespaces,
-        Isolation::SeccompOnly,
-        Isolation::None,
-    ];
+    pub const ALL: [Self; 3] = [Isolation::Full, Isolation::NoNamespaces, Isolation::None];
 
     /// Returns the name used on the command line and in `score.json`.
     pub fn name(self) -> &'static str {
         match self {
             Isolation::None => "none",
-            Isolation::SeccompOnly => "seccomp-only",
             Isolation::NoNamespaces => "no-namespaces",
             Isolation::Full => "full",
         }

@@ -5,7 +5,7 @@
 //! cargo test -p grader --test hostile                runs the quick entries
 //! cargo test -p grader --test hostile -- --all       runs all entries: bombs take minutes
 //! cargo test -p grader --test hostile -- C02 flood   runs entries whose names contain these
-//! ... -- --full --seccomp-only                       at these isolation levels (default: the best)
+//! ... -- --full --no-namespaces                      at these isolation levels (default: the best)
 //! ... -- --contained                                 as in a container: no namespaces, no mounts
 //! ```
 //!

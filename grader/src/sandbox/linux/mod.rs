@@ -46,7 +46,7 @@ fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
     let program = Program::open(command, request)?;
     let program = match request.level {
         Isolation::Full => namespaces::enter(&request.profile, program)?,
-        Isolation::NoNamespaces | Isolation::SeccompOnly | Isolation::None => program,
+        Isolation::NoNamespaces | Isolation::None => program,
     };
     // The umask is not set earlier, because the folders of the new root must be accessible to every
     // user.
@@ -57,9 +57,7 @@ fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
         Profile::Probe => start::die_with_grader(request.grader)?,
         Profile::Compiler { .. } => {}
     }
-    if request.level >= Isolation::NoNamespaces {
-        files::restrict(request, &program)?;
-    }
+    files::restrict(request, &program)?;
     syscalls::restrict(&request.profile)?;
     match request.profile {
         Profile::Probe => program.exec(),

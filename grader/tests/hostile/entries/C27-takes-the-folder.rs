@@ -1,5 +1,5 @@
 //! does = "It replaces the folder of the reports with its own."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 

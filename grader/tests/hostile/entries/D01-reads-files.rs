@@ -1,5 +1,5 @@
 //! does = "It reads the key, passwords, its own program and the folders of all users."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 

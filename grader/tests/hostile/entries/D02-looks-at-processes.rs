@@ -1,5 +1,5 @@
 //! does = "It reads the environment, arguments and memory of other processes."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 

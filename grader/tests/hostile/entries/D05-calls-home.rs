@@ -1,5 +1,5 @@
 //! does = "It contacts listeners in every way that it can."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 

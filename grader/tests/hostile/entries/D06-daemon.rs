@@ -1,5 +1,5 @@
 //! does = "It leaves a process running in a separate session."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 

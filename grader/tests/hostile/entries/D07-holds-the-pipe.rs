@@ -1,5 +1,5 @@
 //! does = "Its children keep all pipes open and never exit."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! slow = true

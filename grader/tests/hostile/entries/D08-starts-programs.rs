@@ -1,5 +1,5 @@
 //! does = "It starts programs, and itself."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! slow = true

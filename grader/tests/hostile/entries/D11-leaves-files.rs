@@ -1,5 +1,5 @@
 //! does = "It leaves files for the next submission, wherever everyone may write."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 

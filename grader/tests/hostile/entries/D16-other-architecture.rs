@@ -1,5 +1,5 @@
 //! does = "It runs machine code that it has hidden in a constant, and makes a 32-bit system call."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! uses_hole = true
 //! within = ["sample_ray"]

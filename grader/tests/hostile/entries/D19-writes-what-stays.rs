@@ -1,5 +1,5 @@
 //! does = "It writes to the dependencies that all submissions share."
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! slow = true

@@ -1,6 +1,6 @@
 //! does = "Its thread-local variables leave no room for the stack, so that it does not start."
 //! # Without a sandbox, programs are linked dynamically, and this one starts.
-//! least = "seccomp-only"
+//! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! verdicts = ["crashed", "timed_out"]

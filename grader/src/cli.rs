@@ -21,7 +21,7 @@ use crate::terminal::PrintOptions;
 /// The heading of the options that students do not need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
 /// The options about grading, none of which goes with `--reset`.
-const GRADING: [&str; 21] = [
+const GRADING: [&str; 20] = [
     "task",
     "replay",
     "hints",
@@ -42,7 +42,6 @@ const GRADING: [&str; 21] = [
     "gradescope_metadata",
     "format",
     "schema",
-    "package",
 ];
 /// The last line of the help for students.
 const MORE_HELP: &str =
@@ -73,8 +72,6 @@ pub enum Command {
     },
     /// Show what this machine offers and lacks.
     Diagnose,
-    /// Check a package for a learning platform.
-    CheckPackage(PathBuf, &'static HandedOut),
     /// Print the JSON schema of the score file.
     PrintSchema,
     /// Print the default policy.
@@ -186,11 +183,6 @@ pub struct Arguments {
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub schema: bool,
 
-    /// With --doctor: check a package for Gradescope, classroom50 or GitHub instead, as the
-    /// platform will see it
-    #[arg(long, value_name = "FILE", requires = "doctor", help_heading = STAFF_OPTIONS)]
-    pub package: Option<PathBuf>,
-
     /// Print help with the options for course staff and CI
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub help_staff: bool,
@@ -258,18 +250,17 @@ impl Arguments {
                 names,
             };
         }
-        match (self.replay, self.package) {
+        match self.replay {
             _ if self.help_staff => Command::PrintHelp(Self::command().render_long_help()),
             _ if self.schema => Command::PrintSchema,
             _ if self.policy_default => Command::PrintDefaultPolicy,
-            (Some(question), _) => Command::Replay(options, question),
-            (None, Some(package)) => Command::CheckPackage(package, &RAYS),
-            (None, None) if self.doctor => Command::Diagnose,
-            (None, None) if self.watch => Command::Watch {
+            Some(question) => Command::Replay(options, question),
+            None if self.doctor => Command::Diagnose,
+            None if self.watch => Command::Watch {
                 options,
                 open: print.open,
             },
-            (None, None) => Command::Grade(options, print),
+            None => Command::Grade(options, print),
         }
     }
 }

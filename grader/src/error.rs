@@ -3,7 +3,6 @@
 use std::io;
 
 use crate::build::BuildError;
-use crate::doctor::package::PackageError;
 use crate::exam_source::ExamSourceError;
 use crate::files::PathError;
 use crate::format::outputs::OutputError;
@@ -29,9 +28,6 @@ pub enum Error {
     /// The submission time cannot be read.
     #[error(transparent)]
     SubmissionTime(#[from] SubmissionTimeError),
-    /// A platform's package cannot be read.
-    #[error(transparent)]
-    Package(#[from] PackageError),
     /// An output format cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -79,7 +75,6 @@ impl Error {
             Error::Submission(_)
             | Error::Exam(_)
             | Error::Policy(_)
-            | Error::Package(_)
             | Error::Output(OutputError::MissingVariable { .. })
             | Error::Replay(_)
             | Error::Reset(_)

@@ -10,7 +10,7 @@ use grader::replay::replay;
 use grader::reset::reset;
 use grader::sandbox;
 use grader::score;
-use grader::terminal::{check_and_print_package, diagnose_and_print, grade_and_print};
+use grader::terminal::{diagnose_and_print, grade_and_print};
 use grader::watch::watch;
 
 fn main() -> ExitCode {
@@ -34,9 +34,6 @@ fn run(command: Command) -> Result<ExitCode, Error> {
             names,
         } => print(reset(handed_out, folder.as_deref(), &names)?),
         Command::Diagnose => return diagnose_and_print(),
-        Command::CheckPackage(path, handed_out) => {
-            return check_and_print_package(&path, handed_out);
-        }
         Command::PrintSchema => print(score::PUBLISHED_SCHEMA),
         Command::PrintDefaultPolicy => print(policy::DEFAULT),
         Command::PrintHelp(help) => print(help.ansi()),

@@ -2,19 +2,15 @@
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
-use std::path::Path;
 use std::process::ExitCode;
-
-use judging::sanitize::sanitize;
 
 use crate::book::Book;
 use crate::cache_lookup::find_cached_report;
 use crate::cached_report;
 use crate::desktop;
-use crate::doctor::{diagnose, package};
+use crate::doctor::diagnose;
 use crate::error::Error;
 use crate::grade::{GradedSubmission, grade, source_paths};
-use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::printing::{print, print_commands, print_line};
 use crate::report::next_step::next_step;
@@ -87,20 +83,6 @@ fn grade_and_store(
         print_line(graded.score.timings.stages.table());
     }
     Ok((graded.score.points, graded.files))
-}
-
-/// Checks a platform's package and prints the problems found. Returns exit code 2 if there are any.
-pub fn check_and_print_package(path: &Path, handed_out: &HandedOut) -> Result<ExitCode, Error> {
-    let problems = package::problems(path, handed_out)?;
-    if problems.is_empty() {
-        print_line(format_args!("{}: no problems found", path.display()));
-        return Ok(ExitCode::SUCCESS);
-    }
-    for problem in &problems {
-        let problem = sanitize(&problem.to_string(), usize::MAX);
-        print_line(format_args!("{}: {problem}", path.display()));
-    }
-    Ok(ExitCode::from(2))
 }
 
 /// Prints what this machine offers and lacks, with the exit code of the diagnosis.

@@ -1,5 +1,5 @@
-//! `cargo grade --doctor --package FILE`: checks a package as the platform will see it, before
-//! students submit.
+//! Checks a package for Gradescope, classroom50 or GitHub as the platform will see it. Used by
+//! `cargo author package --check`.
 
 use std::path::Path;
 

@@ -220,7 +220,6 @@ fn no_option_for_grading_goes_with_it() {
             "isolation" => vec!["--isolation", "none"],
             "cpu-limit" | "require" => vec!["--require", "5"],
             "format" => vec!["--format", "html"],
-            "package" => vec!["--package", "x.zip", "--doctor"],
             _ if option.get_action().takes_values() => vec![long, "x"],
             _ => vec![long],
         };

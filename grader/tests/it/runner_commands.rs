@@ -92,7 +92,6 @@ fn no_name_in_an_error_is_a_command_in_a_log() {
         &[".", "--format", COMMANDS],
         &[".", "--watch", COMMANDS],
         &["--reset", COMMANDS],
-        &["--doctor", "--package", COMMANDS],
     ] {
         let mut command = grader();
         let command = command.current_dir(submission.path());

@@ -10,6 +10,7 @@ pub mod github;
 mod gradescope;
 pub mod html;
 mod item_text;
+mod item_view;
 mod json;
 mod junit;
 pub mod outputs;
@@ -23,8 +24,9 @@ mod spec;
 mod student_view;
 mod text;
 
+pub use item_view::ItemView;
 pub use spec::{FormatContext, FormatSpec, MethodLocation, OutputSpec};
-pub use student_view::{ItemView, StudentView};
+pub use student_view::StudentView;
 
 /// All formats, in the order in which `--help` lists them.
 pub static FORMATS: [&FormatSpec; 9] = [

@@ -2,9 +2,8 @@
 
 use judging::sanitize::{sanitize, sanitize_line};
 
-use crate::format::ItemView;
+use crate::format::item_view::{ItemView, shows_everything};
 use crate::format::sentence::{Disclosure, Sentence};
-use crate::format::student_view::shows_everything;
 use crate::policy::Visibility;
 use crate::rerun_command::RerunCommand;
 use crate::score::{

@@ -38,7 +38,7 @@ impl<'a> Disclosure<'a> {
 /// A sentence about an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sentence<'a> {
-    reason: Reason<'a>,
+    verdict: &'a Verdict,
     by_reference: bool,
 }
 
@@ -47,65 +47,27 @@ impl<'a> Sentence<'a> {
     /// graded with the reference's parts.
     pub fn new(verdict: &'a Verdict, by_reference: bool) -> Self {
         Sentence {
-            reason: Reason::new(verdict),
+            verdict,
             by_reference,
         }
     }
-}
 
-/// The reason why an item has its points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Reason<'a> {
-    Passed,
-    PartlyWrong,
-    Wrong,
-    Panicked,
-    Unwritten,
-    TimedOut,
-    OutOfMemory,
-    Crashed,
-    InvalidAnswer,
-    NotCompiled,
-    /// Depends on the item or task with this id.
-    DependsOn(&'a str),
-    NotGraded,
-}
-
-impl<'a> Reason<'a> {
-    fn new(verdict: &'a Verdict) -> Self {
-        match verdict {
-            Verdict::Pass => Reason::Passed,
-            Verdict::Partial => Reason::PartlyWrong,
-            Verdict::Wrong => Reason::Wrong,
-            Verdict::Panicked => Reason::Panicked,
-            Verdict::Unimplemented => Reason::Unwritten,
-            Verdict::TimedOut => Reason::TimedOut,
-            Verdict::OutOfMemory => Reason::OutOfMemory,
-            Verdict::Crashed => Reason::Crashed,
-            Verdict::Protocol => Reason::InvalidAnswer,
-            Verdict::NotCompiled => Reason::NotCompiled,
-            Verdict::Blocked { by } => Reason::DependsOn(by),
-            Verdict::Pending => Reason::NotGraded,
-        }
-    }
-}
-
-impl fmt::Display for Reason<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Reason::Passed | Reason::NotGraded => "",
-            Reason::PartlyWrong => "some answers are wrong",
-            Reason::Wrong => "an answer is wrong",
-            Reason::Panicked => "the code panicked",
-            Reason::Unwritten => "the method still contains `todo!`",
-            Reason::TimedOut => "the code took too long: is there an endless loop?",
-            Reason::OutOfMemory => "out of memory: does something grow without limit?",
-            Reason::Crashed => {
+    /// Writes the reason why the item has its points.
+    fn write_reason(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self.verdict {
+            Verdict::Pass | Verdict::Pending => "",
+            Verdict::Partial => "some answers are wrong",
+            Verdict::Wrong => "an answer is wrong",
+            Verdict::Panicked => "the code panicked",
+            Verdict::Unimplemented => "the method still contains `todo!`",
+            Verdict::TimedOut => "the code took too long: is there an endless loop?",
+            Verdict::OutOfMemory => "out of memory: does something grow without limit?",
+            Verdict::Crashed => {
                 "the program crashed: is there an endless recursion, or a huge `static`?"
             }
-            Reason::InvalidAnswer => "the program sent an invalid answer",
-            Reason::NotCompiled => "the file is missing or does not compile",
-            Reason::DependsOn(id) => return write!(f, "depends on {id}: fix that first"),
+            Verdict::Protocol => "the program sent an invalid answer",
+            Verdict::NotCompiled => "the file is missing or does not compile",
+            Verdict::Blocked { by } => return write!(f, "depends on {by}: fix that first"),
         })
     }
 }
@@ -114,10 +76,11 @@ impl fmt::Display for Sentence<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         const BY_REFERENCE: &str = "graded with the reference's other files, because an item that \
                                     it depends on failed";
-        match (self.reason, self.by_reference) {
-            (reason, false) => reason.fmt(f),
-            (Reason::Passed, true) => f.write_str(BY_REFERENCE),
-            (reason, true) => write!(f, "{reason}; {BY_REFERENCE}"),
+        self.write_reason(f)?;
+        match (self.verdict, self.by_reference) {
+            (_, false) => Ok(()),
+            (Verdict::Pass, true) => f.write_str(BY_REFERENCE),
+            (_, true) => write!(f, "; {BY_REFERENCE}"),
         }
     }
 }

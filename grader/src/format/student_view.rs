@@ -1,8 +1,7 @@
 //! The part of a score that students may see, with sanitized texts. All formats are rendered from
 //! it.
 
-use judging::assignment::Task;
-
+use crate::format::item_view::{ItemView, shows_everything};
 use crate::format::redact::{redact, visible_score};
 use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
 use crate::score::{ItemScore, Score, TaskScore, Timings, Verdict};
@@ -17,17 +16,6 @@ pub struct StudentView {
     pub all_items: Vec<ItemView>,
     /// The points that count in the course.
     pub counted: CountedPoints,
-}
-
-/// An item, and when students may see it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ItemView {
-    /// The task of the item.
-    pub task: Task,
-    /// The item, without the parts that the policy hides.
-    pub item: ItemScore,
-    /// When students may see the item.
-    pub visibility: Visibility,
 }
 
 impl StudentView {
@@ -107,13 +95,6 @@ impl StudentView {
 fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
     let mut items = task.items.iter();
     items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)
-}
-
-/// Returns whether students may see everything about these items.
-pub(super) fn shows_everything(items: &[ItemView]) -> bool {
-    items
-        .iter()
-        .all(|entry| entry.visibility == Visibility::All)
 }
 
 /// Returns the ids of the items that students may not see now.

@@ -1,0 +1,24 @@
+//! One item as students may see it.
+
+use judging::assignment::Task;
+
+use crate::policy::Visibility;
+use crate::score::ItemScore;
+
+/// An item, and when students may see it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ItemView {
+    /// The task of the item.
+    pub task: Task,
+    /// The item, without the parts that the policy hides.
+    pub item: ItemScore,
+    /// When students may see the item.
+    pub visibility: Visibility,
+}
+
+/// Returns whether students may see everything about these items.
+pub(super) fn shows_everything(items: &[ItemView]) -> bool {
+    items
+        .iter()
+        .all(|entry| entry.visibility == Visibility::All)
+}

@@ -4,7 +4,7 @@
 //! where one is expected, and it cannot name the path of a temporary file or of a program to run.
 
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use crate::disk::{self, Operation};
@@ -61,6 +61,22 @@ impl PathError {
     }
 }
 
+/// Returns whether an error from reading says something about the file: it is gone, or its permissions
+/// deny reading. Other errors, such as those of a network drive, are the machine's, and must not cost
+/// a submission points.
+pub fn is_about_file(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::NotFound
+            | ErrorKind::PermissionDenied
+            | ErrorKind::NotADirectory
+            | ErrorKind::IsADirectory
+            | ErrorKind::InvalidInput
+            | ErrorKind::InvalidData
+            | ErrorKind::UnexpectedEof
+    )
+}
+
 /// Reads a file.
 pub fn read(path: impl AsRef<Path>) -> Result<Vec<u8>, PathError> {
     read_file(path.as_ref()).at("read", path)
@@ -74,7 +90,7 @@ pub fn read_to_string(path: impl AsRef<Path>) -> Result<String, PathError> {
 /// Reads a text file, or returns `None` if it does not exist.
 pub fn read_if_exists(path: impl AsRef<Path>) -> Result<Option<String>, PathError> {
     match read_text(path.as_ref()) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         read => read.at("read", path).map(Some),
     }
 }
@@ -150,7 +166,7 @@ pub fn remove_if_exists(path: impl AsRef<Path>) -> Result<(), PathError> {
         fs::remove_file(path)
     };
     match remove(path.as_ref()) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
         removed => removed.at("remove", path),
     }
 }

@@ -1,6 +1,5 @@
 //! The reasons why a submission, or one of its files, cannot be graded.
 
-use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::archive::ArchiveError;
@@ -148,22 +147,6 @@ impl SubmissionError {
     }
 }
 
-/// Returns whether an error from reading a submission says something about the submission: it is gone,
-/// or its permissions deny reading. Other errors, such as those of a network drive, are the machine's,
-/// and must not cost points.
-pub(super) fn is_about_submission(error: &io::Error) -> bool {
-    matches!(
-        error.kind(),
-        ErrorKind::NotFound
-            | ErrorKind::PermissionDenied
-            | ErrorKind::NotADirectory
-            | ErrorKind::IsADirectory
-            | ErrorKind::InvalidInput
-            | ErrorKind::InvalidData
-            | ErrorKind::UnexpectedEof
-    )
-}
-
 /// Returns the error for a folder or archive without task files, given the names in it.
 pub(super) fn no_task_files(
     path: &Path,
@@ -218,6 +201,8 @@ pub fn places(paths: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::io::ErrorKind;
+
     use super::*;
 
     fn path_error(kind: ErrorKind) -> PathError {
@@ -246,16 +231,6 @@ mod tests {
             SubmissionError::TooMany("ann".into(), Limit::Files),
         ];
         assert!(!others.iter().any(SubmissionError::is_machine_fault));
-    }
-
-    #[test]
-    fn missing_and_forbidden_files_are_the_submissions_own_fault() {
-        for kind in [ErrorKind::NotFound, ErrorKind::PermissionDenied] {
-            assert!(is_about_submission(&kind.into()), "{kind}");
-        }
-        for kind in [ErrorKind::TimedOut, ErrorKind::Other] {
-            assert!(!is_about_submission(&kind.into()), "{kind}");
-        }
     }
 
     #[test]

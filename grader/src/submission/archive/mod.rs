@@ -16,9 +16,9 @@ use std::rc::Rc;
 use rawzip::{FileReader, ReaderAt};
 
 use super::display_name;
-use super::error::is_about_submission;
 use super::limited_reader::{ByteBudget, LimitedReader};
 use crate::disk::{self, Operation};
+use crate::files::is_about_file;
 
 pub(super) use paths::without_extension;
 pub(super) use search::search;
@@ -278,7 +278,7 @@ impl Archive {
 
 fn io_error(error: io::Error) -> ArchiveError {
     let why = error.kind().to_string();
-    if is_about_submission(&error) {
+    if is_about_file(&error) {
         ArchiveError::Io(why)
     } else {
         ArchiveError::Machine(why)

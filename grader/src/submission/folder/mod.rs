@@ -10,13 +10,12 @@ use std::path::{Path, PathBuf};
 use super::archive::{self, ArchiveBytes};
 use super::budget::Limit;
 use super::choice::{self, join};
-use super::error::is_about_submission;
 use super::found::{FoundFolder, is_read};
 use super::names::is_archive_name;
 use super::search::Search;
 use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, display_name};
 use crate::disk::{self, Operation};
-use crate::files::PathError;
+use crate::files::{PathError, is_about_file};
 use crate::handed_out::HandedOut;
 use crate::system::{self, EntryKind, Folder};
 
@@ -221,7 +220,7 @@ fn open(folder: &Folder, path: &Path, name: &OsStr) -> io::Result<Option<File>> 
 }
 
 fn unreadable(path: &Path, error: io::Error) -> SubmissionError {
-    let reason = if is_about_submission(&error) {
+    let reason = if is_about_file(&error) {
         SubmissionError::Unreadable
     } else {
         SubmissionError::Machine
@@ -247,7 +246,7 @@ fn read_file(
         Ok(Ok(bytes))
     };
     match read() {
-        Err(error) if is_about_submission(&error) => Ok(Err(TaskFileError::Unreadable {
+        Err(error) if is_about_file(&error) => Ok(Err(TaskFileError::Unreadable {
             name,
             why: error.kind().to_string(),
         })),

@@ -13,6 +13,8 @@ use crate::handed_out::HandedOut;
 /// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
+/// The id of the practice exam, which students have with its answer keys and can run themselves.
+pub const PRACTICE_ID: &str = "practice";
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
 

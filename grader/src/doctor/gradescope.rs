@@ -7,6 +7,7 @@ use judging::exam_file::{self, ExamFile};
 use crate::doctor::package_contents::{
     EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
 };
+use crate::exam_source::PRACTICE_ID;
 use crate::handed_out::HandedOut;
 
 /// The folders from which the grader and the solution are built.
@@ -125,7 +126,7 @@ impl PackageContents {
             Err(error) => return vec![error.to_string()],
         };
         let mut problems = Vec::new();
-        if exam.id == "practice" {
+        if exam.id == PRACTICE_ID {
             problems.push(
                 "it runs the practice exam, which students have with all its keys: choose another one with --exam-seed".to_owned(),
             );

@@ -2,19 +2,17 @@
 
 use judging::section::Section;
 
+use crate::exam_source::PRACTICE_ID;
 use crate::format::{FormatContext, StudentView};
 use crate::report::text::HintDetail;
 use crate::score::{Hint, ItemScore, Verdict};
-
-/// The id of the exam that students can run themselves.
-const PRACTICE: &str = "practice";
 
 /// Returns the rows of an item, such as `what: …` and `asked: …`, one per line. The text is empty
 /// if there is nothing to report.
 pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) -> String {
     let evidence = item.evidence.as_ref();
     let is_passed = item.verdict == Verdict::Pass;
-    let can_rerun = view.visible.exam.id == PRACTICE && !is_passed && !item.message.is_empty();
+    let can_rerun = view.visible.exam.id == PRACTICE_ID && !is_passed && !item.message.is_empty();
     let rows = [
         ("what", Some(item_message(item))),
         ("asked", evidence.map(|evidence| evidence.asked.clone())),

@@ -3,10 +3,8 @@
 use judging::exam_file::ExamName;
 use serde::Deserialize;
 
+use crate::exam_source::PRACTICE_ID;
 use crate::policy::Policy;
-
-/// Id of the exam that students have, including its answer keys.
-const PRACTICE_EXAM: &str = "practice";
 
 /// The part of an item that students see, from everything to nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
@@ -44,7 +42,7 @@ impl Policy {
         let exceptions = &self.visibility.items;
         let exception = exceptions.get(item).or_else(|| exceptions.get(task));
         exception.copied().unwrap_or(match exam.id.as_str() {
-            PRACTICE_EXAM => self.visibility.practice,
+            PRACTICE_ID => self.visibility.practice,
             _ => self.visibility.other_exams,
         })
     }

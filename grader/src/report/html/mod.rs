@@ -17,6 +17,7 @@ mod task;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::exam_source::PRACTICE_ID;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
 use crate::score::Score;
@@ -27,8 +28,6 @@ use judging::exam::Exam;
 pub use counted::{with_counted, write_counted};
 pub use prose::prose;
 
-/// The id of the exam that students have.
-const PRACTICE: &str = "practice";
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 /// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
@@ -137,7 +136,7 @@ fn footer(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
                     "For programs, " code { "score.json" } " beside this page has the same data."
                 }
             }
-            @if rerun.is_some() && score.exam.id != PRACTICE {
+            @if rerun.is_some() && score.exam.id != PRACTICE_ID {
                 p {
                     strong { "Not for students:" }
                     " this page shows the exam’s questions and answers. Give students "

@@ -7,6 +7,7 @@ use super::counted;
 use super::elements::{command, plain_text};
 use super::pictures;
 use super::prose::prose;
+use crate::exam_source::PRACTICE_ID;
 use crate::report::failing_items::most_telling_first;
 use crate::report_answers::ReportAnswers;
 use crate::rerun_command::RerunCommand;
@@ -107,7 +108,7 @@ fn all_passed(score: &Score) -> Markup {
     html! {
         p {
             "Nothing: your code passes everything that this exam tests."
-            @if score.exam.id == "practice" {
+            @if score.exam.id == PRACTICE_ID {
                 " The final exam asks the same kinds of questions with other numbers."
             }
         }

@@ -10,7 +10,7 @@ use crate::cached_report;
 use crate::desktop;
 use crate::doctor::diagnose;
 use crate::error::Error;
-use crate::grade::{GradedSubmission, grade, source_paths};
+use crate::grade::{GradedSubmission, Prepared, grade_prepared};
 use crate::options::GradeOptions;
 use crate::printing::{print, print_commands, print_line};
 use crate::report::next_step::next_step;
@@ -45,16 +45,17 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
     }
     // A cached report has no timings.
     let may_reuse = !print.fresh && !print.timings;
-    let cached = may_reuse.then(|| find_cached_report(options)).transpose()?;
-    let (points, files) = match cached.flatten() {
+    let mut prepared = Prepared::new(options)?;
+    let cached = may_reuse.then(|| find_cached_report(&mut prepared));
+    let (points, files) = match cached.transpose()?.flatten() {
         Some((cached, files)) => {
             print_text(
-                options,
+                &prepared,
                 &format!("{}{UNCHANGED_NOTICE}{}", cached.report, file_list(&files)),
-            )?;
+            );
             (cached.points, Some(files))
         }
-        None => grade_and_store(options, print)?,
+        None => grade_and_store(&mut prepared, print)?,
     };
     if let Some(files) = files.filter(|_| print.open) {
         desktop::show(&files.page);
@@ -68,13 +69,13 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
 
 /// Grades a submission, prints its report, and stores the report for the next run.
 fn grade_and_store(
-    options: &GradeOptions,
+    prepared: &mut Prepared,
     print: PrintOptions,
 ) -> Result<(u32, Option<ReportFiles>), Error> {
-    let graded = grade(options)?;
-    let text = terminal_report(&graded, options);
+    let graded = grade_prepared(prepared)?;
+    let text = terminal_report(&graded, prepared.options);
     let files = graded.files.as_ref().map_or(String::new(), file_list);
-    print_text(options, &format!("{text}{files}"))?;
+    print_text(prepared, &format!("{text}{files}"));
     if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
         cached_report::store(key, &graded.score, &text, files);
     }
@@ -119,17 +120,16 @@ fn file_list(files: &ReportFiles) -> String {
 }
 
 /// Prints the text, with the paths of the task files.
-fn print_text(options: &GradeOptions, text: &str) -> Result<(), Error> {
+fn print_text(prepared: &Prepared, text: &str) {
     // A cached report gets the paths only here, since the folder may have moved.
-    let text = &*source_paths(options, &Workspace::find()?).in_text(text);
-    print_line(with_links_on_a_terminal(text));
-    Ok(())
+    let text = &*prepared.source_paths().in_text(text);
+    print_line(with_links_on_a_terminal(text, &prepared.workspace));
 }
 
 /// Returns the text with links to the built handout, if there is one and the reader can click them.
 /// A cached report is linked only here, since it may be printed elsewhere the next time.
-fn with_links_on_a_terminal(text: &str) -> Cow<'_, str> {
-    let book = || Book::find(&Workspace::find().ok()?);
+fn with_links_on_a_terminal<'a>(text: &'a str, workspace: &Workspace) -> Cow<'a, str> {
+    let book = || Book::find(workspace);
     match io::stdout().is_terminal().then(book).flatten() {
         Some(book) => Cow::Owned(book.with_links(text)),
         None => Cow::Borrowed(text),

@@ -10,6 +10,8 @@ use judging::exam::Exam;
 use judging::exam_file::{ExamFile, ExamName};
 
 use super::build_report::build_report;
+use super::prepared::Prepared;
+use super::print_compile_errors;
 use super::resolve::{
     builder, collect, default_folder, lateness, policy, source_paths, submission_path,
 };
@@ -99,36 +101,37 @@ impl<'a> Grader<'a> {
         Grader::new(options, workspace, builder, file)
     }
 
-    /// Loads the exam, prepares the builder and builds one submission. Reading the exam takes a
-    /// tenth as long as compiling, and is done in parallel with it.
-    pub(super) fn prepare_and_build(
-        options: &'a GradeOptions,
-        report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
-    ) -> Result<(Self, Submission, BuiltSubmission), Error> {
-        let workspace = Workspace::find()?;
-        let submission = collect(options, &workspace)?;
+    /// Loads the exam, prepares the builder and builds the submission. Reading the exam takes a tenth
+    /// as long as compiling, and is done in parallel with it.
+    pub(super) fn build_prepared(
+        prepared: &mut Prepared<'a>,
+    ) -> Result<(Self, BuiltSubmission), Error> {
+        let options = prepared.options;
+        let report_errors = print_compile_errors(prepared.source_paths());
         let (builder, built, file) = thread::scope(|scope| {
             let reading = scope.spawn(|| options.exam.load(options.handed_out));
             let read = |reading: ScopedJoinHandle<'_, _>| {
                 reading.join().expect("reading the exam does not panic")
             };
-            let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
+            let builder = prepared.builder()?.clone();
+            let builder = with_requested_level(builder, options.isolation)?;
+            let submission = &prepared.submission;
             // In the first run, preparing the builder takes longer than reading the exam. Then an
             // invalid exam is reported before the submission is compiled.
             let (built, file) = if reading.is_finished() {
                 let file = read(reading)?;
                 (
-                    BuiltSubmission::new(&builder, &submission, report_errors)?,
+                    BuiltSubmission::new(&builder, submission, report_errors)?,
                     file,
                 )
             } else {
-                let built = BuiltSubmission::new(&builder, &submission, report_errors)?;
+                let built = BuiltSubmission::new(&builder, submission, report_errors)?;
                 (built, read(reading)?)
             };
             Ok::<_, Error>((builder, built, file))
         })?;
-        let grader = Grader::new(options, workspace, builder, file)?;
-        Ok((grader, submission, built))
+        let grader = Grader::new(options, prepared.workspace.clone(), builder, file)?;
+        Ok((grader, built))
     }
 
     /// Prepares a grader without a submission of its own, for callers that grade several

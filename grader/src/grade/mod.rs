@@ -2,6 +2,7 @@
 
 mod build_report;
 mod grader;
+mod prepared;
 mod resolve;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,11 +19,11 @@ use crate::report_files::ReportFiles;
 use crate::score::Score;
 use crate::source_paths::SourcePaths;
 use crate::verdict::{file_line, file_message};
-use crate::workspace::Workspace;
 
 pub use build_report::build_report;
 pub use grader::{BuiltSubmission, Grader};
-pub use resolve::{builder, collect, default_folder, source_paths};
+pub use prepared::Prepared;
+pub use resolve::{collect, default_folder, source_paths};
 
 /// The score of a submission, and the files to which it was written.
 #[derive(Debug)]
@@ -49,19 +50,23 @@ impl GradedSubmission {
 
 /// Grades the submission that the options name, and writes its reports.
 pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
-    let started_at = Instant::now();
-    let print_errors = print_compile_errors(source_paths(options, &Workspace::find()?));
-    let (grader, submission, built) = Grader::prepare_and_build(options, print_errors)?;
-    let prepared = started_at.elapsed().saturating_sub(built.took());
+    grade_prepared(&mut Prepared::new(options)?)
+}
+
+/// Grades a submission that has been read, and writes its reports.
+pub fn grade_prepared(prepared: &mut Prepared) -> Result<GradedSubmission, Error> {
+    let (grader, built) = Grader::build_prepared(prepared)?;
+    let (options, submission) = (prepared.options, &prepared.submission);
+    let preparation = prepared.started_at.elapsed().saturating_sub(built.took());
     let exam = grader.exam();
-    let mut files = grader.files(&submission, Reload::Never);
+    let mut files = grader.files(submission, Reload::Never);
     if let Some(files) = &mut files {
-        files.outputs = grader.outputs(&submission, &files.folder)?;
+        files.outputs = grader.outputs(submission, &files.folder)?;
     }
-    let mut score = grader.pending_score(&submission, &built);
+    let mut score = grader.pending_score(submission, &built);
     let key = CacheKey::new(
         options,
-        &submission,
+        submission,
         &score.exam.hash,
         &grader.builder_identity(),
     );
@@ -82,7 +87,7 @@ pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
     if let Some(files) = &files {
         files.write_counted(student_view.counted_text().as_slice())?;
     }
-    score.timings.stages.prepare = prepared;
+    score.timings.stages.prepare = preparation;
     score.timings.stages.report = writing;
     Ok(GradedSubmission {
         score,

@@ -45,7 +45,10 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
 }
 
 /// Returns the builder. It uses the reference's parts if they exist and are wanted.
-pub fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, BuildError> {
+pub(super) fn builder(
+    options: &GradeOptions,
+    workspace: &Workspace,
+) -> Result<Builder, BuildError> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference(options.handed_out) {
         Some(reference) if options.dependents == Dependents::SubstituteReference => {

@@ -6,9 +6,7 @@ use crate::build::BuildError;
 use crate::exam_source::ExamSourceError;
 use crate::files::PathError;
 use crate::format::outputs::OutputError;
-use crate::hand_in::HandInError;
 use crate::policy::{PolicyError, SubmissionTimeError};
-use crate::reset::ResetError;
 use crate::select_isolation::IsolationError;
 use crate::submission::SubmissionError;
 use crate::workspace::WorkspaceError;
@@ -34,12 +32,6 @@ pub enum Error {
     /// The question to replay does not exist.
     #[error("{0}")]
     Replay(String),
-    /// A task cannot start afresh.
-    #[error(transparent)]
-    Reset(#[from] ResetError),
-    /// No archive can be made to hand in.
-    #[error(transparent)]
-    HandIn(#[from] HandInError),
     /// More points are required than there are.
     #[error("--require {points} cannot be met: the assignment has {most} points")]
     RequiredPoints {
@@ -70,15 +62,11 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Submission(error) if error.is_machine_fault() => 3,
-            Error::Reset(ResetError::File(_))
-            | Error::HandIn(HandInError::Archive(_) | HandInError::ReadBack(_)) => 3,
             Error::Submission(_)
             | Error::Exam(_)
             | Error::Policy(_)
             | Error::Output(OutputError::MissingVariable { .. })
             | Error::Replay(_)
-            | Error::Reset(_)
-            | Error::HandIn(_)
             | Error::RequiredPoints { .. } => 2,
             Error::Workspace(_)
             | Error::SubmissionTime(_)

@@ -4,19 +4,21 @@
 //! Student code runs in a *probe*, a process that receives questions and never the expected
 //! answers. Points come only from comparing its answers here.
 //!
-//! Layers, from top to bottom. A module imports only from layers below its own:
+//! Layers. A module imports only from modules that come after it in this table, which a test checks:
 //!
 //! | layer | modules |
 //! |---|---|
 //! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`], [`hand_in`] |
-//! | grading | [`grade`], [`cache_lookup`]; [`options`] |
-//! | files of the report | [`cached_report`], [`report_files`] |
-//! | exam runs and reports | [`run_exam`], [`verdict`], [`report_answers`], [`report`], [`mod@format`] |
-//! | steps of an exam run | [`select_isolation`], [`build`], [`probe`]; [`drawing`] of judged answers, in [`svg`] |
+//! | grading | [`cache_lookup`], [`grade`], [`cached_report`], [`report_files`], [`error`], [`options`] |
+//! | exam runs | [`run_exam`], `explain`, [`task_session`], [`kept_state`], [`verdict`] |
+//! | reports | [`mod@format`], [`report`], [`report_answers`], [`drawing`], [`svg`] |
+//! | steps of an exam run | [`item_outcome`], [`clue`], [`select_isolation`], [`build`], [`probe`] |
 //! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`given_files`], [`stage_times`] |
-//! | inputs | [`policy`], [`submission`], [`handed_out`], [`exam_source`], [`question_ref`], [`task_selection`] |
-//! | a separate package | [`judging`]: exams, their keys, and the comparison of answers with keys |
-//! | the machine | [`book`], [`workspace`], [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`]; [`files`], above [`disk`]; [`system`], [`nearest_name`] |
+//! | inputs | [`policy`], [`submission`], [`exam_source`], [`question_ref`], [`task_selection`], [`book`], [`workspace`], [`handed_out`] |
+//! | the machine | `backup`, [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`], [`files`], [`disk`], [`system`], [`alone`], [`nearest_name`] |
+//!
+//! The package [`judging`] is below all of them: exams, their keys, and the comparison of answers
+//! with keys.
 
 pub mod alone;
 mod backup;

@@ -9,7 +9,6 @@ mod summary;
 use std::path::PathBuf;
 
 use crate::build::Builder;
-use crate::error::Error;
 use crate::files;
 use crate::grade::{build_report, collect};
 use crate::handed_out::HandedOut;
@@ -45,13 +44,16 @@ pub struct HandIn {
 impl HandIn {
     /// Makes the archive of a student's own work or of another folder, reads it back, and compiles
     /// what is in it.
-    pub fn make(arguments: HandInArguments, handed_out: &'static HandedOut) -> Result<Self, Error> {
+    pub fn make(
+        arguments: HandInArguments,
+        handed_out: &'static HandedOut,
+    ) -> Result<Self, HandInError> {
         let workspace = Workspace::find()?;
         let folder = arguments.folder;
         if let Some(folder) = &folder
             && workspace.resolve(folder).is_file()
         {
-            return Err(HandInError::NotAFolder(folder.clone()).into());
+            return Err(HandInError::NotAFolder(folder.clone()));
         }
         let options = GradeOptions {
             handed_out,
@@ -64,7 +66,7 @@ impl HandIn {
             None => workspace.root().join(ARCHIVE),
         };
         if original.files.iter().all(|(_, text)| text.is_err()) {
-            return Err(HandInError::NothingReadable(original.name).into());
+            return Err(HandInError::NothingReadable(original.name));
         }
         let bytes = archive_bytes(&original).map_err(HandInError::Archive)?;
         let kept = former::keep_lost_work(&archive, &original)?;
@@ -98,10 +100,10 @@ fn read_back(
     archive: &std::path::Path,
     original: &Submission,
     bytes: &[u8],
-) -> Result<Submission, Error> {
+) -> Result<Submission, HandInError> {
     let changed = || HandInError::ReadBack(archive.to_owned());
     if files::read(archive)? != bytes {
-        return Err(changed().into());
+        return Err(changed());
     }
     let submission = Submission::collect(archive, original.handed_out)?;
     let pairs = submission.files.iter().zip(&original.files);
@@ -111,6 +113,6 @@ fn read_back(
     if is_same {
         Ok(submission)
     } else {
-        Err(changed().into())
+        Err(changed())
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::files::PathError;
 use crate::handed_out::FreshMethodError;
 use crate::submission::places;
+use crate::workspace::WorkspaceError;
 
 /// The reason why a task cannot start afresh.
 #[derive(Debug, thiserror::Error)]
@@ -57,4 +58,24 @@ pub enum ResetError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] PathError),
+    /// The workspace cannot be found.
+    #[error(transparent)]
+    Workspace(#[from] WorkspaceError),
+}
+
+impl ResetError {
+    /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            ResetError::File(_) | ResetError::Workspace(_) => 3,
+            ResetError::NotAFolder(_)
+            | ResetError::Link(_)
+            | ResetError::NotRegular(_)
+            | ResetError::NoTaskFiles { .. }
+            | ResetError::SeveralFolders { .. }
+            | ResetError::Missing(_)
+            | ResetError::NotText(_)
+            | ResetError::Method(_) => 2,
+        }
+    }
 }

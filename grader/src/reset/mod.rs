@@ -10,7 +10,6 @@ use std::path::Path;
 use judging::assignment::Task;
 
 use crate::backup;
-use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile};
 use crate::report::atomic_write;
 use crate::task_selection::NamedTasks;
@@ -27,7 +26,7 @@ pub fn reset(
     handed_out: &'static HandedOut,
     folder: Option<&Path>,
     names: &[NamedTasks],
-) -> Result<String, Error> {
+) -> Result<String, ResetError> {
     let workspace = Workspace::find()?;
     let folder = workspace.resolve(folder.unwrap_or(Path::new(handed_out.student)));
     let source = SourceFolder::find(&folder, handed_out)?;

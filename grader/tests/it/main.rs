@@ -18,6 +18,7 @@ mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
 mod language;
+mod layers;
 #[cfg(target_os = "linux")]
 mod next_steps;
 mod ordinary_user;

@@ -342,8 +342,7 @@ fn grade_entries(
         entry_grader.grade(slot, entry)
     });
     progress.finish();
-    let results: Result<Vec<EntryResult>, _> = results.into_iter().collect();
-    Ok(results?)
+    results.into_iter().collect()
 }
 
 fn slot_count(jobs: Option<u16>) -> usize {

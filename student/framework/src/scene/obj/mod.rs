@@ -1,4 +1,7 @@
-//! Meshes in OBJ files.
+//! Meshes in OBJ files, parsed by `tobj`.
+//!
+//! `tobj` reports errors without their lines, accepts NaN, and splits concave faces wrongly. So this
+//! module checks each line first, and splits the faces into triangles itself.
 
 #[cfg(test)]
 mod tests;
@@ -11,6 +14,12 @@ use glam::{DVec3, Vec2, Vec3};
 use super::error::{SceneError, SceneErrorKind, TextPosition, read_bytes};
 use super::mesh::{Face, Mesh};
 use triangulate::triangulate;
+
+/// The maximum number of corners of a face. Splitting a face takes up to the third power of this.
+const MAX_CORNERS: usize = 1000;
+
+/// The line of an error, if known, and its message.
+type ObjError = (Option<usize>, String);
 
 /// Loads a mesh from an OBJ file.
 pub(super) fn load(path: &Path) -> Result<Mesh, SceneErrorKind> {
@@ -27,8 +36,9 @@ fn in_mesh(error: SceneError) -> SceneErrorKind {
 /// so everything else is ignored.
 fn parse(text: &str) -> Result<Mesh, SceneError> {
     let text = &text.replace("\r\n", "\n").replace('\r', "\n");
-    let statements = statements(text);
-    mesh(&statements).map_err(|(line, message)| {
+    let checked = check(&statements(text));
+    let mesh = checked.and_then(|(text, faces)| triangles(&text, &faces));
+    mesh.map_err(|(line, message)| {
         let position = line.map(|line| TextPosition::new(text, line, 0));
         SceneError::new(position, SceneErrorKind::Obj(message))
     })
@@ -37,17 +47,10 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
 /// The kinds of lines that faces refer to by index, in the order of the indices in a face corner.
 const INDEXED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
 
-/// One statement of an OBJ file.
-struct Statement<'a> {
-    /// The number of its first line, starting at 1.
-    line: usize,
-    words: Vec<&'a str>,
-}
-
-/// Splits a text into statements: removes comments, which may follow a statement on its line, and
-/// joins lines that end in a backslash.
-fn statements(text: &str) -> Vec<Statement<'_>> {
-    let mut statements: Vec<Statement> = Vec::new();
+/// Splits a text into statements, each with the number of its first line: removes comments, which
+/// may follow a statement on its line, and joins lines that end in a backslash.
+fn statements(text: &str) -> Vec<(usize, Vec<&str>)> {
+    let mut statements: Vec<(usize, Vec<&str>)> = Vec::new();
     let mut continues = false;
     for (line, text) in (1..).zip(text.lines()) {
         let words = text.split_whitespace();
@@ -58,169 +61,183 @@ fn statements(text: &str) -> Vec<Statement<'_>> {
             words.extend((!last.is_empty()).then_some(last));
         }
         match statements.last_mut().filter(|_| continues) {
-            Some(before) => before.words.extend(words),
-            None => statements.push(Statement { line, words }),
+            Some((_, before)) => before.extend(words),
+            None => statements.push((line, words)),
         }
         continues = last.is_some();
     }
     statements
 }
 
-/// Returns the mesh, or the message of an error and its line.
-fn mesh(statements: &[Statement]) -> Result<Mesh, (Option<usize>, String)> {
-    let mut elements: [Vec<Vec3>; 3] = Default::default();
+/// A face that is known to be valid.
+struct CheckedFace {
+    line: usize,
+    corners: usize,
+    has_uv: bool,
+    has_normal: bool,
+}
+
+/// Checks the numbers and the faces. Returns them in the form that `tobj` parses, without anything
+/// else.
+fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>), ObjError> {
+    let kinds = || statements.iter().filter_map(|(_, words)| words.first());
+    let totals = INDEXED.map(|(kind, _)| kinds().filter(|other| **other == kind).count());
+    let mut so_far = [0; 3];
     let mut faces = Vec::new();
-    for Statement { line, words } in statements {
+    let mut text = String::new();
+    for (line, words) in statements {
+        let failed = |message| (Some(*line), message);
         let Some((kind, words)) = words.split_first() else {
             continue;
         };
-        if *kind == "f" {
-            faces.push((*line, words, elements.each_ref().map(Vec::len)));
+        let words = if *kind == "f" {
+            faces.push(check_face(*line, words, totals, so_far).map_err(failed)?);
+            words.to_vec()
         } else if let Some(i) = INDEXED.iter().position(|(known, _)| known == kind) {
-            let element = element(INDEXED[i], words).map_err(|message| (Some(*line), message))?;
-            elements[i].push(element);
-        }
+            so_far[i] += 1;
+            check_numbers(INDEXED[i], words).map_err(failed)?
+        } else {
+            continue;
+        };
+        text.push_str(&format!("{kind} {}\n", words.join(" ")));
     }
-    let mut mesh = Mesh::default();
-    for (line, words, so_far) in faces {
-        let triangles = triangles(words, &elements, so_far);
-        mesh.faces
-            .extend(triangles.map_err(|message| (Some(line), message))?);
-    }
-    if mesh.faces.is_empty() {
-        let message = "the file has no faces (lines that begin with `f`); is it a mesh?";
-        return Err((None, message.to_owned()));
-    }
-    // Keeps the positions that faces use, in this order.
-    let mut indices = vec![None; elements[0].len()];
-    for corner in mesh.faces.iter_mut().flat_map(|face| &mut face.corners) {
-        let position = elements[0][*corner];
-        *corner = *indices[*corner].get_or_insert_with(|| {
-            mesh.positions.push(position);
-            mesh.positions.len() - 1
-        });
-    }
-    Ok(mesh)
+    Ok((text, faces))
 }
 
-/// Returns the first three numbers of a statement. `v` may be followed by a weight or a colour, and
-/// `vt` may have fewer numbers.
-fn element((kind, name): (&str, &str), words: &[&str]) -> Result<Vec3, String> {
-    let numbers: Vec<f32> = words
-        .iter()
-        .map(|word| number(word))
-        .collect::<Result<_, _>>()?;
-    let (at_least, noun) = match kind {
-        "vt" => (1, "number"),
-        _ => (3, "numbers"),
+/// Returns the numbers of a statement that the mesh uses, if all are finite. `v` may be followed by
+/// a weight or a colour, and the second number of `vt` may be missing.
+fn check_numbers<'a>(
+    (kind, name): (&str, &str),
+    words: &[&'a str],
+) -> Result<Vec<&'a str>, String> {
+    let is_finite = |word: &&str| word.parse().is_ok_and(f32::is_finite);
+    if let Some(word) = words.iter().find(|word| !is_finite(word)) {
+        return Err(format!("`{word}` is not a finite number"));
+    }
+    let (needed, noun, used) = match kind {
+        "vt" => (1, "number", 2),
+        _ => (3, "numbers", 3),
     };
-    let given = numbers.len();
-    if given < at_least {
+    let given = words.len();
+    if given < needed {
         return Err(format!(
-            "a {name} needs {at_least} {noun}, and this has {given}"
+            "a {name} needs {needed} {noun}, and this has {given}"
         ));
     }
-    let at = |i: usize| numbers.get(i).copied().unwrap_or(0.0);
-    Ok(Vec3::new(at(0), at(1), at(2)))
+    Ok(words.iter().copied().chain(["0"]).take(used).collect())
 }
 
-fn number(word: &str) -> Result<f32, String> {
-    let number = word.parse().ok();
-    number
-        .filter(|number: &f32| number.is_finite())
-        .ok_or_else(|| format!("`{word}` is not a finite number"))
-}
-
-/// Returns the triangles of a face. `so_far` is the number of elements before its line.
-fn triangles(
+/// Checks the corners of a face. `so_far` is the number of elements before its line.
+fn check_face(
+    line: usize,
     words: &[&str],
-    elements: &[Vec<Vec3>; 3],
+    totals: [usize; 3],
     so_far: [usize; 3],
-) -> Result<Vec<Face>, String> {
-    if words.len() < 3 {
-        let given = words.len();
+) -> Result<CheckedFace, String> {
+    let corners = words.len();
+    if corners < 3 {
         return Err(format!(
-            "a face needs 3 corners or more, and this has {given}"
+            "a face needs 3 corners or more, and this has {corners}"
         ));
     }
-    let totals = elements.each_ref().map(Vec::len);
-    let corners = words.iter().map(|word| corner(word, totals, so_far));
-    let corners: Vec<Corner> = corners.collect::<Result<_, _>>()?;
-    let form = |corner: &Corner| (corner.uv.is_some(), corner.normal.is_some());
-    if let Some(other) = corners.iter().position(|c| form(c) != form(&corners[0])) {
+    if corners > MAX_CORNERS {
+        return Err(format!(
+            "a face can have up to {MAX_CORNERS} corners, and this has {corners}: export the mesh as \
+             triangles"
+        ));
+    }
+    let forms = words.iter().map(|word| corner_form(word, totals, so_far));
+    let forms: Vec<[bool; 3]> = forms.collect::<Result<_, _>>()?;
+    if let Some(other) = forms.iter().position(|form| *form != forms[0]) {
         return Err(format!(
             "the corners `{}` and `{}` differ: give either all corners of a face a uv, and all a \
              normal, or none",
             words[0], words[other]
         ));
     }
-    let [positions, uvs, normals] = elements;
-    let points = corners.iter().map(|corner| positions[corner.position]);
-    let points: Vec<DVec3> = points.map(|point| point.as_dvec3()).collect();
-    let triangles = triangulate(&points).ok_or(
-        "the outline of this face crosses itself: list the corners in order, all around, or export \
-         the mesh as triangles",
-    )?;
-    let face = |triangle: [usize; 3]| {
-        let corners = triangle.map(|i| corners[i]);
-        Face {
-            corners: corners.map(|corner| corner.position),
-            uv: match corners.map(|corner| corner.uv) {
-                [Some(a), Some(b), Some(c)] => [a, b, c].map(|i| uvs[i].truncate()),
-                _ => [Vec2::ZERO, Vec2::X, Vec2::Y],
-            },
-            normals: match corners.map(|corner| corner.normal) {
-                [Some(a), Some(b), Some(c)] => Some([a, b, c].map(|i| normals[i])),
-                _ => None,
-            },
-        }
-    };
-    Ok(triangles.into_iter().map(face).collect())
+    let [_, has_uv, has_normal] = forms[0];
+    Ok(CheckedFace {
+        line,
+        corners,
+        has_uv,
+        has_normal,
+    })
 }
 
-/// The indices of a face corner, starting at 0.
-#[derive(Clone, Copy)]
-struct Corner {
-    position: usize,
-    uv: Option<usize>,
-    normal: Option<usize>,
-}
-
-/// Parses a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. A negative index counts backward from
-/// the last element before the current line. Like other programs, ignores the indices of uvs in a
-/// file that has none, and those of normals.
-fn corner(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<Corner, String> {
-    let mut indices = [None; 3];
-    let invalid =
-        || format!("`{word}` is not a face corner; expected the form 7, 7/1, 7//3 or 7/1/3");
+/// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`, and returns which indices it has. A
+/// negative index counts backward from the last element before the current line. Like other
+/// programs, ignores the indices of uvs in a file that has none, and those of normals.
+fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bool; 3], String> {
+    let mut form = [false; 3];
     for (i, text) in word.split('/').enumerate() {
         if i > 0 && text.is_empty() {
             continue;
         }
         let (Some((_, name)), Ok(index)) = (INDEXED.get(i), text.parse::<isize>()) else {
-            return Err(invalid());
+            return Err(format!(
+                "`{word}` is not a face corner; expected the form 7, 7/1, 7//3 or 7/1/3"
+            ));
         };
         let total = totals[i];
         if i > 0 && total == 0 {
             continue;
         }
-        let found = match index {
-            1.. => index
-                .checked_sub(1)
-                .and_then(|index| usize::try_from(index).ok()),
-            _ => so_far[i].checked_sub(index.unsigned_abs()),
-        };
-        indices[i] = found.filter(|found| index != 0 && *found < total);
-        if indices[i].is_none() {
+        let limit = if index > 0 { total } else { so_far[i] };
+        if index == 0 || index.unsigned_abs() > limit {
             return Err(format!(
                 "there is no {name} {index}: the indices are 1 to {total}"
             ));
         }
+        form[i] = true;
     }
-    let [position, uv, normal] = indices;
-    Ok(Corner {
-        position: position.ok_or_else(invalid)?,
-        uv,
-        normal,
-    })
+    Ok(form)
+}
+
+/// Parses a checked text, and splits its faces into triangles.
+fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Mesh, ObjError> {
+    let no_materials = |_: &Path| Ok(Default::default());
+    let options = tobj::LoadOptions::default();
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
+        .map_err(|error| (None, error.to_string()))?;
+    // Without groups and objects, there is one model.
+    let parsed = &models[0].mesh;
+    let mut mesh = Mesh {
+        positions: triples(&parsed.positions),
+        faces: Vec::new(),
+    };
+    let normals = triples(&parsed.normals);
+    let (uvs, _) = parsed.texcoords.as_chunks::<2>();
+    let mut first = 0;
+    for face in faces {
+        let corners = parsed.indices[first..][..face.corners].iter();
+        let points = corners.map(|&i| mesh.positions[i as usize].as_dvec3());
+        let triangles = triangulate(&points.collect::<Vec<DVec3>>()).ok_or_else(|| {
+            let message = "the outline of this face crosses itself: list the corners in order, all \
+                           around, or export the mesh as triangles";
+            (Some(face.line), message.to_owned())
+        })?;
+        for triangle in triangles {
+            let indices = |list: &[u32]| triangle.map(|corner| list[first + corner] as usize);
+            let uv = || indices(&parsed.texcoord_indices).map(|i| Vec2::from(uvs[i]));
+            let normals = || indices(&parsed.normal_indices).map(|i| normals[i]);
+            let whole_texture = [Vec2::ZERO, Vec2::X, Vec2::Y];
+            mesh.faces.push(Face {
+                corners: indices(&parsed.indices),
+                // `tobj` makes up indices for corners without uv or normal.
+                uv: face.has_uv.then(uv).unwrap_or(whole_texture),
+                normals: face.has_normal.then(normals),
+            });
+        }
+        first += face.corners;
+    }
+    if mesh.faces.is_empty() {
+        let message = "the file has no faces (lines that begin with `f`); is it a mesh?";
+        return Err((None, message.to_owned()));
+    }
+    Ok(mesh)
+}
+
+fn triples(numbers: &[f32]) -> Vec<Vec3> {
+    let (triples, _) = numbers.as_chunks::<3>();
+    triples.iter().copied().map(Vec3::from).collect()
 }

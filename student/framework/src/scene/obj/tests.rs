@@ -133,7 +133,7 @@ fn faces_with_and_without_normals_can_be_mixed() {
 }
 
 #[test]
-fn reports_the_line_with_too_few_numbers_or_corners() {
+fn reports_the_line_with_too_few_numbers_and_too_few_or_many_corners() {
     assert!(problem("v 0 1\n").contains(":1: a position needs 3 numbers, and this has 2"));
     let error = problem(&format!("{POSITIONS}vt\n"));
     assert!(
@@ -143,6 +143,11 @@ fn reports_the_line_with_too_few_numbers_or_corners() {
     let error = problem(&format!("{POSITIONS}f 1 2\n"));
     assert!(
         error.contains(":5: a face needs 3 corners or more, and this has 2"),
+        "{error}"
+    );
+    let error = problem(&format!("{POSITIONS}f{}\n", " 1".repeat(1001)));
+    assert!(
+        error.contains(":5: a face can have up to 1000 corners, and this has 1001"),
         "{error}"
     );
 }

@@ -10,6 +10,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use bench_support::cost::Cost;
+use bench_support::short_form::repetitions;
 use grader::build::{Build, Builder};
 use grader::handed_out::RAYS;
 use grader::probe::ItemLimits;
@@ -72,10 +73,10 @@ fn first_answer(build: &Build) {
     probe.ask(nothing, LIMITS).expect("the probe answers");
 }
 
-/// Measures `one` without (index 0) and with (index 1) the sandbox, `rounds` times each. Prints the
-/// median CPU and wall times in milliseconds, and their ratio.
+/// Measures `one` without (index 0) and with (index 1) the sandbox, `rounds` times each, or once in the
+/// short form. Prints the median CPU and wall times in milliseconds, and their ratio.
 fn report(what: &str, rounds: usize, one: impl Fn(usize) -> Cost) {
-    let rounds: Vec<[Cost; 2]> = (0..rounds).map(|_| [one(0), one(1)]).collect();
+    let rounds: Vec<[Cost; 2]> = (0..repetitions(rounds)).map(|_| [one(0), one(1)]).collect();
     let median = |index: usize, time: &dyn Fn(&Cost) -> Duration| {
         let mut times: Vec<Duration> = rounds.iter().map(|round| time(&round[index])).collect();
         times.sort();

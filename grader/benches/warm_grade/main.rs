@@ -15,7 +15,9 @@ use bench_support::bare::BareRustc;
 use bench_support::changed::{baseline, change, submission};
 use bench_support::cost::Cost;
 use bench_support::median::median;
+use bench_support::short_form::repetitions;
 use grader::build::Builder;
+use grader::grade::default_folder;
 use grader::handed_out::RAYS;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
@@ -83,7 +85,7 @@ fn main() {
     let bare = BareRustc::prepare(&workspace.cache_folder().join("dependencies"));
     let mut watcher = WatchProcess::start(watched.path());
     let mut rounds = Vec::new();
-    for round in 0..ROUNDS {
+    for round in 0..repetitions(ROUNDS) {
         change(&root, folder.path(), round);
         let bare_rustc = Cost::of_program(&mut bare.compile(folder.path()));
         let types = Cost::of_program(&mut bare.check(folder.path()));
@@ -108,11 +110,9 @@ fn main() {
     }
     print(&rounds);
     drop(watcher);
-    let name = same
-        .path()
-        .file_name()
-        .expect("a temporary folder has a name");
-    fs::remove_dir_all(workspace.output_folder().join(name)).expect("the score was written there");
+    let unchanged = Submission::collect(same.path(), &RAYS).expect("the submission can be read");
+    fs::remove_dir_all(default_folder(&workspace, &unchanged))
+        .expect("the score was written there");
 
     let world = submission(&root);
     let given = root.join("grader/starter/world.rs");
@@ -159,7 +159,7 @@ fn first_error(folder: &Path) -> Cost {
         let read = BufReader::new(stderr).read_line(&mut first_line);
         read.expect("the grader writes text");
     });
-    assert!(first_line.starts_with("sphere.rs: error"), "{first_line}");
+    assert!(first_line.contains("sphere.rs: error"), "{first_line}");
     child
         .expect("the grader was started")
         .wait()
@@ -182,7 +182,11 @@ fn regrade_unchanged(folder: &Path) -> Cost {
         command
     };
     Cost::of_program(&mut grader());
-    Cost::of_program(&mut grader())
+    let mut stdout = Vec::new();
+    let cost = Cost::of(|| stdout = grader().output().expect("the grader can be started").stdout);
+    let printed = String::from_utf8_lossy(&stdout);
+    assert!(printed.contains("Nothing has changed"), "{printed}");
+    cost
 }
 
 fn grade(folder: &Path, required: u32) -> Cost {

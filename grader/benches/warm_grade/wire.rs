@@ -9,6 +9,7 @@ use std::time::Duration;
 use bench_support::bare::BareRustc;
 use bench_support::cost::Cost;
 use bench_support::median::median;
+use bench_support::short_form::repetitions;
 use glam::{Vec2, Vec3, vec3};
 use grader::probe::{ItemLimits, Launcher};
 use protocol::{Question, Ray, Rays, Shape, Vertex, wire};
@@ -48,10 +49,11 @@ pub fn compare(folder: &Path, bare: &BareRustc, launcher: &Launcher) {
     let lib = fs::read_to_string(folder.join("lib.rs")).expect("the file was copied");
     fs::write(folder.join("in_process.rs"), lib + IN_PROCESS).expect("the file can be written");
     Cost::of_program(&mut bare.program(folder, "in_process.rs"));
-    println!("\n{RAYS} rays, median of {ROUNDS} rounds, CPU ms");
+    let count = repetitions(ROUNDS);
+    println!("\n{RAYS} rays, median of {count} rounds, CPU ms");
     println!("  rays/question   in process   over the pipe   ratio");
     for rays_per_question in [100, 1] {
-        let rounds = (0..ROUNDS).map(|_| round(folder, launcher, &questions(rays_per_question)));
+        let rounds = (0..count).map(|_| round(folder, launcher, &questions(rays_per_question)));
         let rounds: Vec<[f64; 2]> = rounds.collect();
         let in_process = median(rounds.iter().map(|[in_process, _]| *in_process));
         let over_pipe = median(rounds.iter().map(|[_, over_pipe]| *over_pipe));

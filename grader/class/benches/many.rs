@@ -12,11 +12,14 @@ use bench_support::bare::BareRustc;
 use bench_support::changed::{baseline, change, copy};
 use bench_support::cost::Cost;
 use bench_support::median::median;
+use bench_support::short_form::{is_short, repetitions};
 use grader::workspace::Workspace;
 use tempfile::TempDir;
 
 const ROUNDS: usize = 5;
 const STUDENTS: usize = 60;
+/// The number of submissions in the short form.
+const FEW_STUDENTS: usize = 4;
 
 /// The number of baseline measurements before the class is graded, and again afterwards. Several
 /// are needed because a call takes only a third of a second, and the speed of a shared machine
@@ -27,7 +30,9 @@ fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let alone = baseline(&root);
     let class = TempDir::new().expect("a temporary folder can be created");
-    let students = (0..STUDENTS).map(|number| class.path().join(format!("student-{number}")));
+    let count = if is_short() { FEW_STUDENTS } else { STUDENTS };
+    let rounds = repetitions(ROUNDS);
+    let students = (0..count).map(|number| class.path().join(format!("student-{number}")));
     let students: Vec<PathBuf> = students.collect();
     for student in &students {
         fs::create_dir(student).expect("a temporary folder can be created");
@@ -39,16 +44,16 @@ fn main() {
     let bare = BareRustc::prepare(&workspace.cache_folder().join("dependencies"));
     let measure_baseline = || {
         let compile = || Cost::of_program(&mut bare.compile(alone.path()));
-        iter::repeat_with(compile).take(BASELINE_CALLS)
+        iter::repeat_with(compile).take(repetitions(BASELINE_CALLS))
     };
 
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    println!("{STUDENTS} submissions on {cores} cores, {ROUNDS} rounds");
+    println!("{count} submissions on {cores} cores, {rounds} rounds");
     println!("  F, CPU ms   each, CPU ms    / F     throughput / (cores / F)");
     let (mut of_baseline, mut of_most) = (Vec::new(), Vec::new());
-    for round in 0..ROUNDS {
+    for round in 0..rounds {
         for (number, student) in students.iter().enumerate() {
-            change(&root, student, round * STUDENTS + number);
+            change(&root, student, round * count + number);
         }
         change(&root, alone.path(), round);
         let before: Vec<Cost> = measure_baseline().collect();
@@ -56,8 +61,8 @@ fn main() {
         let baselines = before.into_iter().chain(measure_baseline());
         let baseline = median(baselines.map(|cost| cost.cpu.as_secs_f64()));
 
-        let each = cpu.as_secs_f64() / STUDENTS as f64;
-        let throughput = STUDENTS as f64 / wall.as_secs_f64();
+        let each = cpu.as_secs_f64() / count as f64;
+        let throughput = count as f64 / wall.as_secs_f64();
         let most = cores as f64 / baseline;
         of_baseline.push(each / baseline);
         of_most.push(throughput / most);

@@ -7,39 +7,36 @@ use reference::bvh::Bvh;
 
 use crate::mesh::Mesh;
 
-/// The width and height of the picture, in pixels. There are about as many rays of each kind as
-/// there are pixels.
-const SIDE: u32 = 512;
-
 /// Rays of one kind.
 pub struct Rays {
     pub kind: &'static str,
     pub rays: Vec<Ray>,
 }
 
-/// Returns the rays of all three kinds.
-pub fn all_kinds(mesh: &Mesh, bvh: &Bvh) -> [Rays; 3] {
-    let primary = primary(mesh);
+/// Returns the rays of all three kinds. There are about as many rays of each kind as there are pixels
+/// in a picture whose width and height are `side`.
+pub fn all_kinds(mesh: &Mesh, bvh: &Bvh, side: u32) -> [Rays; 3] {
+    let primary = primary(mesh, side);
     let bounce = bounce(mesh, bvh, &primary);
-    let random = random(mesh);
+    let random = random(mesh, primary.len());
     [("primary", primary), ("bounce", bounce), ("random", random)]
         .map(|(kind, rays)| Rays { kind, rays })
 }
 
 /// Returns a ray through each pixel, row by row.
-fn primary(mesh: &Mesh) -> Vec<Ray> {
+fn primary(mesh: &Mesh, side: u32) -> Vec<Ray> {
     let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
     let (eye, ahead, width) = if mesh.is_building {
         (center - vec3(0.35, 0.05, 0.0) * size, Vec3::X, 1.5)
     } else {
         (center + 1.1 * size.length() * Vec3::Z, Vec3::NEG_Z, 0.6)
     };
-    let across = |i: u32| ((i as f32 + 0.5) / SIDE as f32 - 0.5) * width;
+    let across = |i: u32| ((i as f32 + 0.5) / side as f32 - 0.5) * width;
     let ray = |i| {
-        let (x, y) = (across(i % SIDE), across(i / SIDE));
+        let (x, y) = (across(i % side), across(i / side));
         Ray::new(eye, ahead + x * ahead.cross(Vec3::Y) + y * Vec3::Y)
     };
-    (0..SIDE * SIDE).map(ray).collect()
+    (0..side * side).map(ray).collect()
 }
 
 /// Returns rays that start at the hits of the primary rays, in random directions of the hemisphere,
@@ -49,7 +46,7 @@ fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let mut numbers = SplitMix64(1);
     let mut all = Vec::new();
     let mut last = primary.to_vec();
-    while all.len() < (SIDE * SIDE) as usize && !last.is_empty() {
+    while all.len() < primary.len() && !last.is_empty() {
         let hits = last.iter().filter_map(|ray| Some((ray, bvh.hit(ray)?)));
         let next = hits.map(|(ray, trace)| {
             let facing = trace.normal * -ray.dir.dot(trace.normal).signum();
@@ -59,13 +56,13 @@ fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
         last = next.collect();
         all.extend_from_slice(&last);
     }
-    all.truncate((SIDE * SIDE) as usize);
+    all.truncate(primary.len());
     all
 }
 
 /// Returns rays to random points in the mesh's box. They start on a sphere around the mesh or, if
 /// the mesh is a building, at random points in its box.
-fn random(mesh: &Mesh) -> Vec<Ray> {
+fn random(mesh: &Mesh, count: usize) -> Vec<Ray> {
     let (center, size) = (mesh.bbox.center(), mesh.bbox.max - mesh.bbox.min);
     let mut numbers = SplitMix64(2);
     let ray = |_| {
@@ -77,7 +74,7 @@ fn random(mesh: &Mesh) -> Vec<Ray> {
         };
         Ray::new(from, to - from)
     };
-    (0..SIDE * SIDE).map(ray).collect()
+    (0..count).map(ray).collect()
 }
 
 /// A random number generator: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number

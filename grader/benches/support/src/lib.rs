@@ -9,3 +9,4 @@ pub mod bare;
 pub mod changed;
 pub mod cost;
 pub mod median;
+pub mod short_form;

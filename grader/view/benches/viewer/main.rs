@@ -18,6 +18,7 @@ use bench_support::bare::BareRustc;
 use bench_support::changed::{baseline, change};
 use bench_support::cost::Cost;
 use bench_support::median::median;
+use bench_support::short_form::{is_short, repetitions};
 use browser_support::{Chromium, DESKTOP};
 use grader::workspace::Workspace;
 use serde_json::{Value, json};
@@ -34,6 +35,8 @@ const SIZE: &str = "320x240";
 const SAMPLES: u32 = 128;
 /// The time for which an idle viewer is measured.
 const IDLE: Duration = Duration::from_secs(20);
+/// The same in the short form.
+const BRIEFLY_IDLE: Duration = Duration::from_secs(1);
 
 fn main() {
     moves_and_rays();
@@ -50,14 +53,17 @@ fn moves_and_rays() {
     let viewer = Viewer::start(&Submission::reference(), &arguments);
     let folder = TempDir::new().expect("a folder can be created");
     let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "-q", "--release", "--package", "reference"]);
+    build.args(["build", "-q", "--package", "reference"]);
+    if !cfg!(debug_assertions) {
+        build.arg("--release");
+    }
     let status = build.current_dir(workspace()).status();
     assert!(
         status.is_ok_and(|status| status.success()),
         "{build:?} failed"
     );
     let (mut moves, mut ratios, mut costs) = (Vec::new(), Vec::new(), Vec::new());
-    for _ in 0..ROUNDS {
+    for _ in 0..repetitions(ROUNDS) {
         let before = viewer.wait_for_picture();
         let start = Instant::now();
         viewer.send(&json!({ "move": { "orbit": [0.1, 0.0] } }));
@@ -131,7 +137,7 @@ fn saves() {
     let bare = BareRustc::prepare(&found.cache_folder().join("dependencies"));
     let folder = baseline(&root);
     let (mut times, mut shares) = (Vec::new(), Vec::new());
-    for round in 0..ROUNDS {
+    for round in 0..repetitions(ROUNDS) {
         change(&root, folder.path(), round);
         let compile = Cost::of_program(&mut bare.compile(folder.path()))
             .wall
@@ -177,7 +183,7 @@ fn idle() {
     let (Some(before), start) = (cpu_time_of(&viewer), Instant::now()) else {
         return print("idle viewer", "not known on this system");
     };
-    thread::sleep(IDLE);
+    thread::sleep(if is_short() { BRIEFLY_IDLE } else { IDLE });
     let used = cpu_time_of(&viewer)
         .unwrap_or_default()
         .saturating_sub(before);

@@ -132,7 +132,7 @@ fn student_crates_do_not_depend_on_the_grader() {
 
 /// Checks that the features are equal. Otherwise, Cargo would compile these crates twice before the
 /// first grade: once for the grader, and once for submissions. If this fails, correct the features in
-/// `grader/unified/Cargo.toml`.
+/// `grader/workspace-hack/Cargo.toml`.
 #[test]
 fn crates_shared_with_submissions_have_the_same_features() {
     let of = |packages: &[&str]| -> BTreeMap<String, String> {
@@ -142,7 +142,7 @@ fn crates_shared_with_submissions_have_the_same_features() {
             .map(|(package, features)| (package.to_owned(), features.replace(" (*)", "")))
             .collect()
     };
-    let (grader, framework) = (of(&["grader"]), of(&["framework", "unified"]));
+    let (grader, framework) = (of(&["grader"]), of(&["framework", "workspace-hack"]));
     let shared = framework.iter().filter_map(|(package, features)| {
         let graders = grader.get(package)?;
         Some((package, graders, features))

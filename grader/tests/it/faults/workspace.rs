@@ -20,7 +20,7 @@ impl WorkspaceCopy {
         };
         let original = harness::workspace().canonicalize().unwrap();
         fs::create_dir(copy.path().join("grader")).unwrap();
-        for folder in ["student", "grader/unified"] {
+        for folder in ["student", "grader/workspace-hack"] {
             symlink(original.join(folder), copy.path().join(folder)).unwrap();
         }
         fs::copy(original.join("Cargo.lock"), copy.path().join("Cargo.lock")).unwrap();

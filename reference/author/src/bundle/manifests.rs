@@ -16,9 +16,8 @@ const STUDENT_MANIFEST: &str = "student/Cargo.toml";
 /// The manifest keys that are only for tests and benches, which are not in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
-/// The profiles for benches, and for mutants of the grader. They have settings of packages that are not
-/// in the bundle.
-const STAFF_PROFILES: [&str; 2] = ["bench", "mutants"];
+/// The profile for benches. It has settings of packages that are not in the bundle.
+const STAFF_PROFILE: &str = "bench";
 
 /// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
 /// staff. Also trims the manifests that are already in the bundle.
@@ -49,9 +48,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     keep_members(members, bundle);
     // Cargo warns about profile settings of packages that are missing.
     if let Some(profiles) = manifest["profile"].as_table_like_mut() {
-        for profile in STAFF_PROFILES {
-            profiles.remove(profile);
-        }
+        profiles.remove(STAFF_PROFILE);
     }
     bundle.insert("Cargo.toml", manifest.to_string());
 

@@ -8,5 +8,5 @@ use reference::world::Student;
 // end solution
 
 fn main() -> ExitCode {
-    framework::cli::main(&Student)
+    framework::harness::cli::main(&Student)
 }

@@ -5,5 +5,5 @@ use std::process::ExitCode;
 use student::world::Student;
 
 fn main() -> ExitCode {
-    framework::cli::main(&Student)
+    framework::harness::cli::main(&Student)
 }

@@ -58,7 +58,7 @@ pub static RAYS: HandedOut = HandedOut {
     entry: "
 /// Answers the grader's questions.
 fn main() -> std::process::ExitCode {
-    framework::probe::main(&world::Student)
+    framework::harness::probe::main(&world::Student)
 }
 ",
     student: "student",

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use framework::film::Tone;
-use framework::view::{self, ViewMode};
+use framework::harness::view::{self, ViewMode};
+use framework::render::film::Tone;
 use glam::{UVec2, Vec3};
 use protocol::{Trace, Tree};
 use view_probe::messages::TestCounts;

@@ -91,7 +91,7 @@ static TOY: LazyLock<HandedOut> = LazyLock::new(|| HandedOut {
     main: given!("main.rs"),
     entry: "
 fn main() -> std::process::ExitCode {
-    framework::probe::main(&world::Student)
+    framework::harness::probe::main(&world::Student)
 }
 ",
     student: "student",

@@ -7,5 +7,5 @@ mod bvh;
 mod world;
 
 fn main() -> std::process::ExitCode {
-    framework::probe::main(&world::Student)
+    framework::harness::probe::main(&world::Student)
 }

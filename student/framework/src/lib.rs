@@ -3,23 +3,26 @@
 //!
 //! Nothing here solves a task. This crate calls the students' code only through the traits in
 //! [`submission`].
+//!
+//! To see how a pixel gets its colour, read [`render`] in this order:
+//! [`sampler`](render::sampler), where random numbers come from;
+//! [`integrator`](render::integrator), which follows paths of light and asks your code for their
+//! hits; [`light`](render::light), which chooses points on light sources; and
+//! [`film`](render::film), which turns light into the colours of a screen.
+//!
+//! Modules use only those in lower rows:
+//!
+//! | layer | modules |
+//! |---|---|
+//! | programs | [`harness`] |
+//! | the path tracer | [`render`] |
+//! | the students' code, as traits | [`submission`] |
+//! | scene files | [`scene`] |
+//! | helpers | [`math`], `suggestion` |
 
-pub mod answer;
-pub mod attempt;
-#[cfg(feature = "cli")]
-pub mod cli;
-pub mod film;
-mod frame;
-pub mod integrator;
-pub mod light;
+pub mod harness;
 pub mod math;
-pub mod probe;
-pub mod sampler;
+pub mod render;
 pub mod scene;
-#[cfg(test)]
-mod sphere_submission;
 pub mod submission;
 mod suggestion;
-mod system;
-#[cfg(feature = "cli")]
-pub mod view;

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use framework::attempt::attempt;
-use framework::integrator::{Integrator, RenderStats};
+use framework::harness::attempt::attempt;
+use framework::render::integrator::{Integrator, RenderStats};
 use glam::{UVec2, Vec2};
 use protocol::{ElementOutcome, Panic, Ray, Trace};
 

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{BufReader, BufWriter, Write};
 use std::process::ExitCode;
 
-use framework::attempt::attempt;
-use framework::integrator::{Integrator, RenderSettings};
+use framework::harness::attempt::attempt;
+use framework::render::integrator::{Integrator, RenderSettings};
 use framework::submission::Submission;
 use protocol::wire::{self, WireError};
 
@@ -19,7 +19,7 @@ const MAX_REQUEST_BYTES: usize = 2 << 30;
 
 /// Responds to requests from standard input until the input ends.
 pub fn main(submission: &dyn Submission) -> ExitCode {
-    framework::probe::run(|requests, responses| {
+    framework::harness::probe::run(|requests, responses| {
         let mut pipe = Pipe {
             requests: BufReader::with_capacity(1 << 16, requests),
             responses: BufWriter::with_capacity(1 << 16, responses),

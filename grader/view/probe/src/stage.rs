@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use framework::attempt::attempt;
+use framework::harness::attempt::attempt;
 use framework::scene::Scene;
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
 use glam::{UVec2, Vec2, Vec3};

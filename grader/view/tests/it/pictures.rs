@@ -1,7 +1,7 @@
 //! Pictures: the same pixels as `cargo render`, for whichever camera.
 
-use framework::film::{Film, Tone};
-use framework::integrator::{RenderSettings, render};
+use framework::render::film::{Film, Tone};
+use framework::render::integrator::{RenderSettings, render};
 use framework::scene::Scene;
 use glam::{UVec2, uvec2};
 use reference::world::Student;

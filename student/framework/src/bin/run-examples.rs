@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    framework::cli::examples::main()
+    framework::harness::cli::examples::main()
 }

@@ -6,5 +6,5 @@ mod slab;
 mod world;
 
 fn main() -> std::process::ExitCode {
-    framework::probe::main(&world::Student)
+    framework::harness::probe::main(&world::Student)
 }

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use glam::UVec2;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::cli::notice::Notice;
-use crate::integrator::RenderStats;
+use crate::harness::cli::notice::Notice;
+use crate::render::integrator::RenderStats;
 
 /// The time after which rendering without a progress bar says that it goes on.
 const LONG: Duration = Duration::from_secs(10);

@@ -8,9 +8,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::canvas::{Canvas, passes};
 use super::error::{RenderError, SubmissionPanic};
 use super::progress::Progress;
-use crate::attempt::attempt;
-use crate::integrator::RenderStats;
-use crate::probe::STACK_BYTES;
+use crate::harness::attempt::attempt;
+use crate::harness::probe::STACK_BYTES;
+use crate::render::integrator::RenderStats;
 
 /// The name of the threads, which the message of a stack overflow contains.
 const THREAD_NAME: &str = "a ray, in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \

@@ -10,8 +10,8 @@ use glam::{UVec2, Vec3};
 
 use super::error::RenderError;
 use super::image_file;
-use crate::film::{Film, Tone};
-use crate::integrator::RenderStats;
+use crate::render::film::{Film, Tone};
+use crate::render::integrator::RenderStats;
 
 /// The time between two writes of the unfinished picture.
 const INTERVAL: Duration = Duration::from_secs(1);

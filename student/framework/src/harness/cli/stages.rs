@@ -13,8 +13,8 @@ use protocol::{Interval, Ray, Shape, Tree};
 use super::error::RenderError;
 use super::notice::Notice;
 use super::parallel::value_or_error;
-use crate::attempt::attempt;
-use crate::probe::STACK_BYTES;
+use crate::harness::attempt::attempt;
+use crate::harness::probe::STACK_BYTES;
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 

@@ -10,10 +10,10 @@ use std::thread;
 
 use protocol::wire::{self, WireError};
 
-use crate::answer;
-use crate::attempt::keep_panics_quiet;
+use crate::harness::answer;
+use crate::harness::attempt::keep_panics_quiet;
+use crate::harness::system::{claim_standard_streams, end_with_the_grader};
 use crate::submission::Submission;
-use crate::system::{claim_standard_streams, end_with_the_grader};
 
 /// The stack size of the thread that runs a submission's code.
 pub const STACK_BYTES: usize = 64 << 20;
@@ -27,7 +27,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 }
 
 /// Runs `serve` with the pipe of questions and the pipe of answers, on a thread with a large stack,
-/// and returns the exit code of the process. Panics in an [`attempt`](crate::attempt::attempt)
+/// and returns the exit code of the process. Panics in an [`attempt`](crate::harness::attempt::attempt)
 /// print nothing.
 pub fn run(serve: impl FnOnce(File, File) -> Result<(), WireError> + Send) -> ExitCode {
     end_with_the_grader();

@@ -6,8 +6,8 @@ use protocol::{
     Trace,
 };
 
-use crate::attempt::{attempt, attempt_each};
-use crate::integrator::{RenderSettings, render};
+use crate::harness::attempt::{attempt, attempt_each};
+use crate::render::integrator::{RenderSettings, render};
 use crate::scene::Scene;
 use crate::submission::{Hierarchy, Submission};
 

@@ -9,8 +9,8 @@ use super::error::RenderError;
 use super::first_hit;
 use super::options::Options;
 use super::parallel::value_or_error;
-use crate::attempt::attempt;
-use crate::integrator::{Integrator, RenderStats};
+use crate::harness::attempt::attempt;
+use crate::render::integrator::{Integrator, RenderStats};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
 

@@ -2,7 +2,7 @@
 //!
 //! The algorithm is that of Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at
 //! each matte surface. Everything is computed in `f32` and in a fixed order, and each random number
-//! depends only on its use (see [`sampler`](crate::sampler)). So a picture has the same bytes on
+//! depends only on its use (see [`sampler`](crate::render::sampler)). So a picture has the same bytes on
 //! every machine and with any number of threads.
 
 mod offset;
@@ -11,7 +11,7 @@ mod path;
 
 use glam::{UVec2, Vec3};
 
-use crate::light::Lights;
+use crate::render::light::Lights;
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use clap::Parser;
 
-use crate::cli::notice::Notice;
+use crate::harness::cli::notice::Notice;
 use crate::suggestion::suggestion;
 
 /// The time after which a student should know that an example has not finished.

@@ -6,8 +6,8 @@ use protocol::{Interval, Ray, Shape};
 use super::offset;
 use super::optics::{interface, reflect};
 use super::{Integrator, RenderStats};
-use crate::frame::{Frame, sample_cosine_hemisphere};
-use crate::sampler::{Purpose, Sampler};
+use crate::render::frame::{Frame, sample_cosine_hemisphere};
+use crate::render::sampler::{Purpose, Sampler};
 use crate::scene::{Material, checker};
 
 /// An error returned if the path of a sample contains an unusable hit from the submission, such as

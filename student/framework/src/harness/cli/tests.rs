@@ -9,8 +9,8 @@ use protocol::{Interval, PinholeCamera, Ray, Shape, TreeNode};
 
 use super::options::Options;
 use super::{Events, run};
-use crate::attempt::keep_panics_quiet;
-use crate::sphere_submission::CORRECT;
+use crate::harness::attempt::keep_panics_quiet;
+use crate::harness::sphere_submission::CORRECT;
 use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 
 const SCENE: &str = r#"{
@@ -203,7 +203,7 @@ fn a_stack_overflow_names_the_task() {
     let child = std::process::Command::new(std::env::current_exe().expect("tests have a path"))
         .args([
             "--exact",
-            "cli::tests::a_stack_overflow_names_the_task",
+            "harness::cli::tests::a_stack_overflow_names_the_task",
             "--nocapture",
         ])
         .env(IS_CHILD, "1")

@@ -5,8 +5,8 @@ use glam::{UVec2, Vec2, Vec3, uvec2, vec2, vec3};
 use protocol::{Ray, Trace};
 
 use super::{Integrator, RenderSettings, RenderStats, render};
+use crate::harness::sphere_submission::{CORRECT, SphereSubmission};
 use crate::scene::Scene;
-use crate::sphere_submission::{CORRECT, SphereSubmission};
 use crate::submission::{CameraRays, Submission, World};
 
 fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {

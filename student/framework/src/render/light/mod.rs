@@ -100,7 +100,7 @@ impl Lights {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampler::{Purpose, Sampler};
+    use crate::render::sampler::{Purpose, Sampler};
 
     fn lights(shapes: &str) -> Lights {
         let text = format!(

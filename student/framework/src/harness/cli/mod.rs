@@ -24,17 +24,17 @@ use clap::Parser;
 use glam::{UVec2, Vec2};
 use protocol::{Trace, Tree};
 
-use crate::attempt::{attempt, keep_panics_quiet};
-use crate::cli::canvas::{Canvas, Event, on_ctrl_c};
-use crate::cli::error::RenderError;
-use crate::cli::options::Options;
-use crate::cli::parallel::{RenderPool, value_or_error};
-use crate::cli::progress::Progress;
-use crate::film::{Film, Tone};
-use crate::integrator::{Integrator, RenderStats};
+use crate::harness::attempt::{attempt, keep_panics_quiet};
+use crate::harness::cli::canvas::{Canvas, Event, on_ctrl_c};
+use crate::harness::cli::error::RenderError;
+use crate::harness::cli::options::Options;
+use crate::harness::cli::parallel::{RenderPool, value_or_error};
+use crate::harness::cli::progress::Progress;
+use crate::harness::view::{self, ViewMode};
+use crate::render::film::{Film, Tone};
+use crate::render::integrator::{Integrator, RenderStats};
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
-use crate::view::{self, ViewMode};
 
 /// The number of primitives above which a picture without a tree takes long.
 const MANY_PRIMITIVES: usize = 200;

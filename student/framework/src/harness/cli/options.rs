@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Parser;
 use glam::UVec2;
 
-use crate::integrator::RenderSettings;
+use crate::harness::view::ViewMode;
+use crate::render::integrator::RenderSettings;
 use crate::scene::MAX_FILM_SIDE;
-use crate::view::ViewMode;
 
 /// Renders a scene with your code
 #[derive(Debug, Parser)]

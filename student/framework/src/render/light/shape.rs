@@ -5,8 +5,8 @@ use std::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 use protocol::Shape;
 
-use crate::frame::Frame;
 use crate::math::sin_cos;
+use crate::render::frame::Frame;
 
 /// The shape of a light.
 pub(super) enum LightShape {
@@ -127,7 +127,7 @@ mod tests {
     use glam::{vec2, vec3};
 
     use super::*;
-    use crate::sampler::{Purpose, Sampler};
+    use crate::render::sampler::{Purpose, Sampler};
 
     /// Returns the irradiance at the origin on a floor that faces up, from many samples of one
     /// light.

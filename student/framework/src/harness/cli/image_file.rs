@@ -5,7 +5,7 @@ use std::path::Path;
 use image::{ImageFormat, Rgb32FImage, RgbImage};
 
 use super::error::RenderError;
-use crate::film::{Film, Tone};
+use crate::render::film::{Film, Tone};
 
 /// Writes a picture to a file in one step, so that a reader never sees a part of it. An EXR file
 /// stores linear floats. Other formats store bytes, whose values are converted for a screen.

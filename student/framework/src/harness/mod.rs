@@ -1,0 +1,13 @@
+//! The programs around a submission: the probe that answers the grader, and the command line that
+//! renders pictures.
+
+pub mod answer;
+pub mod attempt;
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod probe;
+#[cfg(test)]
+pub(crate) mod sphere_submission;
+mod system;
+#[cfg(feature = "cli")]
+pub mod view;

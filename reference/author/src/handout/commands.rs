@@ -14,7 +14,7 @@ use crate::cli::Cli;
 /// The files that define the options of `cargo render` and `cargo view`, each as a field. They are
 /// read as text, because the crates are not linked here.
 const OPTIONS: [&str; 2] = [
-    "student/framework/src/cli/options.rs",
+    "student/framework/src/harness/cli/options.rs",
     "grader/view/src/cli.rs",
 ];
 /// The flags of `cargo examples`, whose command line is not linked here.

@@ -61,22 +61,10 @@ pub enum Command {
     /// Measure how well hints recognise known and unknown mistakes, with the practice exam or with
     /// final exams
     Hints(HintsArgs),
-    /// List the mutants that cargo-mutants generates from the reference, and grade each of them
+    /// Make every mechanical change to the reference (operators, bodies, epsilons, confused names,
+    /// dropped properties, kept state), and grade each of these mutants
     Mutants {
         /// Grade only a fixed sample of the mutants
-        #[arg(long)]
-        fast: bool,
-        /// Whether to write or to check the list.
-        #[command(flatten)]
-        check: CheckArgs,
-        /// Whether to record the result.
-        #[command(flatten)]
-        record: RecordArgs,
-    },
-    /// Make systematic mistakes from the reference (epsilons, confused names, dropped properties,
-    /// kept state), and grade each of them
-    Systematic {
-        /// Grade only a fixed sample of the mistakes
         #[arg(long)]
         fast: bool,
         /// Whether to record the result.

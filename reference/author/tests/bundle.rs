@@ -73,10 +73,6 @@ fn finds_an_inserted_secret_of_each_kind() {
             line_with("reference/author/src/oracle/sphere.rs", "sqrt"),
         ),
         (
-            "reference/mutants/list.json",
-            line_with("reference/mutants/list.json", "replace * with +"),
-        ),
-        (
             "the mistake camera.not_centred",
             line_with("reference/src/camera.rs", "film.as_vec2() - 0.5").replace(" - 0.5", ""),
         ),

@@ -3,7 +3,6 @@
 
 mod archives;
 mod book;
-mod changes;
 mod hints;
 mod proofs;
 
@@ -57,12 +56,7 @@ pub fn run(command: Command) -> CommandResult {
         Command::Bundle(args) => archives::bundle(root, &args),
         Command::Package(args) => archives::package(root, &args),
         Command::Mistakes(args) => proofs::mistakes(root, &args),
-        Command::Mutants {
-            fast,
-            check,
-            record,
-        } => changes::mutants(root, fast, check.mode(), record),
-        Command::Systematic { fast, record } => changes::systematic(fast, record),
+        Command::Mutants { fast, record } => proofs::mutants(fast, record),
         Command::Coverage(check) => {
             let practice = exams::load_practice(root)?;
             let coverage = coverage(root, HANDED_OUT, &practice)?;

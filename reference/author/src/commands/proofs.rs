@@ -1,16 +1,19 @@
-//! `cargo author mistakes`, `prove` and `calibrate`.
+//! `cargo author mistakes`, `mutants`, `prove` and `calibrate`.
 
 use std::path::Path;
 
 use grader::printing::print_error_line;
 use judging::exam::Exam;
 
-use super::{CommandResult, HANDED_OUT, generate, record_result, report, solutions, written};
-use crate::cli::{CalibrateArgs, MistakesArgs, ProveArgs};
+use super::{
+    CommandResult, HANDED_OUT, PRACTICE, generate, record_result, report, solutions, written,
+};
+use crate::cli::{CalibrateArgs, MistakesArgs, ProveArgs, RecordArgs};
 use crate::exams;
 use crate::generated_file::Mode;
 use crate::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, table};
 use crate::proof::failures::{SeedCounts, THINNEST};
+use crate::proof::mutants::{self, SAMPLE_STEP};
 use crate::proof::{self, failures, matrix};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
@@ -63,6 +66,19 @@ pub(super) fn mistakes(root: &Path, args: &MistakesArgs) -> CommandResult {
 fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -> CommandResult {
     let table = matrix::generated_file(solutions, practice)?;
     generate(&[table], mode, "mistakes")
+}
+
+/// Makes mutants of the reference, and grades them.
+pub(super) fn mutants(fast: bool, record: RecordArgs) -> CommandResult {
+    let findings = mutants::run(HANDED_OUT, if fast { SAMPLE_STEP } else { 1 })?;
+    if fast {
+        println!("selected: one in {SAMPLE_STEP}, in the order of their names");
+    } else {
+        println!("selected: all");
+    }
+    let line = format!("mutants: {}", findings.summary_line());
+    record_result(record, "mutants of the reference", PRACTICE, &line)?;
+    report(&findings.problems(), &line)
 }
 
 /// Grades the variants with the exams of all seeds, and the mistakes with those of the first few.

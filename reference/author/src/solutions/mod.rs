@@ -12,7 +12,6 @@ pub mod independent;
 pub mod mutants;
 pub mod recording;
 pub mod sources;
-pub mod systematic;
 pub mod toml_file;
 pub mod unknown;
 pub mod variants;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::solutions::mutants::equivalent::EquivalentMutant;
+use crate::solutions::mutants::equivalent::{self, EquivalentMutant};
 
 /// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +24,6 @@ pub struct Findings {
     pub outcomes: BTreeMap<String, MutantOutcome>,
     /// The mutants that are expected to survive.
     pub equivalent: Vec<EquivalentMutant>,
-    /// The file that lists those.
-    pub path: &'static str,
 }
 
 impl Findings {
@@ -53,7 +51,7 @@ impl Findings {
             format!(
                 "`{name}` survives: add a question to the exam that catches it, or explain in {} \
                  why no answer can differ",
-                self.path
+                equivalent::PATH
             )
         });
         let wrongly_listed =
@@ -66,7 +64,7 @@ impl Findings {
                         Some(MutantOutcome::NotCompiled) => "does not compile",
                         None => "does not exist",
                     };
-                    let path = self.path;
+                    let path = equivalent::PATH;
                     Some(format!("`{name}` {found}: remove it from {path}"))
                 });
         survive.chain(wrongly_listed).collect()
@@ -103,7 +101,6 @@ mod tests {
                     why: "the result is the same".to_owned(),
                 })
                 .collect(),
-            path: "reference/mutants/equivalent.toml",
         }
     }
 

@@ -1,6 +1,5 @@
-//! The lists of changes to the reference that are equivalent to it, each with the reason. They are
-//! written by hand: `reference/mutants/equivalent.toml` for the mutants of cargo-mutants, and
-//! `reference/mutants/systematic.toml` for systematic mistakes.
+//! The list of mutants that are equivalent to the reference, each with the reason. It is written by
+//! hand.
 
 use std::path::Path;
 
@@ -8,10 +7,8 @@ use serde::Deserialize;
 
 use crate::solutions::toml_file::{TomlFileError, read_toml};
 
-/// The list of mutants, relative to the workspace's root.
-pub const OF_MUTANTS: &str = "reference/mutants/equivalent.toml";
-/// The list of systematic mistakes, relative to the workspace's root.
-pub const OF_SYSTEMATIC_MISTAKES: &str = "reference/mutants/systematic.toml";
+/// The path of the list, relative to the workspace's root.
+pub const PATH: &str = "reference/mutants/equivalent.toml";
 
 /// A mutant that is expected to get full marks, because it is as correct as the reference.
 #[derive(Clone, Debug, Deserialize)]
@@ -30,34 +27,23 @@ pub enum EquivalentsError {
     #[error(transparent)]
     Toml(#[from] TomlFileError),
     /// An entry has no reason, or a name occurs twice.
-    #[error("{path}: `{name}` must have a reason and occur only once")]
-    Entry {
-        /// The list.
-        path: &'static str,
-        /// The entry.
-        name: String,
-    },
+    #[error("{PATH}: `{0}` must have a reason and occur only once")]
+    Entry(String),
 }
 
-/// Reads a list of the workspace at `root`.
-pub fn equivalent_mutants(
-    root: &Path,
-    path: &'static str,
-) -> Result<Vec<EquivalentMutant>, EquivalentsError> {
+/// Reads the list of the workspace at `root`.
+pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, EquivalentsError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
         equivalent: Vec<EquivalentMutant>,
     }
 
-    let File { equivalent: all } = read_toml(&root.join(path))?;
+    let File { equivalent: all } = read_toml(&root.join(PATH))?;
     for (index, EquivalentMutant { name, why }) in all.iter().enumerate() {
         let is_duplicate = all[..index].iter().any(|other| other.name == *name);
         if is_duplicate || why.trim().is_empty() {
-            return Err(EquivalentsError::Entry {
-                path,
-                name: name.clone(),
-            });
+            return Err(EquivalentsError::Entry(name.clone()));
         }
     }
     Ok(all)

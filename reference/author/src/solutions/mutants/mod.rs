@@ -1,9 +1,82 @@
-//! The mutants that cargo-mutants makes of the reference's task files.
-//!
-//! Mutants complement the catalogue of mistakes. The catalogue lists mistakes that people make;
-//! mutants are generated without any knowledge of the exam.
+//! Mutants: mechanical changes to the reference's task files. They complement the catalogue of
+//! mistakes, which people make. Mutants are made without any knowledge of the exam.
 
-pub mod cargo_mutants;
 pub mod equivalent;
-pub mod list;
-pub mod span;
+mod families;
+mod state;
+
+use std::collections::BTreeMap;
+
+use grader::handed_out::HandedOut;
+
+use crate::solutions::sources::Sources;
+
+/// Returns all mutants, sorted by name. A name consists of the file, the family, the change and the
+/// function; changes that are alike are numbered.
+pub fn mutants(handed_out: &HandedOut, reference: &Sources) -> syn::Result<Vec<(String, Sources)>> {
+    let mut found = BTreeMap::new();
+    for file in handed_out.files {
+        let text = reference.text(file.name).unwrap_or_default();
+        let mut numbers: BTreeMap<String, u32> = BTreeMap::new();
+        for change in families::changes(text)? {
+            let what = change.what.split_whitespace().collect::<Vec<_>>().join(" ");
+            let name = format!("{}: {what}, in {}", file.name, change.function);
+            let number = numbers.entry(name.clone()).or_default();
+            *number += 1;
+            let name = match number {
+                1 => name,
+                number => format!("{name}, again {number}"),
+            };
+            let (before, after) = (&text[..change.bytes.start], &text[change.bytes.end..]);
+            let text = format!("{before}{}{after}", change.now);
+            found.insert(name, reference.clone().with_file(file.name, text));
+        }
+    }
+    Ok(found.into_iter().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use grader::handed_out::RAYS;
+
+    use super::*;
+
+    #[test]
+    fn every_family_changes_every_file_and_nothing_else() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let reference = Sources::reference(&root, &RAYS).expect("the reference can be read");
+        let all = mutants(&RAYS, &reference).expect("the reference is Rust code");
+        assert!(all.len() > 700, "only {} mutants", all.len());
+        for family in [
+            "operator",
+            "body",
+            "epsilon",
+            "number",
+            "initial value",
+            "name",
+            "operands",
+            "dropped",
+            "condition",
+            "state",
+        ] {
+            let family = format!(": {family}: ");
+            assert!(
+                all.iter().any(|(name, _)| name.contains(&family)),
+                "{family}"
+            );
+        }
+        for (name, sources) in &all {
+            let changed = RAYS.files.iter();
+            let changed =
+                changed.filter(|file| sources.text(file.name) != reference.text(file.name));
+            let changed: Vec<&str> = changed.map(|file| file.name).collect();
+            assert_eq!(
+                changed,
+                [name.split(':').next().unwrap_or_default()],
+                "{name}"
+            );
+        }
+    }
+}

@@ -1,24 +1,41 @@
 //! Changes that keep a state between calls of a method.
 
-use super::changes::Change;
-use super::code::{Code, Signature};
+use std::ops::Range;
+
+use syn::spanned::Spanned;
+use syn::{FnArg, Signature};
 
 /// Types of which a copy can be kept, by reference or by value.
 const COPIED: [&str; 6] = ["Ray", "Interval", "UVec2", "Vec2", "usize", "f32"];
 
-/// Returns all changes of a method's body that keep a state.
-pub(super) fn changes(code: &Code) -> Vec<Change> {
-    let Some(signature) = &code.signature else {
-        return Vec::new();
-    };
-    let parameters = signature.parameters.iter();
-    let arguments =
-        parameters.flat_map(|(name, of_type)| kept_argument(code, signature, name, of_type));
-    arguments.chain(kept_answers(code, signature)).collect()
+/// A description, the bytes that are replaced, and the text that replaces them.
+type StateChange = (String, Range<usize>, String);
+
+/// Returns all changes that keep a state, of a method whose code is `body` and that returns a value of
+/// the type `returns`.
+pub(super) fn changes(
+    file: &str,
+    signature: &Signature,
+    body: Range<usize>,
+    returns: &str,
+) -> Vec<StateChange> {
+    let mut changes = Vec::new();
+    for argument in &signature.inputs {
+        if let FnArg::Typed(argument) = argument {
+            let text = |node: &dyn Spanned| file[node.span().byte_range()].to_owned();
+            let (name, of_type) = (text(&argument.pat), text(&argument.ty));
+            let begin = body.start..body.start;
+            let kept = kept_argument(&name, &of_type).into_iter();
+            changes.extend(kept.map(|(what, now)| (what, begin.clone(), now)));
+        }
+    }
+    let kept = kept_answers(&file[body.clone()], returns).into_iter();
+    changes.extend(kept.map(|(what, now)| (what.to_owned(), body.clone(), now)));
+    changes
 }
 
 /// An argument is that of the first call, or of the call before.
-fn kept_argument(code: &Code, signature: &Signature, name: &str, of_type: &str) -> Vec<Change> {
+fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
     let value_type = of_type.trim_start_matches('&');
     if !COPIED.contains(&value_type) {
         return Vec::new();
@@ -47,14 +64,13 @@ fn kept_argument(code: &Code, signature: &Signature, name: &str, of_type: &str) 
              let _ = count;\n\
              let {name} = {give};\n"
         );
-        insert(code, signature, &body, &format!("{name} is that {when}"))
+        (format!("{name} is that {when}"), body)
     });
     changes.to_vec()
 }
 
 /// An answer is repeated, or changed by the answers before.
-fn kept_answers(code: &Code, signature: &Signature) -> Vec<Change> {
-    let returns = &signature.returns;
+fn kept_answers(text: &str, returns: &str) -> Vec<(&'static str, String)> {
     if !returns.starts_with("Option<") {
         return Vec::new();
     }
@@ -95,27 +111,15 @@ fn kept_answers(code: &Code, signature: &Signature) -> Vec<Change> {
              Some(Trace { normal: before.normal, ..hit }), (answer, _) => answer }",
         ));
     }
-    let text = &code.file[code.bytes.clone()];
-    let change = |(what, rule): (&str, &str)| Change {
-        what: format!("state: {what}"),
-        bytes: code.bytes.clone(),
-        now: format!(
+    let change = |(what, rule): (&'static str, &str)| {
+        let now = format!(
             "thread_local! {{\n\
              static KEPT: std::cell::Cell<{returns}> = const {{ std::cell::Cell::new(None) }};\n\
              static COUNT: std::cell::Cell<u32> = const {{ std::cell::Cell::new(0) }};\n}}\n\
              let _ = COUNT.get();\n\
              let answer: {returns} = (|| {{\n{text}}})();\n{rule}\n"
-        ),
-        function: signature.name.clone(),
+        );
+        (what, now)
     };
     kept.into_iter().map(change).collect()
-}
-
-fn insert(code: &Code, signature: &Signature, body: &str, what: &str) -> Change {
-    Change {
-        what: format!("state: {what}"),
-        bytes: code.bytes.start..code.bytes.start,
-        now: body.to_owned(),
-        function: signature.name.clone(),
-    }
 }

@@ -52,8 +52,8 @@ fn run() -> Result<(), Box<dyn error::Error>> {
     let figures = solutions
         .mistakes
         .par_iter()
-        .map(|(mistake, sources)| {
-            let solution = solutions.workbench.build(sources, &mistake.id)?;
+        .map(|mistake| {
+            let solution = solutions.workbench.build(&mistake.sources, &mistake.id)?;
             let mut figures = String::new();
             let items = exam.items.iter().filter(|item| item.task == mistake.task());
             let named = items.filter(|item| item.id.contains(&word) || mistake.id.contains(&word));
@@ -73,7 +73,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
             }
             Ok(figures)
         })
-        .collect::<Result<Vec<String>, author::solutions::workbench::WorkbenchError>>()?;
+        .collect::<anyhow::Result<Vec<String>>>()?;
     let page = format!(
         "<!doctype html><meta charset=utf-8><meta name=viewport content='width=device-width'>\
          <title>Drawings</title><style>{STYLE}</style>{}",

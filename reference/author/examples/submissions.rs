@@ -59,8 +59,8 @@ fn solutions() -> Result<Vec<(String, Sources)>, Box<dyn Error>> {
         solutions.push((mistake.id, sources));
     }
     for variant in variants(root)? {
-        let sources = variant.apply(&reference, root)?;
-        solutions.push((variant.id, sources));
+        let solution = variant.solution(&reference, root)?;
+        solutions.push((variant.id, solution.sources));
     }
     Ok(solutions)
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use anyhow::{Result, bail};
 use grader::exam_source::{ExamSource, ExamSourceError};
 use grader::handed_out::RAYS;
 use judging::exam::Exam;
@@ -13,9 +14,9 @@ use crate::hints::with_hints;
 use crate::items::traverse::RecordedPicture;
 use crate::items::{self, traverse};
 use crate::seed::Seed;
-use crate::solutions::recording::{Recorder, RecordingError};
+use crate::solutions::Solutions;
+use crate::solutions::recording::Recorder;
 use crate::solutions::workbench::Workbench;
-use crate::solutions::{Solutions, SolutionsError};
 
 /// The version of the exam file's format.
 const SCHEMA: u32 = 1;
@@ -23,22 +24,8 @@ const SCHEMA: u32 = 1;
 /// The path of the practice exam, relative to the workspace root.
 const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
-/// The reason why an exam could not be generated.
-#[derive(Debug, thiserror::Error)]
-pub enum ExamGenerationError {
-    /// The reference or a known mistake could not be built, or did not give the expected answers.
-    #[error(transparent)]
-    Solutions(#[from] SolutionsError),
-    /// A final exam would have the questions of the practice exam.
-    #[error("the seed {} is that of the practice exam; choose another one", Seed::PRACTICE.0)]
-    PracticeSeed,
-    /// The exam could not be serialized.
-    #[error("cannot serialize the exam: {0}")]
-    Text(#[from] serde_json::Error),
-}
-
 /// Generates the exam files of this repository.
-pub fn generated_files() -> Result<Vec<GeneratedFile>, ExamGenerationError> {
+pub fn generated_files() -> Result<Vec<GeneratedFile>> {
     let practice = exam_text("practice", Seed::PRACTICE)?;
     Ok(vec![GeneratedFile::new(PRACTICE_FILE, practice)])
 }
@@ -50,21 +37,21 @@ pub fn load_practice(root: &Path) -> Result<Exam, ExamSourceError> {
 
 /// Generates the text of a final exam. Its questions are about the same ideas as those of the
 /// practice exam, with other numbers.
-pub fn final_exam_text(seed: u64) -> Result<String, ExamGenerationError> {
-    match Seed(seed) {
-        Seed::PRACTICE => Err(ExamGenerationError::PracticeSeed),
-        seed => exam_text("final", seed),
+pub fn final_exam_text(seed: u64) -> Result<String> {
+    if Seed(seed) == Seed::PRACTICE {
+        bail!("the seed {seed} is that of the practice exam; choose another one");
     }
+    exam_text("final", Seed(seed))
 }
 
-fn exam_text(id: &str, seed: Seed) -> Result<String, ExamGenerationError> {
-    let solutions = Solutions::load(Workbench::open(&RAYS).map_err(SolutionsError::from)?)?;
-    let exam = generate(id, seed, &solutions.recorder).map_err(SolutionsError::from)?;
+fn exam_text(id: &str, seed: Seed) -> Result<String> {
+    let solutions = Solutions::load(Workbench::open(&RAYS)?)?;
+    let exam = generate(id, seed, &solutions.recorder)?;
     Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }
 
 /// Generates an exam without hints. The reference renders the picture of the radiance item.
-pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam, RecordingError> {
+pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam> {
     let question = traverse::radiance_question(seed, recorder.scene().to_owned());
     let pixels = recorder.record(&question)?;
     Ok(assemble(id, seed, RecordedPicture { question, pixels }))

@@ -3,15 +3,15 @@
 
 use std::collections::BTreeSet;
 
-use grader::probe::Fault;
+use anyhow::Result;
 use judging::exam::{Exam, Item, Key};
 use judging::observe::{expected, observe};
 use judging::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
-use protocol::{Answer, Question, Samples};
+use protocol::{Question, Samples};
 use rayon::prelude::*;
 
-use crate::solutions::workbench::WorkbenchError;
-use crate::solutions::{Solutions, SolutionsError};
+use crate::solutions::Solutions;
+use crate::solutions::workbench::Answers;
 
 /// The maximum number of an item's elements that a signature records.
 const MAX_ELEMENTS: usize = 24;
@@ -20,23 +20,23 @@ const MAX_ELEMENTS: usize = 24;
 const MIN_ELEMENTS: usize = 12;
 
 /// Returns the exam with every known mistake's answers to some of its questions.
-pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam, SolutionsError> {
+pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = solutions
         .mistakes
         .par_iter()
-        .map(|(mistake, sources)| {
-            let solution = solutions.workbench.build(sources, &mistake.id)?;
+        .map(|mistake| {
+            let solution = solutions.workbench.build(&mistake.sources, &mistake.id)?;
             let items = exam.items.iter();
             let observed = items.map(|item| {
                 let own = item.task == mistake.task() && is_table(item);
-                own.then(|| observed_answers(item, solution.answers(item)))
+                own.then(|| Ok(observed_answers(item, solution.answers(item)?)))
                     .transpose()
             });
-            observed.collect::<Result<_, SolutionsError>>()
+            observed.collect()
         })
-        .collect::<Result<_, SolutionsError>>()?;
+        .collect::<Result<_>>()?;
 
-    let mistakes = solutions.mistakes.iter().map(|(mistake, _)| KnownMistake {
+    let mistakes = solutions.catalogue.iter().map(|mistake| KnownMistake {
         id: mistake.id.clone(),
         nudge: mistake.nudge.clone(),
         hint: mistake.hint.clone(),
@@ -70,16 +70,13 @@ fn is_table(item: &Item) -> bool {
         })
 }
 
-fn observed_answers(
-    item: &Item,
-    answers: std::io::Result<Result<Vec<Answer>, Fault>>,
-) -> Result<Vec<ObservedAnswer>, SolutionsError> {
-    Ok(match answers.map_err(WorkbenchError::from)? {
+fn observed_answers(item: &Item, answers: Answers) -> Vec<ObservedAnswer> {
+    match answers {
         Ok(answers) => observe(item, &answers),
         Err(fault) => {
             vec![ObservedAnswer::NoAnswer(fault.no_answer_reason()); expected(item).len()]
         }
-    })
+    }
 }
 
 /// Returns the signatures of an item, given the correct answers and those of each mistake.

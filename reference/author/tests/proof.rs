@@ -8,13 +8,11 @@ use std::process::Command;
 use std::sync::LazyLock;
 
 use author::exams::load_practice;
-use author::proof::grade::{grade_mistake, variant_losses};
+use author::proof::grade::{Graded, variant_losses};
 use author::proof::recognition::{recognise, recognise_independent, recognise_unknown};
 use author::solutions::Solutions;
-use author::solutions::catalogue::Change;
-use author::solutions::independent::{IndependentMistake, independent_mistakes};
-use author::solutions::sources::Sources;
-use author::solutions::variants::Variant;
+use author::solutions::catalogue::{Change, Mistake, independent_mistakes};
+use author::solutions::variants::variants;
 use author::solutions::workbench::Workbench;
 use grader::handed_out::RAYS;
 use judging::exam::Exam;
@@ -50,9 +48,10 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     println!("{recognition}");
     // The others give no answers at all, which says little about the cause.
-    assert!(recognition.recognised_share() >= 0.9, "{recognition}");
+    let (recognised, count) = (recognition.recognised, recognition.count);
+    assert!(recognised * 100 >= count * 90, "{recognition}");
     assert!(
-        recognition.confused_when_unknown.len() * 100 <= SOLUTIONS.mistakes.len(),
+        recognition.misled * 100 <= SOLUTIONS.mistakes.len(),
         "{recognition}"
     );
 }
@@ -61,43 +60,43 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
 fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
     let recognition = recognise_independent(&SOLUTIONS, &practice_exam()).unwrap();
     println!("{recognition}");
-    assert_eq!(recognition.problems(), [""; 0]);
-    assert!(recognition.results.len() >= 60, "{recognition}");
-    let (recognised, count) = (recognition.recognised(), recognition.results.len());
+    assert_eq!(recognition.problems, [""; 0]);
+    let (recognised, count) = (recognition.recognised, recognition.count);
+    assert!(count >= 60, "{recognition}");
     assert!(recognised * 100 >= count * 90, "{recognition}");
-    assert!(recognition.misled() == 0, "{recognition}");
+    assert_eq!(recognition.misled, 0, "{recognition}");
 }
 
 #[test]
 fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
-    let reference = Sources::reference(root(), &RAYS).unwrap();
-    let recognition = recognise_unknown(&SOLUTIONS, &practice_exam(), &reference).unwrap();
+    let recognition = recognise_unknown(&SOLUTIONS, &practice_exam()).unwrap();
     println!("{recognition}");
     assert_eq!(recognition.problems, [""; 0]);
-    assert!(recognition.false_hints.len() >= 50, "{recognition}");
-    assert_eq!(recognition.misled(), 0, "{recognition}");
+    assert!(recognition.count >= 50, "{recognition}");
+    assert_eq!(recognition.misled, 0, "{recognition}");
 }
 
 #[test]
 fn each_mistake_is_in_one_other_solution_at_most() {
     let all = independent_mistakes(&SOLUTIONS).expect("every independent mistake applies");
-    let ids: BTreeSet<&str> = all.iter().map(|(mistake, _)| mistake.id.as_str()).collect();
+    let known = all.iter().map(|mistake| &mistake.expected.true_hints[0]);
+    let ids: BTreeSet<&String> = known.collect();
     assert_eq!(ids.len(), all.len());
 }
 
 #[test]
 fn reports_an_independent_mistake_that_does_not_apply() {
-    let mistake = |id: &str, variant: &str| IndependentMistake {
+    let mistake = |id: &str, variant: &str| Mistake {
         id: id.to_owned(),
-        variant: variant.to_owned(),
-        also: Vec::new(),
+        variant: Some(variant.to_owned()),
         changes: vec![Change {
             file: None,
             was: "discriminant".to_owned(),
             now: String::new(),
         }],
+        ..Mistake::default()
     };
-    let message = |mistake: IndependentMistake| mistake.apply(&SOLUTIONS).unwrap_err().to_string();
+    let message = |mistake: Mistake| mistake.in_variant(&SOLUTIONS).unwrap_err().to_string();
     let in_sphere = message(mistake("sphere.far_first", "sphere.full_quadratic"));
     let expected = "sphere.far_first in sphere.full_quadratic no longer applies: its `was` occurs 4 times \
                     in sphere.rs with its given code, instead of once; adapt it in \
@@ -148,9 +147,9 @@ fn every_variant_file_is_used() {
             }
         }
     }
-    let variants = SOLUTIONS.variants.iter();
+    let variants = variants(root()).unwrap().into_iter();
     let used: BTreeSet<PathBuf> = variants
-        .flat_map(|(variant, _)| replacements(&folder, &variant.id, &variant.parts).unwrap())
+        .flat_map(|variant| replacements(&folder, &variant.id, &variant.parts).unwrap())
         .flat_map(|replacement| replacement.files.into_iter().map(|(path, _)| path))
         .collect();
     assert_eq!(files, used);
@@ -158,7 +157,7 @@ fn every_variant_file_is_used() {
 
 #[test]
 fn reports_a_mistake_that_changes_nothing() {
-    let (mut mistake, _) = SOLUTIONS.mistakes[0].clone();
+    let mut mistake = SOLUTIONS.catalogue[0].clone();
     let file = root()
         .join("reference/src")
         .join(RAYS.assignment.info(mistake.task()).file);
@@ -169,20 +168,24 @@ fn reports_a_mistake_that_changes_nothing() {
         was: line.to_owned(),
         now: "//! Task 1.".to_owned(),
     }];
-    let reference = SOLUTIONS.recorder.reference();
-    let sources = mistake.apply(reference).unwrap();
-    let graded = grade_mistake(&SOLUTIONS.workbench, &mistake, &sources, &practice_exam()).unwrap();
+    let mut solution = mistake.solution(SOLUTIONS.recorder.reference()).unwrap();
+    solution.expected = SOLUTIONS.mistakes[0].expected.clone();
+    let built = SOLUTIONS
+        .workbench
+        .build(&solution.sources, &solution.id)
+        .unwrap();
+    let graded = Graded::new(&solution, &built, &practice_exam()).unwrap();
     let problems = graded.problems();
     assert!(
         problems[0].ends_with("costs nothing in its own task"),
         "{problems:?}"
     );
-    assert_eq!(problems.len(), 1 + mistake.fails.len());
+    assert_eq!(problems.len(), 1 + solution.expected.fails.len());
 }
 
 #[test]
 fn reports_a_mistake_that_no_longer_applies() {
-    let (mut mistake, _) = SOLUTIONS.mistakes[0].clone();
+    let mut mistake = SOLUTIONS.catalogue[0].clone();
     mistake.changes[0].was = "no such text".to_owned();
     let error = mistake.apply(SOLUTIONS.recorder.reference()).unwrap_err();
     let expected = format!(
@@ -195,15 +198,7 @@ fn reports_a_mistake_that_no_longer_applies() {
 
 #[test]
 fn reports_a_wrong_variant() {
-    let (mistake, sources) = &SOLUTIONS.mistakes[0];
-    let variant = Variant {
-        id: mistake.id.clone(),
-        title: String::new(),
-        source: None,
-        may_lose: Vec::new(),
-        parts: Vec::new(),
-        crates: Vec::new(),
-    };
-    let lost = variant_losses(&SOLUTIONS.workbench, &variant, sources, &practice_exam());
+    let mistake = &SOLUTIONS.mistakes[0];
+    let lost = variant_losses(&SOLUTIONS.workbench, mistake, &practice_exam());
     assert!(!lost.unwrap().is_empty());
 }

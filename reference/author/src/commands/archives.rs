@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use anyhow::bail;
 use grader::files;
 
 use super::{CommandResult, HANDED_OUT, report};
@@ -66,10 +67,7 @@ fn write_package(
         Platform::Gradescope => {
             let is_zip = out.extension().is_some_and(|extension| extension == "zip");
             if !is_zip {
-                return Err(
-                    "Gradescope needs a zip file: choose a name for --out that ends with .zip"
-                        .into(),
-                );
+                bail!("Gradescope needs a zip file: choose a name for --out that ends with .zip");
             }
             files::write_with_parents(out, archive::zip_with_prefix(package, "")?)?;
             let (count, size) = (package.files.len(), package.size() / 1_000_000);

@@ -40,5 +40,5 @@ fn make_book(root: &Path, folder: &Path, students: bool) -> CommandResult {
 
 #[cfg(not(feature = "book"))]
 fn make_book(_: &Path, _: &Path, _: bool) -> CommandResult {
-    Err("this program was built without mdBook: run `cargo book` instead".into())
+    anyhow::bail!("this program was built without mdBook: run `cargo book` instead")
 }

@@ -11,6 +11,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::slice;
 
+use anyhow::bail;
 use grader::handed_out::{HandedOut, RAYS};
 use grader::printing::print_error_line;
 
@@ -20,8 +21,8 @@ use crate::exams;
 use crate::generated_file::{GeneratedFile, Mode, write_or_check};
 use crate::long_runs;
 use crate::scenes;
+use crate::solutions::Solutions;
 use crate::solutions::workbench::Workbench;
-use crate::solutions::{Solutions, SolutionsError};
 use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
@@ -32,7 +33,7 @@ const HANDED_OUT: &HandedOut = &RAYS;
 const PRACTICE: &str = "practice";
 
 /// The result of a command; the error is printed.
-pub type CommandResult = Result<(), Box<dyn std::error::Error>>;
+pub type CommandResult = anyhow::Result<()>;
 
 /// Runs a subcommand.
 pub fn run(command: Command) -> CommandResult {
@@ -77,7 +78,7 @@ fn generate(files: &[GeneratedFile], mode: Mode, name: &str) -> CommandResult {
 }
 
 /// Builds all variants and mistakes.
-fn solutions() -> Result<Solutions, SolutionsError> {
+fn solutions() -> anyhow::Result<Solutions> {
     Solutions::load(Workbench::open(HANDED_OUT)?)
 }
 
@@ -89,8 +90,8 @@ fn report(problems: &[String], line: &str) -> CommandResult {
     println!("{line}");
     match problems.len() {
         0 => Ok(()),
-        1 => Err("1 problem was found: see above".into()),
-        count => Err(format!("{count} problems were found: see above").into()),
+        1 => bail!("1 problem was found: see above"),
+        count => bail!("{count} problems were found: see above"),
     }
 }
 

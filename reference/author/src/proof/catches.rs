@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use grader::handed_out::HandedOut;
-use grader::probe::Fault;
 use judging::exam::{Item, Key};
 use judging::judge::{Credit, judge, measure};
 use protocol::Answer;
 
 use crate::generated_file::GeneratedFile;
+use crate::solutions::workbench::Answers;
 
 /// The fewest wrong answers in a table, unless they are the share below.
 const TABLE_ANSWERS: usize = 3;
@@ -38,7 +38,7 @@ pub struct Catch {
 
 impl Catch {
     /// Returns how an item catches a mistake that gives these answers, or `None` if it does not.
-    pub fn of_item(item: &Item, answers: &Result<Vec<Answer>, Fault>) -> Option<Catch> {
+    pub fn of_item(item: &Item, answers: &Answers) -> Option<Catch> {
         let mut caught = Catch {
             item: item.id.clone(),
             answers: (0, 0),

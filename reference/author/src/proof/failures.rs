@@ -6,19 +6,20 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use anyhow::Result;
 use indicatif::ParallelProgressIterator;
 use judging::exam::{Exam, Item};
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::proof::ProofError;
 use crate::proof::catches::{Catch, Catches};
 use crate::proof::progress::progress_bar;
+use crate::proof::run::run;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
-use crate::solutions::catalogue::Mistake;
 use crate::solutions::failed_items::{self, FailedItems};
-use crate::solutions::workbench::{BuiltSolution, WorkbenchError};
+use crate::solutions::solution::Solution;
+use crate::solutions::workbench::BuiltSolution;
 
 /// The default numbers of seeds for writing the lists in the repository.
 pub const MANY_SEEDS: SeedCounts = SeedCounts::of(20);
@@ -55,13 +56,10 @@ pub fn failed_items(
     solutions: &Solutions,
     practice: &Exam,
     seeds: SeedCounts,
-) -> Result<(FailedItems, Catches), ProofError> {
-    let built: Vec<(&Mistake, BuiltSolution)> = solutions
-        .mistakes
-        .par_iter()
-        .map(|(mistake, sources)| Ok((mistake, solutions.workbench.build(sources, &mistake.id)?)))
-        .collect::<Result<_, WorkbenchError>>()?;
-    let all: Vec<&(&Mistake, BuiltSolution)> = built.iter().collect();
+) -> Result<(FailedItems, Catches)> {
+    let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
+    let built = run(workbench, mistakes, "mistakes built", |_, built| Ok(built))?;
+    let all: Vec<&(&Solution, BuiltSolution)> = built.iter().collect();
     let of_seeds = caught_with_seeds(solutions, &all, 0..seeds.all)?;
     let of_practice = caught_in(&all, practice)?;
 
@@ -108,22 +106,19 @@ pub fn failed_items(
 /// Returns the catches of each mistake in the exam of each seed.
 fn caught_with_seeds(
     solutions: &Solutions,
-    built: &[&(&Mistake, BuiltSolution)],
+    built: &[&(&Solution, BuiltSolution)],
     seeds: Range<u64>,
-) -> Result<Vec<Vec<Vec<Catch>>>, ProofError> {
+) -> Result<Vec<Vec<Vec<Catch>>>> {
     let bar = progress_bar(seeds.end - seeds.start, "seeds");
     let all = seeds.into_par_iter().progress_with(bar).map(|seed| {
         let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
-        Ok(caught_in(built, &exam)?)
+        caught_in(built, &exam)
     });
     all.collect()
 }
 
 /// Returns the catches of each mistake in one exam.
-fn caught_in(
-    built: &[&(&Mistake, BuiltSolution)],
-    exam: &Exam,
-) -> Result<Vec<Vec<Catch>>, WorkbenchError> {
+fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<Vec<Catch>>> {
     let caught = built
         .par_iter()
         .map(|(mistake, solution)| catches(mistake, solution, exam));
@@ -131,14 +126,14 @@ fn caught_in(
 }
 
 /// Returns the catches of a mistake by the items of its tasks, without the reference's parts.
-fn catches(
-    mistake: &Mistake,
-    solution: &BuiltSolution,
-    exam: &Exam,
-) -> Result<Vec<Catch>, WorkbenchError> {
+fn catches(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Catch>> {
     let mut caught = Vec::new();
-    for task in mistake.tasks() {
-        let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
+    for task in &mistake.expected.tasks {
+        let items: Vec<&Item> = exam
+            .items
+            .iter()
+            .filter(|item| item.task == *task)
+            .collect();
         let answers = solution.answers_to_each(&items)?;
         let answered = items.into_iter().zip(&answers);
         caught.extend(answered.filter_map(|(item, answers)| Catch::of_item(item, answers)));

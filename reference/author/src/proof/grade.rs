@@ -1,51 +1,24 @@
-//! Grades mistakes and variants with an exam.
+//! Grades solutions with an exam, and compares the points that they lose with the expected ones.
 
+use anyhow::Result;
 use grader::score::{ItemScore, Score};
 use judging::assignment::Task;
 use judging::exam::{Exam, Item};
-use rayon::prelude::*;
 
-use crate::solutions::Solutions;
-use crate::solutions::catalogue::Mistake;
-use crate::solutions::sources::Sources;
-use crate::solutions::variants::Variant;
-use crate::solutions::workbench::{Workbench, WorkbenchError};
-
-/// Grades every mistake.
-pub fn grade_mistakes<'a>(
-    solutions: &'a Solutions,
-    exam: &Exam,
-) -> Result<Vec<GradedMistake<'a>>, WorkbenchError> {
-    solutions
-        .mistakes
-        .par_iter()
-        .map(|(mistake, sources)| grade_mistake(&solutions.workbench, mistake, sources, exam))
-        .collect()
-}
-
-/// Grades one mistake.
-pub fn grade_mistake<'a>(
-    workbench: &Workbench,
-    mistake: &'a Mistake,
-    sources: &Sources,
-    exam: &Exam,
-) -> Result<GradedMistake<'a>, WorkbenchError> {
-    let score = workbench.build(sources, &mistake.id)?.score(exam)?;
-    Ok(GradedMistake { mistake, score })
-}
+use crate::solutions::solution::Solution;
+use crate::solutions::workbench::{BuiltSolution, Workbench};
 
 /// Returns the items in which a variant loses points although it must not.
 pub fn variant_losses(
     workbench: &Workbench,
-    variant: &Variant,
-    sources: &Sources,
+    variant: &Solution,
     exam: &Exam,
-) -> Result<Vec<String>, WorkbenchError> {
-    let tasks = variant.tasks(workbench.handed_out().assignment);
-    let exam = tasks_and_dependents(exam, &tasks);
-    let score = workbench.build(sources, &variant.id)?.score(&exam)?;
-    let lost = score.items().filter(|item| item.points < item.max_points);
-    let lost = lost.filter(|item| !variant.may_lose.contains(&item.id));
+) -> Result<Vec<String>> {
+    let exam = tasks_and_dependents(exam, &variant.expected.tasks);
+    let built = workbench.build(&variant.sources, &variant.id)?;
+    let graded = Graded::new(variant, &built, &exam)?;
+    let lost = graded.lost_items();
+    let lost = lost.filter(|item| !variant.expected.may_lose.contains(&item.id));
     Ok(lost
         .map(|item| format!("{}: {}", item.id, item.message))
         .collect())
@@ -57,53 +30,54 @@ pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
     exam.filter_items(|item: &Item| of_tasks(&item.id) || item.needs.iter().any(of_tasks))
 }
 
-/// A mistake and its score in an exam.
+/// A solution and its score in an exam.
 #[derive(Debug)]
-pub struct GradedMistake<'a> {
-    /// The mistake.
-    pub mistake: &'a Mistake,
+pub struct Graded<'a> {
+    /// The solution.
+    pub solution: &'a Solution,
     /// Its score.
     pub score: Score,
 }
 
-impl GradedMistake<'_> {
-    /// Returns the differences between the expected and the actual loss of points.
+impl<'a> Graded<'a> {
+    /// Grades a solution.
+    pub fn new(solution: &'a Solution, built: &BuiltSolution, exam: &Exam) -> Result<Self> {
+        let score = built.score(exam)?;
+        Ok(Graded { solution, score })
+    }
+
+    /// Returns the differences between the expected and the actual loss of points of a mistake.
     pub fn problems(&self) -> Vec<String> {
-        let id = &self.mistake.id;
+        let id = &self.solution.id;
         let passed = self.passed_items().into_iter();
         let passed = passed.map(|item| format!("{id} does not fail {item}"));
         self.task_problems().into_iter().chain(passed).collect()
     }
 
-    /// Returns the listed items that the mistake passes.
+    /// Returns the listed items that a mistake passes.
     pub fn passed_items(&self) -> Vec<String> {
         let is_passed = |id: &&String| !self.lost_items().any(|item| item.id == **id);
-        let listed = self.mistake.fails.iter();
+        let listed = self.solution.expected.fails.iter();
         listed.filter(is_passed).cloned().collect()
     }
 
-    /// Returns the differences that are problems with any seed: no loss in the mistake's own task,
+    /// Returns the differences that are problems with any seed: no loss in a mistake's own task,
     /// or a loss in a task that it does not declare.
     pub fn task_problems(&self) -> Vec<String> {
-        let mistake = self.mistake;
-        let tasks: Vec<_> = mistake.tasks().collect();
+        let Solution { id, expected, .. } = self.solution;
+        let is_of = |item: &ItemScore, task: &Task| item.id.starts_with(&format!("{task}."));
+        let own = self.solution.task();
         let mut problems = Vec::new();
-        if !self
-            .lost_items()
-            .any(|item| item.id.starts_with(&format!("{}.", mistake.task())))
-        {
-            problems.push(format!("{} costs nothing in its own task", mistake.id));
+        if !self.lost_items().any(|item| is_of(item, &own)) {
+            problems.push(format!("{id} costs nothing in its own task"));
         }
-        let of_tasks = |item: &ItemScore| {
-            tasks
-                .iter()
-                .any(|task| item.id.starts_with(&format!("{task}.")))
-        };
-        for item in self.lost_items().filter(|item| !of_tasks(item)) {
-            problems.push(format!(
-                "{} costs points in {}, an item of another task",
-                mistake.id, item.id
-            ));
+        for item in self.lost_items() {
+            if !expected.tasks.iter().any(|task| is_of(item, task)) {
+                let item = &item.id;
+                problems.push(format!(
+                    "{id} costs points in {item}, an item of another task"
+                ));
+            }
         }
         problems
     }

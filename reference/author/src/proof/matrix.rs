@@ -3,33 +3,41 @@
 
 use std::fmt::Write;
 
+use anyhow::{Result, bail};
 use grader::score::ItemScore;
 use judging::assignment::{Assignment, TaskInfo};
 use judging::exam::{Exam, Item};
 
 use crate::generated_file::GeneratedFile;
-use crate::proof::ProofError;
-use crate::proof::grade::{GradedMistake, grade_mistakes};
+use crate::proof::grade::Graded;
+use crate::proof::run::run;
 use crate::solutions::Solutions;
-use crate::solutions::catalogue::Mistake;
+use crate::solutions::solution::Solution;
 
 /// The path of the table, relative to the workspace's root.
 const PATH: &str = "reference/mistakes/matrix.md";
 
 /// Builds the table for the practice exam. Returns an error if a mistake does not lose the
 /// points that it must lose.
-pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFile, ProofError> {
-    let graded = grade_mistakes(solutions, exam)?;
-    let problems: Vec<String> = graded.iter().flat_map(GradedMistake::problems).collect();
+pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFile> {
+    let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
+    let graded = run(workbench, mistakes, "mistakes", |mistake, built| {
+        Graded::new(mistake, &built, exam)
+    })?;
+    let graded: Vec<Graded> = graded.into_iter().map(|(_, graded)| graded).collect();
+    let problems: Vec<String> = graded.iter().flat_map(Graded::problems).collect();
     if !problems.is_empty() {
-        return Err(ProofError::Problems(problems));
+        bail!(
+            "the practice exam and reference/mistakes do not agree; fix the items or the mistakes:\n{}",
+            problems.join("\n")
+        );
     }
     let assignment = solutions.workbench.handed_out().assignment;
     Ok(table(assignment, exam, &graded))
 }
 
 /// Builds the table for one exam.
-fn table(assignment: &Assignment, exam: &Exam, graded: &[GradedMistake]) -> GeneratedFile {
+fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> GeneratedFile {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
@@ -42,7 +50,9 @@ fn table(assignment: &Assignment, exam: &Exam, graded: &[GradedMistake]) -> Gene
     );
     for task in assignment.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        let of_task = graded.iter().filter(|graded| graded.mistake.task() == task);
+        let of_task = graded
+            .iter()
+            .filter(|graded| graded.solution.task() == task);
         task_table(&mut text, assignment.info(task), &items, of_task)
             .expect("writing to a String cannot fail");
     }
@@ -53,7 +63,7 @@ fn task_table<'a>(
     out: &mut String,
     task: &TaskInfo,
     items: &[&Item],
-    graded: impl Iterator<Item = &'a GradedMistake<'a>>,
+    graded: impl Iterator<Item = &'a Graded<'a>>,
 ) -> std::fmt::Result {
     writeln!(out, "\n## {}\n", task.title)?;
     for (number, item) in (1..).zip(items) {
@@ -64,7 +74,7 @@ fn task_table<'a>(
         .collect();
     writeln!(out, "\n| mistake | what the code does | lost |{numbers}")?;
     writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
-    for GradedMistake { mistake, score } in graded {
+    for Graded { solution, score } in graded {
         let lines: Vec<&ItemScore> = score
             .items()
             .filter(|line| items.iter().any(|item| item.id == line.id))
@@ -72,17 +82,17 @@ fn task_table<'a>(
         let lost: u32 = lines.iter().map(|line| line.max_points - line.points).sum();
         let cells: String = lines
             .iter()
-            .map(|line| format!(" {} |", cell(line, mistake)))
+            .map(|line| format!(" {} |", cell(line, solution)))
             .collect();
-        let name = mistake.id.split('.').nth(1).unwrap_or_default();
-        writeln!(out, "| `{name}` | {} | {lost} |{cells}", mistake.title)?;
+        let name = solution.id.split('.').nth(1).unwrap_or_default();
+        writeln!(out, "| `{name}` | {} | {lost} |{cells}", solution.title)?;
     }
     Ok(())
 }
 
-fn cell(line: &ItemScore, mistake: &Mistake) -> &'static str {
+fn cell(line: &ItemScore, mistake: &Solution) -> &'static str {
     // The lists of failed items do not include items that are graded with the reference's parts.
-    let is_certain = line.carried_forward || mistake.fails.contains(&line.id);
+    let is_certain = line.carried_forward || mistake.expected.fails.contains(&line.id);
     match (line.points, is_certain) {
         (points, _) if points == line.max_points => "",
         (0, true) => "●",

@@ -8,20 +8,19 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use anyhow::Result;
 use grader::files::{self, AtPath, PathError};
 use indicatif::ParallelProgressIterator;
 use judging::content_hash::ContentHash;
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::proof::ProofError;
-use crate::proof::grade::{grade_mistake, variant_losses};
+use crate::proof::grade::{Graded, variant_losses};
 use crate::proof::progress::progress_bar;
 use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::seed::Seed;
-use crate::solutions::catalogue::CatalogueError;
+use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
-use crate::solutions::{Solutions, SolutionsError};
 
 /// Grades all solutions with the exam of one seed. With a seed from which the lists of failed items
 /// come, a mistake must fail all of its items. With any other seed, one of them can pass by luck:
@@ -31,21 +30,23 @@ fn prove_seed(
     seed: u64,
     with_mistakes: bool,
     is_listed: bool,
-) -> Result<SeedResult, ProofError> {
+) -> Result<SeedResult> {
     let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
     let mut result = SeedResult {
         seed,
         with_mistakes,
         ..SeedResult::default()
     };
-    for (variant, sources) in &solutions.variants {
-        let lost = variant_losses(&solutions.workbench, variant, sources, &exam)?;
+    let workbench = &solutions.workbench;
+    for variant in &solutions.variants {
+        let lost = variant_losses(workbench, variant, &exam)?;
         if !lost.is_empty() {
             result.false_fails.insert(variant.id.clone(), lost);
         }
     }
-    for (mistake, sources) in solutions.mistakes.iter().filter(|_| with_mistakes) {
-        let graded = grade_mistake(&solutions.workbench, mistake, sources, &exam)?;
+    for mistake in solutions.mistakes.iter().filter(|_| with_mistakes) {
+        let built = workbench.build(&mistake.sources, &mistake.id)?;
+        let graded = Graded::new(mistake, &built, &exam)?;
         let passed = graded.passed_items();
         let problems = if is_listed {
             graded.problems()
@@ -64,16 +65,9 @@ fn prove_seed(
 
 /// Runs the proof for these seeds; mistakes are graded only with the first `with_mistakes` of them.
 /// The result of every seed is saved, so that an interrupted proof can be continued.
-pub fn prove(
-    solutions: &Solutions,
-    seeds: Range<u64>,
-    with_mistakes: u64,
-) -> Result<ProofSummary, ProofError> {
+pub fn prove(solutions: &Solutions, seeds: Range<u64>, with_mistakes: u64) -> Result<ProofSummary> {
     let workbench = &solutions.workbench;
-    let listed_seeds = FailedItems::load(workbench.root(), workbench.handed_out())
-        .map_err(CatalogueError::from)
-        .map_err(SolutionsError::from)?
-        .seeds;
+    let listed_seeds = FailedItems::load(workbench.root(), workbench.handed_out())?.seeds;
     let path = solutions
         .workbench
         .scratch()
@@ -82,7 +76,7 @@ pub fn prove(
     let cache = ProofCache::open(path)?;
     let wants_mistakes = |seed: u64| seed - seeds.start < with_mistakes;
     let bar = progress_bar(seeds.end - seeds.start, "seeds");
-    let results: Result<Vec<SeedResult>, ProofError> = seeds
+    let results: Result<Vec<SeedResult>> = seeds
         .clone()
         .into_par_iter()
         .progress_with(bar)
@@ -148,11 +142,8 @@ fn cache_key(solutions: &Solutions, listed_seeds: u64) -> Result<String, PathErr
     let mut hash = ContentHash::default()
         .with(&files::read(program)?)
         .with(&listed_seeds.to_le_bytes());
-    for (mistake, sources) in &solutions.mistakes {
-        hash.add(format!("{mistake:?}{sources:?}").as_bytes());
-    }
-    for (variant, sources) in &solutions.variants {
-        hash.add(format!("{variant:?}{sources:?}").as_bytes());
+    for solution in solutions.mistakes.iter().chain(&solutions.variants) {
+        hash.add(format!("{solution:?}").as_bytes());
     }
     Ok(hash.hex())
 }

@@ -1,28 +1,39 @@
-//! The catalogue of known mistakes, which are small changes to the reference:
-//! `mistakes/TASK/*.toml` in the folder of an assignment's solutions.
+//! The catalogues of mistakes, which are small changes to the reference or to a variant, in the folder
+//! `mistakes` of an assignment's solutions:
+//!
+//! - Known mistakes in `TASK/*.toml`, with hints for students.
+//! - Independent mistakes in `independent/*.toml`: known mistakes in the code of a variant, where they
+//!   look as in the solution of a student who never saw the reference.
+//! - Unknown mistakes in `unknown/*.toml`: no hint is written for them, so they tell whether wrong code
+//!   gets a hint that is not true of it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use grader::files::{self, PathError};
+use anyhow::{Result, bail};
+use grader::files;
 use grader::handed_out::HandedOut;
 use judging::assignment::Task;
 use judging::section::Section;
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 
-use crate::solutions::failed_items::{FailedItems, FailedItemsError};
+use crate::solutions::Solutions;
+use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::{TomlFileError, read_toml};
+use crate::solutions::toml_file::read_toml;
 
-/// A known wrong solution.
+/// A wrong solution, as it is written in a catalogue.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mistake {
     /// The task's id, a dot, and a name, such as `sphere.far_first`.
     pub id: String,
-    /// A description of what the wrong code does.
+    /// A description of what the wrong code does. Independent mistakes have that of the known one.
+    #[serde(default)]
     pub title: String,
+    /// The id of the variant that an independent mistake is in.
+    #[serde(default)]
+    pub variant: Option<String>,
     /// The sources in which the mistake was seen, by their numbers in
     /// `reference/mistakes/README.md`.
     #[serde(default)]
@@ -52,96 +63,40 @@ pub struct Mistake {
     /// each other.
     #[serde(default)]
     pub other_tasks: Vec<Task>,
-    /// The items that fail with every seed, from the generated list.
-    #[serde(skip)]
-    pub fails: Vec<String>,
-    /// The changes to the reference. Nearly always, there is only one.
+    /// The known mistakes whose hints are true of an independent or unknown mistake, in addition to
+    /// the mistake itself.
+    #[serde(default)]
+    pub true_hints: Vec<String>,
+    /// The changes to the reference or the variant. Nearly always, there is only one.
     #[serde(rename = "change")]
     pub changes: Vec<Change>,
-}
-
-impl Mistake {
-    /// Returns whether the code keeps something from one call to the next.
-    pub fn keeps_state(&self) -> bool {
-        self.changes
-            .iter()
-            .any(|change| change.now.contains("static "))
-    }
 }
 
 /// A replacement of a text that occurs exactly once in a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// The task file to change. By default, the file of the mistake's task.
+    /// The task file to change. By default, the file of the mistake's task, or of the variant.
     pub file: Option<String>,
-    /// The text in the reference that is replaced.
+    /// The text that is replaced.
     pub was: String,
     /// The text that replaces it.
     pub now: String,
 }
 
-/// The reason why the catalogue cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum CatalogueError {
-    /// A folder cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A file of the catalogue cannot be read or is invalid.
-    #[error(transparent)]
-    Toml(#[from] TomlFileError),
-    /// The list of failed items cannot be used.
-    #[error(transparent)]
-    FailedItems(#[from] FailedItemsError),
-    /// An id does not begin with the id of its task, or is used twice.
-    #[error(
-        "{}: the id `{id}` must be unique and begin with the id of its task and a dot, such as \
-         `camera.`",
-        path.display()
-    )]
-    Id {
-        /// The path of the file.
-        path: PathBuf,
-        /// The id that is not allowed.
-        id: String,
-    },
-    /// A mistake has no texts, or refers to another mistake for them in a wrong way.
-    #[error(
-        "{id}: give it a `nudge` and a `hint`, or name in `same_hint_as` another mistake of its task \
-         that has them; `also_true_of` and `true_of_pairs` name other mistakes"
-    )]
-    Texts {
-        /// The id of the mistake.
-        id: String,
-    },
-    /// The text that a mistake changes no longer occurs exactly once in the reference.
-    #[error(
-        "{id} no longer applies: its `was` occurs {count} times in {file} instead of once; adapt it in \
-         the catalogue of mistakes"
-    )]
-    DoesNotApply {
-        /// The id of the mistake.
-        id: String,
-        /// The path of the file that it changes.
-        file: String,
-        /// The number of occurrences.
-        count: usize,
-    },
-}
-
 /// Reads all known mistakes of an assignment in the workspace at `root`, ordered by task and then
 /// by file. A task without a folder has none.
-pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, CatalogueError> {
-    let folder = root.join(handed_out.solutions()).join("mistakes");
-    let failed = FailedItems::load(root, handed_out)?;
+pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     let mut all: Vec<Mistake> = Vec::new();
     for task in handed_out.assignment.tasks() {
-        for (path, mut mistake) in read_mistakes::<Mistake>(&folder.join(task.id()))? {
-            mistake.fails = failed.of_mistake(&mistake.id).to_vec();
+        for mistake in read_mistakes(root, handed_out, task.id())? {
             let known = all.iter().any(|other| other.id == mistake.id);
             if known || !mistake.id.starts_with(&format!("{task}.")) {
-                let id = mistake.id;
-                return Err(CatalogueError::Id { path, id });
+                bail!(
+                    "mistakes/{task}: the id `{}` must be unique and begin with the id of its task \
+                     and a dot, such as `camera.`",
+                    mistake.id
+                );
             }
             all.push(mistake);
         }
@@ -151,7 +106,7 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>, Cat
 }
 
 /// Copies the texts that mistakes share, and checks the ids by which mistakes refer to each other.
-fn share_hints(mistakes: &mut [Mistake]) -> Result<(), CatalogueError> {
+fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
     let texts: BTreeMap<String, (String, String)> = mistakes
         .iter()
         .filter(|mistake| mistake.same_hint_as.is_none())
@@ -178,27 +133,30 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<(), CatalogueError> {
         };
         let others = mistake.also_true_of.iter();
         let mut others = others.chain(mistake.true_of_pairs.iter().flatten());
-        let are_known = others.all(|other| ids.contains(other));
-        if !is_complete || !are_known {
-            return Err(CatalogueError::Texts {
-                id: mistake.id.clone(),
-            });
+        if !is_complete || !others.all(|other| ids.contains(other)) {
+            bail!(
+                "{}: give it a `nudge` and a `hint`, or name in `same_hint_as` another mistake of its \
+                 task that has them; `also_true_of` and `true_of_pairs` name other mistakes",
+                mistake.id
+            );
         }
     }
     Ok(())
 }
 
-/// Reads the `[[mistake]]` entries of the TOML files in a folder, in the order of the files, each with
-/// the path of its file. There are none if the folder does not exist.
-pub(super) fn read_mistakes<T: DeserializeOwned>(
-    folder: &Path,
-) -> Result<Vec<(PathBuf, T)>, CatalogueError> {
+/// Reads the `[[mistake]]` entries of the TOML files in a folder of the catalogue, in the order of the
+/// files. There are none if the folder does not exist.
+fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Vec<Mistake>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct File<T> {
-        mistake: Vec<T>,
+    struct File {
+        mistake: Vec<Mistake>,
     }
 
+    let folder = root
+        .join(handed_out.solutions())
+        .join("mistakes")
+        .join(folder);
     if !folder.exists() {
         return Ok(Vec::new());
     }
@@ -208,15 +166,43 @@ pub(super) fn read_mistakes<T: DeserializeOwned>(
             .extension()
             .is_some_and(|extension| extension == "toml")
         {
-            let file: File<T> = read_toml(&path)?;
-            all.extend(
-                file.mistake
-                    .into_iter()
-                    .map(|mistake| (path.clone(), mistake)),
-            );
+            let file: File = read_toml(&path)?;
+            all.extend(file.mistake);
         }
     }
     Ok(all)
+}
+
+/// Reads the independent mistakes, and applies them to their variants.
+pub fn independent_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
+    let all = solutions.read_catalogue("independent")?.into_iter();
+    all.map(|mistake| mistake.in_variant(solutions)).collect()
+}
+
+/// Reads the unknown mistakes, and applies them to the reference.
+pub fn unknown_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
+    let all = solutions.read_catalogue("unknown")?.into_iter();
+    all.map(|mistake| {
+        let is_known = |id: &String| solutions.mistake(id).is_some();
+        let has_task = Task::in_id(&mistake.id).is_some();
+        if !has_task || is_known(&mistake.id) || !mistake.true_hints.iter().all(is_known) {
+            bail!(
+                "{} in mistakes/unknown: its id must begin with a task and a dot, and be no known \
+                 mistake's; `true_hints` names known mistakes",
+                mistake.id
+            );
+        }
+        let mut unknown = mistake.solution(solutions.recorder.reference())?;
+        unknown.expected.true_hints = mistake.true_hints;
+        Ok(unknown)
+    })
+    .collect()
+}
+
+impl Solutions {
+    fn read_catalogue(&self, folder: &str) -> Result<Vec<Mistake>> {
+        read_mistakes(self.workbench.root(), self.workbench.handed_out(), folder)
+    }
 }
 
 impl Mistake {
@@ -225,41 +211,86 @@ impl Mistake {
         Task::in_id(&self.id).expect("ids were checked when they were read")
     }
 
-    /// Returns the tasks that may lose points: the mistake's own, and the others that it declares.
-    pub fn tasks(&self) -> impl Iterator<Item = Task> {
-        std::iter::once(self.task()).chain(self.other_tasks.iter().copied())
+    /// Returns the reference with this mistake.
+    pub fn solution(&self, reference: &Sources) -> Result<Solution> {
+        let mut changes = self.changes.iter();
+        Ok(Solution {
+            id: self.id.clone(),
+            title: self.title.clone(),
+            sources: self.apply(reference)?,
+            expected: Expected {
+                tasks: [&[self.task()], &self.other_tasks[..]].concat(),
+                true_hints: vec![self.id.clone()],
+                keeps_state: changes.any(|change| change.now.contains("static ")),
+                ..Expected::default()
+            },
+        })
     }
 
-    /// Returns the reference with this mistake.
-    pub fn apply(&self, reference: &Sources) -> Result<Sources, CatalogueError> {
+    /// Returns the variant with this mistake.
+    pub fn in_variant(&self, solutions: &Solutions) -> Result<Solution> {
+        let name = self.variant.as_deref().unwrap_or_default();
+        let id = format!("{} in {name}", self.id);
+        let is_known = |id: &String| solutions.mistake(id).is_some();
+        let mut variants = solutions.variants.iter();
+        let known = solutions.mistake(&self.id);
+        let variant = variants.find(|variant| variant.id == name);
+        let found = known.zip(variant).filter(|(known, variant)| {
+            let solved = &variant.expected.tasks;
+            solved.contains(&known.task()) && self.true_hints.iter().all(is_known)
+        });
+        let Some((known, variant)) = found else {
+            bail!(
+                "{id}: the catalogue of mistakes must have all ids, and variants.toml the variant, which \
+                 must solve the mistake's task"
+            );
+        };
+        let mut expected = known.expected.clone();
+        expected.true_hints.extend(self.true_hints.iter().cloned());
+        let own_file = format!("{}.rs", name.split('.').next().unwrap_or_default());
+        let sources = apply_changes(&variant.sources, &self.changes, &own_file);
+        Ok(Solution {
+            title: known.title.clone(),
+            sources: sources.map_err(|(file, count)| {
+                anyhow::anyhow!(
+                    "{id} no longer applies: its `was` occurs {count} times in {file} with its given \
+                     code, instead of once; adapt it in mistakes/independent"
+                )
+            })?,
+            expected,
+            id,
+        })
+    }
+
+    /// Returns the files of the reference with this mistake.
+    pub fn apply(&self, reference: &Sources) -> Result<Sources> {
         let handed_out = reference.handed_out();
         let own_file = handed_out.assignment.info(self.task()).file;
-        let sources = reference.clone();
-        apply_changes(sources, &self.changes, own_file, |file, count| {
-            CatalogueError::DoesNotApply {
-                id: self.id.clone(),
-                file: format!("{}/{file}", handed_out.reference),
-                count,
-            }
+        apply_changes(reference, &self.changes, own_file).map_err(|(file, count)| {
+            anyhow::anyhow!(
+                "{} no longer applies: its `was` occurs {count} times in {}/{file} instead of once; \
+                 adapt it in the catalogue of mistakes",
+                self.id,
+                handed_out.reference
+            )
         })
     }
 }
 
-/// Applies changes to a solution: to `own_file`, or to the files that they name. A text that does
-/// not occur exactly once is an error, which `does_not_apply` makes of the file and the number of
-/// occurrences.
-pub(super) fn apply_changes<E>(
-    mut sources: Sources,
+/// Applies changes to a solution: to `own_file`, or to the files that they name. If a text does not
+/// occur exactly once, returns the file and the number of occurrences.
+fn apply_changes(
+    base: &Sources,
     changes: &[Change],
     own_file: &str,
-    does_not_apply: impl Fn(&str, usize) -> E,
-) -> Result<Sources, E> {
+) -> Result<Sources, (String, usize)> {
+    let mut sources = base.clone();
     for change in changes {
         let file = change.file.as_deref().unwrap_or(own_file);
         let text = sources.text(file).unwrap_or_default();
         let count = text.matches(&change.was).count();
         if count != 1 {
-            return Err(does_not_apply(file, count));
+            return Err((file.to_owned(), count));
         }
         let text = text.replacen(&change.was, &change.now, 1);
         sources = sources.with_file(file, text);

@@ -5,11 +5,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use anyhow::{Result, anyhow};
 use grader::handed_out::HandedOut;
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
-use crate::solutions::toml_file::{TomlFileError, read_toml};
+use crate::solutions::toml_file::read_toml;
 
 /// The path of the file, relative to the folder of an assignment's solutions.
 pub const FILE: &str = "mistakes/fails.toml";
@@ -25,20 +26,15 @@ pub struct FailedItems {
     pub fails: BTreeMap<String, Vec<String>>,
 }
 
-/// The reason why the file cannot be used.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}; run `cargo author mistakes`")]
-pub struct FailedItemsError(#[from] TomlFileError);
-
 impl FailedItems {
     /// Reads the file of an assignment in the workspace at `root`. A missing file lists no items, so
     /// that it can be generated again.
-    pub fn load(root: &Path, handed_out: &HandedOut) -> Result<Self, FailedItemsError> {
+    pub fn load(root: &Path, handed_out: &HandedOut) -> Result<Self> {
         let path = root.join(path(handed_out));
         if !path.exists() {
             return Ok(FailedItems::default());
         }
-        Ok(read_toml(&path)?)
+        read_toml(&path).map_err(|error| anyhow!("{error}; run `cargo author mistakes`"))
     }
 
     /// Returns the items that a mistake fails, or none if the mistake is not in the file.
@@ -47,10 +43,7 @@ impl FailedItems {
     }
 
     /// Returns the file, with one item per line, so that a diff shows which items changed.
-    pub fn generated_file(
-        &self,
-        handed_out: &HandedOut,
-    ) -> Result<GeneratedFile, toml::ser::Error> {
+    pub fn generated_file(&self, handed_out: &HandedOut) -> Result<GeneratedFile> {
         let lists = toml::to_string_pretty(self)?;
         let text = format!(
             "# Written by `cargo author mistakes`: the items that each mistake fails in the \

@@ -1,85 +1,39 @@
 //! The solutions of this repository: the reference, known mistakes, known correct variants, and
 //! mutants; how they are read, built and run.
 //!
-//! `reference/mistakes` contains known mistakes, which are small changes to the reference,
-//! `reference/variants` other correct solutions, and `reference/mutants` mechanical changes. Each
+//! `reference/mistakes` contains mistakes, which are small changes to the reference or to a variant,
+//! `reference/variants` other correct solutions, and [`mutants`] makes mechanical changes. Each
 //! is built and run like any submission. The exams take their recorded keys and their hints from
 //! solutions, and the proof grades them.
 
 pub mod catalogue;
 pub mod failed_items;
-pub mod independent;
 pub mod mutants;
 pub mod recording;
+pub mod solution;
 pub mod sources;
 pub mod toml_file;
-pub mod unknown;
 pub mod variants;
 pub mod workbench;
 
-use grader::files::PathError;
+use anyhow::{Result, bail};
 
-use crate::solutions::catalogue::{CatalogueError, Mistake, mistakes};
+use crate::solutions::catalogue::{Mistake, mistakes};
 use crate::solutions::failed_items::FailedItems;
-use crate::solutions::independent::IndependentError;
-use crate::solutions::recording::{Recorder, RecordingError};
-use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::TomlFileError;
-use crate::solutions::unknown::UnknownError;
-use crate::solutions::variants::{Variant, VariantError, variants};
-use crate::solutions::workbench::{Workbench, WorkbenchError};
+use crate::solutions::recording::Recorder;
+use crate::solutions::solution::Solution;
+use crate::solutions::variants::variants;
+use crate::solutions::workbench::Workbench;
 
-/// The reason why solutions cannot be read, built or run.
-#[derive(Debug, thiserror::Error)]
-pub enum SolutionsError {
-    /// The mistakes cannot be used.
-    #[error(transparent)]
-    Catalogue(#[from] CatalogueError),
-    /// The list of variants cannot be used.
-    #[error(transparent)]
-    Variants(#[from] TomlFileError),
-    /// A variant cannot be used.
-    #[error(transparent)]
-    Variant(#[from] VariantError),
-    /// A file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A solution cannot be built or run.
-    #[error(transparent)]
-    Workbench(#[from] WorkbenchError),
-    /// The exam's picture cannot be recorded.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
-    /// An independent mistake cannot be used.
-    #[error(transparent)]
-    Independent(Box<IndependentError>),
-    /// The unknown mistakes cannot be used.
-    #[error(transparent)]
-    Unknown(Box<UnknownError>),
-    /// There is no variant with this id.
-    #[error("there is no variant {0}: see reference/variants/variants.toml for a list")]
-    UnknownVariant(String),
-}
-
-impl From<UnknownError> for SolutionsError {
-    fn from(error: UnknownError) -> Self {
-        SolutionsError::Unknown(Box::new(error))
-    }
-}
-
-impl From<IndependentError> for SolutionsError {
-    fn from(error: IndependentError) -> Self {
-        SolutionsError::Independent(Box::new(error))
-    }
-}
-
-/// The known mistakes and variants with their sources, and the means to build and run them.
+/// The known mistakes and variants, and the means to build and run them.
 #[derive(Debug)]
 pub struct Solutions {
+    /// The catalogue of known mistakes, with their hints.
+    pub catalogue: Vec<Mistake>,
     /// Known wrong solutions, in the order of the catalogue.
-    pub mistakes: Vec<(Mistake, Sources)>,
+    pub mistakes: Vec<Solution>,
     /// Known correct solutions, in the order of the list.
-    pub variants: Vec<(Variant, Sources)>,
+    pub variants: Vec<Solution>,
     /// The workbench that builds the solutions.
     pub workbench: Workbench,
     /// The recorder of the exams' pictures.
@@ -88,43 +42,43 @@ pub struct Solutions {
 
 impl Solutions {
     /// Reads all mistakes and variants, and applies them to the reference.
-    pub fn load(workbench: Workbench) -> Result<Self, SolutionsError> {
+    pub fn load(workbench: Workbench) -> Result<Self> {
         let root = workbench.root();
         let handed_out = workbench.handed_out();
-        let reference = Sources::reference(root, handed_out)?;
-        let mistakes: Result<Vec<_>, CatalogueError> = mistakes(root, handed_out)?
-            .into_iter()
-            .map(|mistake| {
-                let sources = mistake.apply(&reference)?;
-                Ok((mistake, sources))
-            })
-            .collect();
-        let variants: Result<Vec<_>, VariantError> = variants(root)?
-            .into_iter()
-            .map(|variant| {
-                let sources = variant.apply(&reference, root)?;
-                Ok((variant, sources))
-            })
-            .collect();
-        Ok(Solutions {
-            mistakes: mistakes?,
-            variants: variants?,
-            recorder: Recorder::open(&workbench)?,
+        let recorder = Recorder::open(&workbench)?;
+        let catalogue = mistakes(root, handed_out)?;
+        let applied = catalogue.iter();
+        let applied = applied.map(|mistake| mistake.solution(recorder.reference()));
+        let variants = variants(root)?.into_iter();
+        let variants = variants.map(|variant| variant.solution(recorder.reference(), root));
+        let failed = FailedItems::load(root, handed_out)?;
+        let mut solutions = Solutions {
+            mistakes: applied.collect::<Result<_>>()?,
+            variants: variants.collect::<Result<_>>()?,
+            catalogue,
+            recorder,
             workbench,
-        })
+        };
+        solutions.set_failed_items(&failed);
+        Ok(solutions)
     }
 
     /// Replaces the lists of the items that each mistake fails with every seed.
     pub fn set_failed_items(&mut self, failed: &FailedItems) {
-        for (mistake, _) in &mut self.mistakes {
-            mistake.fails = failed.of_mistake(&mistake.id).to_vec();
+        for mistake in &mut self.mistakes {
+            mistake.expected.fails = failed.of_mistake(&mistake.id).to_vec();
         }
+    }
+
+    /// Returns a known mistake.
+    pub fn mistake(&self, id: &str) -> Option<&Solution> {
+        self.mistakes.iter().find(|mistake| mistake.id == id)
     }
 
     /// Returns whether two mistakes, given by their ids, have the same hint.
     pub fn have_same_hint(&self, one: &str, other: &str) -> bool {
         let hint = |id: &str| {
-            let mut mistakes = self.mistakes.iter().map(|(mistake, _)| mistake);
+            let mut mistakes = self.catalogue.iter();
             mistakes.find(|mistake| mistake.id == id).map(|m| &m.hint)
         };
         hint(one) == hint(other)
@@ -132,11 +86,11 @@ impl Solutions {
 
     /// Returns whether the hint of the first mistake is true of the second.
     pub fn is_hint_true_of(&self, hint: &str, mistake: &str) -> bool {
-        let mut fits = self.mistakes.iter().filter(|(other, _)| {
+        let mut fits = self.catalogue.iter().filter(|other| {
             let true_of = other.also_true_of.iter().any(|id| id == mistake);
             true_of || other.id == mistake
         });
-        fits.any(|(other, _)| self.have_same_hint(&other.id, hint))
+        fits.any(|other| self.have_same_hint(&other.id, hint))
     }
 
     /// Returns whether the hint of a mistake is true of code that makes two others, given by their ids.
@@ -144,7 +98,7 @@ impl Solutions {
         let is_pair = |[one, other]: &[String; 2]| {
             pair == [one.as_str(), other.as_str()] || pair == [other.as_str(), one.as_str()]
         };
-        let mut mistakes = self.mistakes.iter().map(|(mistake, _)| mistake);
+        let mut mistakes = self.catalogue.iter();
         pair.into_iter()
             .any(|mistake| self.is_hint_true_of(hint, mistake))
             || mistakes.any(|mistake| {
@@ -153,12 +107,12 @@ impl Solutions {
     }
 
     /// Keeps one variant, and drops all others and the mistakes.
-    pub fn only_variant(mut self, id: &str) -> Result<Self, SolutionsError> {
+    pub fn only_variant(mut self, id: &str) -> Result<Self> {
         self.mistakes.clear();
-        self.variants.retain(|(variant, _)| variant.id == id);
-        match self.variants.len() {
-            0 => Err(SolutionsError::UnknownVariant(id.to_owned())),
-            _ => Ok(self),
+        self.variants.retain(|variant| variant.id == id);
+        if self.variants.is_empty() {
+            bail!("there is no variant {id}: see reference/variants/variants.toml for a list");
         }
+        Ok(self)
     }
 }

@@ -3,12 +3,14 @@
 
 use std::path::Path;
 
+use anyhow::{Result, anyhow};
 use judging::assignment::{Assignment, Task};
-use projection::{GivenCodeError, ReadError, replacements};
+use projection::replacements;
 use serde::Deserialize;
 
+use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::{TomlFileError, read_toml};
+use crate::solutions::toml_file::read_toml;
 
 /// The folder of the variants.
 const FOLDER: &str = "reference/variants";
@@ -38,24 +40,8 @@ pub struct Variant {
     pub crates: Vec<String>,
 }
 
-/// The reason why a variant cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum VariantError {
-    /// One of its files cannot be read.
-    #[error(transparent)]
-    File(#[from] ReadError),
-    /// It cannot be completed with given code.
-    #[error("the variant {id}: {source}")]
-    GivenCode {
-        /// The id of the variant.
-        id: String,
-        /// The reason.
-        source: GivenCodeError,
-    },
-}
-
 /// Reads the list of all variants of the workspace at `root`.
-pub fn variants(root: &Path) -> Result<Vec<Variant>, TomlFileError> {
+pub fn variants(root: &Path) -> Result<Vec<Variant>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
@@ -67,17 +53,11 @@ pub fn variants(root: &Path) -> Result<Vec<Variant>, TomlFileError> {
 }
 
 impl Variant {
-    /// Returns the name of the task file that it is about: the only one that it replaces, or one of
-    /// several.
-    pub fn file(&self) -> String {
-        format!("{}.rs", self.id.split('.').next().unwrap_or_default())
-    }
-
     /// Returns the tasks of the assignment that its files solve.
-    pub fn tasks(&self, assignment: &Assignment) -> Vec<Task> {
+    fn tasks(&self, assignment: &Assignment) -> Vec<Task> {
         let parts = self.parts.iter().filter_map(|part| part.split_once('/'));
-        let mut files: Vec<String> = parts.map(|(stem, _)| format!("{stem}.rs")).collect();
-        files.push(self.file());
+        let stems = parts.map(|(stem, _)| stem).chain(self.id.split('.').next());
+        let mut files: Vec<String> = stems.map(|stem| format!("{stem}.rs")).collect();
         files.sort();
         files.dedup();
         let tasks = files.iter().flat_map(|file| assignment.tasks_in(file));
@@ -85,18 +65,24 @@ impl Variant {
     }
 
     /// Returns the reference with the task files replaced by this variant and its given code.
-    pub fn apply(&self, reference: &Sources, root: &Path) -> Result<Sources, VariantError> {
+    pub fn solution(&self, reference: &Sources, root: &Path) -> Result<Solution> {
         let mut sources = reference.clone();
         for replacement in replacements(&root.join(FOLDER), &self.id, &self.parts)? {
             let file = format!("{}.rs", replacement.stem);
             let text = replacement
                 .complete(reference.text(&file).unwrap_or_default())
-                .map_err(|source| VariantError::GivenCode {
-                    id: self.id.clone(),
-                    source,
-                })?;
+                .map_err(|error| anyhow!("the variant {}: {error}", self.id))?;
             sources = sources.with_file(&file, text);
         }
-        Ok(sources.with_crates(&self.crates))
+        Ok(Solution {
+            id: self.id.clone(),
+            title: self.title.clone(),
+            sources: sources.with_crates(&self.crates),
+            expected: Expected {
+                tasks: self.tasks(reference.handed_out().assignment),
+                may_lose: self.may_lose.clone(),
+                ..Expected::default()
+            },
+        })
     }
 }

@@ -6,13 +6,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use grader::build::{Build, BuildError, Builder, NotCompiled};
+use anyhow::{Result, anyhow};
+use grader::build::{Build, Builder, NotCompiled};
 use grader::handed_out::HandedOut;
-use grader::probe::{Budget, Fault, ItemLimits, Launcher};
+use grader::probe::{Budget, Fault, ItemLimits, Launcher, Probe};
 use grader::run_exam::run_exam;
 use grader::score::Score;
 use grader::verdict::{file_message, pending_score};
-use grader::workspace::{Workspace, WorkspaceError};
+use grader::workspace::Workspace;
 use judging::exam::{Exam, Item};
 use judging::exam_file::ExamName;
 
@@ -26,6 +27,9 @@ const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(2));
 /// The limit of CPU time for a process, which is asked all items of a task.
 const PROCESS_CPU: Duration = Duration::from_secs(120);
 
+/// The answers to the questions of an item, or the reason that there are none.
+pub type Answers = Result<Vec<Answer>, Fault>;
+
 /// Builds solutions of an assignment in a workspace.
 #[derive(Debug)]
 pub struct Workbench {
@@ -34,32 +38,20 @@ pub struct Workbench {
     builder: Builder,
 }
 
-/// The reason why a solution cannot be built or run.
+/// A solution does not compile.
 #[derive(Debug, thiserror::Error)]
-pub enum WorkbenchError {
-    /// The workspace cannot be found.
-    #[error(transparent)]
-    Workspace(#[from] WorkspaceError),
-    /// The build failed for a reason other than the solution.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// The solution does not compile.
-    #[error("{id} does not compile:\n{message}")]
-    NotCompiled {
-        /// The solution's id.
-        id: String,
-        /// The compiler's message.
-        message: String,
-    },
-    /// A probe cannot be started.
-    #[error("cannot start a probe: {0}")]
-    Probe(#[from] std::io::Error),
+#[error("{id} does not compile:\n{message}")]
+pub struct NotCompiledError {
+    /// The solution's id.
+    id: String,
+    /// The compiler's message.
+    message: String,
 }
 
 impl Workbench {
     /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
     /// reference, its parts substitute for wrong ones.
-    pub fn open(handed_out: &'static HandedOut) -> Result<Self, WorkbenchError> {
+    pub fn open(handed_out: &'static HandedOut) -> Result<Self> {
         let workspace = Workspace::find()?;
         let builder =
             Builder::prepare(&workspace)?.with_cache(&workspace.output_folder().join("kept"))?;
@@ -90,29 +82,27 @@ impl Workbench {
     }
 
     /// Builds a solution. Returns an error if any of its files does not compile.
-    pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution, WorkbenchError> {
+    pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution> {
         let builder = match sources.crates() {
             [] => Cow::Borrowed(&self.builder),
             names => Cow::Owned(self.builder.with_crates(names, &self.workspace)?),
         };
         let build = builder.build(&sources.to_submission(id))?;
+        let error = |message| NotCompiledError {
+            id: id.to_owned(),
+            message,
+        };
         if let Some(message) = compile_error(&build.not_compiled) {
-            let id = id.to_owned();
-            return Err(WorkbenchError::NotCompiled { id, message });
+            return Err(error(message).into());
         }
-        let id = id.to_owned();
-        match build.probe.clone() {
-            Some(program) => Ok(BuiltSolution {
-                id,
-                handed_out: self.handed_out,
-                launcher: build.launcher(&program),
-                build,
-            }),
-            None => Err(WorkbenchError::NotCompiled {
-                id,
-                message: "the build has no program".to_owned(),
-            }),
-        }
+        let program = build.probe.clone();
+        let program = program.ok_or_else(|| error("the build has no program".to_owned()))?;
+        Ok(BuiltSolution {
+            id: id.to_owned(),
+            handed_out: self.handed_out,
+            launcher: build.launcher(&program),
+            build,
+        })
     }
 }
 
@@ -138,9 +128,14 @@ impl BuiltSolution {
         &self.launcher
     }
 
+    fn start(&self) -> Result<Probe> {
+        let probe = self.launcher.start(PROCESS_CPU);
+        probe.map_err(|error| anyhow!("cannot start a probe: {error}"))
+    }
+
     /// Runs the solution in a new probe, and returns its answers to one item.
-    pub fn answers(&self, item: &Item) -> std::io::Result<Result<Vec<Answer>, Fault>> {
-        let mut probe = self.launcher.start(PROCESS_CPU)?;
+    pub fn answers(&self, item: &Item) -> Result<Answers> {
+        let mut probe = self.start()?;
         let questions = item.questions.iter().map(|question| &question.question);
         Ok(probe.ask(questions, LIMITS))
     }
@@ -148,16 +143,13 @@ impl BuiltSolution {
     /// Runs the solution, and returns its answers to each item. As in grading, one process answers
     /// all items of a task, and after a fault a new one is started: mistakes that keep state from
     /// one call to the next show only in later items.
-    pub fn answers_to_each(
-        &self,
-        items: &[&Item],
-    ) -> std::io::Result<Vec<Result<Vec<Answer>, Fault>>> {
+    pub fn answers_to_each(&self, items: &[&Item]) -> Result<Vec<Answers>> {
         let mut running = None;
         let mut all = Vec::new();
         for item in items {
             let mut probe = match running.take() {
                 Some(probe) => probe,
-                None => self.launcher.start(PROCESS_CPU)?,
+                None => self.start()?,
             };
             let questions = item.questions.iter().map(|question| &question.question);
             let answers = probe.ask(questions, LIMITS);
@@ -168,14 +160,14 @@ impl BuiltSolution {
     }
 
     /// Grades the solution with an exam.
-    pub fn score(&self, exam: &Exam) -> Result<Score, WorkbenchError> {
+    pub fn score(&self, exam: &Exam) -> Result<Score> {
         let name = ExamName {
             id: exam.id.clone(),
             hash: String::new(),
         };
         let mut score = pending_score(exam, name, &self.id, self.handed_out);
         run_exam(exam, &self.build, Budget::default(), &mut score, |_, _| {
-            Ok::<(), WorkbenchError>(())
+            Ok::<(), anyhow::Error>(())
         })?;
         Ok(score)
     }

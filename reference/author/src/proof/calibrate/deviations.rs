@@ -1,12 +1,9 @@
 //! The deviations of one solution's answers to one item.
 
-use grader::probe::Fault;
 use judging::exam::Item;
 use judging::judge::{Deviation, Measurement, Threshold, measure};
-use protocol::Answer;
 
-/// The answers to the questions of an item, or the reason that there are none.
-pub(super) type Answers = Result<Vec<Answer>, Fault>;
+use crate::solutions::workbench::Answers;
 
 /// Returns the deviations of a correct solution from every threshold that applies. The cost of a
 /// tree is ignored for a solution that may lose points for it.
@@ -48,11 +45,11 @@ fn measure_all(item: &Item, answers: &Answers) -> Vec<Measurement> {
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use grader::probe::Crash;
+    use grader::probe::{Crash, Fault};
     use judging::assignment::RAYS;
     use judging::exam::{ExamQuestion, Key};
     use judging::signatures::MistakeSignatures;
-    use protocol::{ElementOutcome, Interval, Question, Ray};
+    use protocol::{Answer, ElementOutcome, Interval, Question, Ray};
 
     use super::*;
 

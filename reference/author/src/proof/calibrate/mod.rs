@@ -10,19 +10,21 @@ pub mod table;
 
 use std::ops::Range;
 
+use anyhow::Result;
 use indicatif::ParallelProgressIterator;
+use judging::exam::{Exam, Item};
 use judging::judge::Threshold;
 use rayon::prelude::*;
 
 use crate::exams;
-use crate::proof::ProofError;
 use crate::proof::calibrate::margins::{DeviationSample, Margin, Margins};
 use crate::proof::grade::tasks_and_dependents;
 use crate::proof::progress::progress_bar;
+use crate::proof::run::run;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
-use crate::solutions::sources::Sources;
-use crate::solutions::workbench::{BuiltSolution, WorkbenchError};
+use crate::solutions::solution::Solution;
+use crate::solutions::workbench::BuiltSolution;
 
 /// The default seeds for writing the table in the repository.
 pub const MANY_SEEDS: Range<u64> = 0..200;
@@ -70,14 +72,23 @@ pub fn calibrate(
     solutions: &Solutions,
     seeds: Range<u64>,
     with_mistakes: u64,
-) -> Result<Calibration, ProofError> {
-    let built = BuiltSolutions::build(solutions)?;
+) -> Result<Calibration> {
+    let all = solutions.variants.iter().chain(&solutions.mistakes);
+    let built = run(&solutions.workbench, all, "solutions built", |_, built| {
+        Ok(built)
+    })?;
+    let (variants, mistakes) = built.split_at(solutions.variants.len());
     let mistake_seeds = seeds.start..seeds.end.min(seeds.start + with_mistakes);
-    let of_seeds: Result<Vec<Margins>, ProofError> = seeds
+    let of_seeds: Result<Vec<Margins>> = seeds
         .clone()
         .into_par_iter()
         .progress_with(progress_bar(seeds.end - seeds.start, "seeds"))
-        .map(|seed| built.margins(seed, mistake_seeds.contains(&seed)))
+        .map(|seed| {
+            let is_wanted = mistake_seeds.contains(&seed);
+            let mistakes = if is_wanted { mistakes } else { &[] };
+            let exam = exams::generate("calibration", Seed(seed), &solutions.recorder)?;
+            margins(seed, &exam, variants, mistakes)
+        })
         .collect();
     Ok(Calibration {
         seeds,
@@ -90,73 +101,38 @@ pub fn calibrate(
     })
 }
 
-/// All solutions and their programs.
-struct BuiltSolutions<'a> {
-    solutions: &'a Solutions,
-    /// The built variants, in the order of `solutions`.
-    variants: Vec<BuiltSolution>,
-    /// The built mistakes, in the order of `solutions`.
-    mistakes: Vec<BuiltSolution>,
-}
-
-impl<'a> BuiltSolutions<'a> {
-    fn build(solutions: &'a Solutions) -> Result<Self, WorkbenchError> {
-        let variants = solutions.variants.iter();
-        let variants = variants.map(|(variant, sources)| (&variant.id, sources));
-        let mistakes = solutions.mistakes.iter();
-        let mistakes = mistakes.map(|(mistake, sources)| (&mistake.id, sources));
-        let build = |(id, sources): (&String, &Sources)| solutions.workbench.build(sources, id);
-        let all: Vec<_> = variants.chain(mistakes).collect();
-        let count = all.len() as u64;
-        let built = all
-            .into_par_iter()
-            .progress_with(progress_bar(count, "solutions built"))
-            .map(build);
-        let mut variants = built.collect::<Result<Vec<BuiltSolution>, WorkbenchError>>()?;
-        let mistakes = variants.split_off(solutions.variants.len());
-        Ok(BuiltSolutions {
-            solutions,
-            variants,
-            mistakes,
-        })
-    }
-
-    /// Measures the margins with the exam of one seed.
-    fn margins(&self, seed: u64, with_mistakes: bool) -> Result<Margins, ProofError> {
-        let exam = exams::generate("calibration", Seed(seed), &self.solutions.recorder)?;
-        let sample = |deviation, solution: &str, item: &str| DeviationSample {
-            deviation,
-            solution: solution.to_owned(),
-            item: item.to_owned(),
-            seed,
-        };
-        let mut margins = Margins::default();
-        let assignment = self.solutions.workbench.handed_out().assignment;
-
-        for ((variant, _), solution) in self.solutions.variants.iter().zip(&self.variants) {
-            let exam = tasks_and_dependents(&exam, &variant.tasks(assignment));
-            for item in &exam.items {
-                let answers = solution.answers(item).map_err(WorkbenchError::from)?;
-                let may_lose = variant.may_lose.contains(&item.id);
-                for deviation in deviations::of_correct(item, &answers, may_lose) {
-                    margins.add_correct(sample(deviation, &variant.id, &item.id));
-                }
+/// Measures the margins with the exam of one seed.
+fn margins(
+    seed: u64,
+    exam: &Exam,
+    variants: &[(&Solution, BuiltSolution)],
+    mistakes: &[(&Solution, BuiltSolution)],
+) -> Result<Margins> {
+    let sample = |deviation, solution: &Solution, item: &Item| DeviationSample {
+        deviation,
+        solution: solution.id.clone(),
+        item: item.id.clone(),
+        seed,
+    };
+    let mut margins = Margins::default();
+    for (variant, built) in variants {
+        for item in &tasks_and_dependents(exam, &variant.expected.tasks).items {
+            let may_lose = variant.expected.may_lose.contains(&item.id);
+            for deviation in deviations::of_correct(item, &built.answers(item)?, may_lose) {
+                margins.add_correct(sample(deviation, variant, item));
             }
         }
-
-        let mistakes = self.solutions.mistakes.iter().zip(&self.mistakes);
-        for ((mistake, _), solution) in mistakes.filter(|_| with_mistakes) {
-            let must_fail = |id: &String| mistake.fails.contains(id);
-            let items = exam.items.iter().filter(|item| must_fail(&item.id));
-            let samples: Result<Vec<_>, ProofError> = items
-                .map(|item| {
-                    let answers = solution.answers(item).map_err(WorkbenchError::from)?;
-                    let deviation = deviations::of_mistake(item, &answers);
-                    Ok(sample(deviation, &mistake.id, &item.id))
-                })
-                .collect();
-            margins.add_mistake_of_exam(samples?);
-        }
-        Ok(margins)
     }
+    for (mistake, built) in mistakes {
+        let must_fail = |item: &&Item| mistake.expected.fails.contains(&item.id);
+        let items = exam.items.iter().filter(must_fail);
+        let samples: Result<Vec<_>> = items
+            .map(|item| {
+                let deviation = deviations::of_mistake(item, &built.answers(item)?);
+                Ok(sample(deviation, mistake, item))
+            })
+            .collect();
+        margins.add_mistake_of_exam(samples?);
+    }
+    Ok(margins)
 }

@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
 
-use grader::files::{self, PathError};
+use anyhow::{Result, bail};
+use grader::files;
 use judging::judge::Threshold;
 
 use crate::generated_file::GeneratedFile;
@@ -25,26 +26,16 @@ pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
     GeneratedFile::new(PATH, text)
 }
 
-/// The reason why the table fails the check.
-#[derive(Debug, thiserror::Error)]
-pub enum TableError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// Thresholds have changed since the table was written.
-    #[error(
-        "{PATH} is out of date for these thresholds: {}; run `cargo author calibrate`",
-        .0.join(", ")
-    )]
-    Outdated(Vec<&'static str>),
-}
-
 /// Checks that the table of the workspace at `root` contains the current value of every threshold.
-pub fn check(root: &Path) -> Result<(), TableError> {
-    match outdated_thresholds(&files::read_to_string(root.join(PATH))?) {
-        outdated if outdated.is_empty() => Ok(()),
-        outdated => Err(TableError::Outdated(outdated)),
+pub fn check(root: &Path) -> Result<()> {
+    let outdated = outdated_thresholds(&files::read_to_string(root.join(PATH))?);
+    if !outdated.is_empty() {
+        bail!(
+            "{PATH} is out of date for these thresholds: {}; run `cargo author calibrate`",
+            outdated.join(", ")
+        );
     }
+    Ok(())
 }
 
 /// Returns the thresholds whose current values are not in the table.

@@ -5,29 +5,20 @@ use judging::exam::{Exam, Item};
 use judging::observe::observe;
 use judging::signatures::ObservedAnswer;
 
-use crate::proof::ProofError;
-use crate::solutions::Solutions;
-use crate::solutions::catalogue::Mistake;
-use crate::solutions::sources::Sources;
-use crate::solutions::workbench::WorkbenchError;
+use crate::solutions::workbench::Answers;
 
-/// Returns the items of a mistake's task in which a solution's answers are not those that the exam
-/// has recorded of the mistake, each with the number of answers that differ.
-pub fn items_unlike_signature(
-    solutions: &Solutions,
+/// Returns the items in which a solution's answers are not those that the exam has recorded of a known
+/// mistake, each with the number of answers that differ.
+pub(super) fn items_unlike_signature(
     exam: &Exam,
-    mistake: &Mistake,
-    sources: &Sources,
-) -> Result<Vec<String>, ProofError> {
-    let solution = solutions.workbench.build(sources, &mistake.id)?;
-    let index = exam
-        .mistakes
-        .iter()
-        .position(|known| known.id == mistake.id);
+    mistake: &str,
+    answers: &[(&Item, Answers)],
+) -> Vec<String> {
+    let mut known = exam.mistakes.iter();
+    let index = known.position(|known| known.id == mistake);
     let mut unlike = Vec::new();
-    for item in exam.items.iter().filter(|item| item.task == mistake.task()) {
+    for (item, answers) in answers {
         let recorded = recorded_answers(item, index);
-        let answers = solution.answers(item).map_err(WorkbenchError::from)?;
         let got = answers.as_deref().map(|answers| observe(item, answers));
         let elements = item.signatures.elements.iter().zip(&recorded);
         let differing = elements.filter(|(element, recorded)| {
@@ -45,7 +36,7 @@ pub fn items_unlike_signature(
             unlike.push(format!("{} ({count} of {of})", item.id));
         }
     }
-    Ok(unlike)
+    unlike
 }
 
 /// Returns the answers to an item's signature elements that the exam has recorded of a mistake.

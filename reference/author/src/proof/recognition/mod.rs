@@ -1,49 +1,75 @@
 //! Measures the quality of hints: whether known mistakes are recognised, alone, in pairs and in
 //! other solutions, and whether an unknown mistake gets a hint that is not true of it.
 
+mod catalogue;
 mod difference;
-mod independent;
-mod pairs;
-mod single;
-mod unknown;
+mod known;
 
 use std::collections::BTreeSet;
+use std::fmt;
 
+use anyhow::Result;
 use grader::probe::Fault;
-use judging::exam::Exam;
+use judging::exam::{Exam, Item};
 use judging::recognise::Observations;
 
-pub use independent::{IndependentRecognition, RecognisedIndependent, recognise_independent};
-pub use pairs::{PairRecognition, recognise_pairs};
-pub use single::{Recognition, recognise, recognise_with_seeds};
-pub use unknown::{UnknownRecognition, recognise_unknown};
+pub use catalogue::{recognise_independent, recognise_unknown};
+pub use known::{recognise, recognise_pairs, recognise_with_seeds};
 
-use crate::proof::ProofError;
-use crate::solutions::Solutions;
-use crate::solutions::catalogue::Mistake;
-use crate::solutions::sources::Sources;
-use crate::solutions::workbench::WorkbenchError;
+use crate::solutions::solution::Solution;
+use crate::solutions::workbench::{Answers, BuiltSolution};
 
-/// Runs a solution on the items of a mistake's task, and records its answers.
-fn observe(
-    solutions: &Solutions,
-    exam: &Exam,
-    mistake: &Mistake,
-    sources: &Sources,
-) -> Result<Observations, ProofError> {
-    let solution = solutions.workbench.build(sources, &mistake.id)?;
-    let mut observations = Observations::default();
-    let items = exam.items.iter().filter(|item| item.task == mistake.task());
-    for item in items {
-        let answers = solution.answers(item).map_err(WorkbenchError::from)?;
-        observations.record(item, answers.as_deref().map_err(Fault::no_answer_reason));
-    }
-    Ok(observations)
+/// How solutions are recognised by the hints that they get.
+#[derive(Debug, Default)]
+pub struct Recognition {
+    /// The number of solutions that can be recognised.
+    pub count: usize,
+    /// The number of solutions that get a true hint, and none that is false.
+    pub recognised: usize,
+    /// The number of solutions that get a false hint: known mistakes, if their own were unknown.
+    pub misled: usize,
+    /// The solutions that lose no points in their task, or points in another task, one line each.
+    pub problems: Vec<String>,
+    /// The solutions that are worth a line.
+    pub lines: Vec<String>,
+    /// The result as one line.
+    pub summary_line: String,
 }
 
-/// Returns the ids of the mistakes whose hints appear at any item of a mistake's task.
-fn hints(observations: &Observations, exam: &Exam, mistake: &Mistake) -> BTreeSet<String> {
-    let items = exam.items.iter().filter(|item| item.task == mistake.task());
+impl fmt::Display for Recognition {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        for line in &self.lines {
+            writeln!(f, "{line}")?;
+        }
+        f.write_str(&self.summary_line)
+    }
+}
+
+/// Runs a solution on the items of its task, each in a new process.
+fn answers<'e>(
+    solution: &Solution,
+    built: &BuiltSolution,
+    exam: &'e Exam,
+) -> Result<Vec<(&'e Item, Answers)>> {
+    let items = exam.items.iter();
+    let items = items.filter(|item| item.task == solution.task());
+    items.map(|item| Ok((item, built.answers(item)?))).collect()
+}
+
+/// Returns the ids of the mistakes whose hints appear at any item with these answers. `exam` is that
+/// of the items, possibly without some hints.
+fn hints(answers: &[(&Item, Answers)], exam: &Exam) -> BTreeSet<String> {
+    let mut observations = Observations::default();
+    for (item, answers) in answers {
+        observations.record(item, answers.as_deref().map_err(Fault::no_answer_reason));
+    }
+    let is_answered = |item: &&Item| answers.iter().any(|(other, _)| other.id == item.id);
+    let items = exam.items.iter().filter(is_answered);
     let hints = items.flat_map(|item| observations.explain(exam, item));
     hints.map(|hint| hint.id.clone()).collect()
+}
+
+/// Lists the ids of hints in a sentence.
+fn list(hints: &BTreeSet<String>) -> String {
+    Vec::from_iter(hints.iter().cloned()).join(" or ")
 }

@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
+use anyhow::{Result, bail};
 use serde::Deserialize;
 
-use crate::solutions::toml_file::{TomlFileError, read_toml};
+use crate::solutions::toml_file::read_toml;
 
 /// The path of the list, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";
@@ -20,19 +21,8 @@ pub struct EquivalentMutant {
     pub why: String,
 }
 
-/// The reason why the list cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum EquivalentsError {
-    /// The file cannot be read or is invalid.
-    #[error(transparent)]
-    Toml(#[from] TomlFileError),
-    /// An entry has no reason, or a name occurs twice.
-    #[error("{PATH}: `{0}` must have a reason and occur only once")]
-    Entry(String),
-}
-
 /// Reads the list of the workspace at `root`.
-pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, EquivalentsError> {
+pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
@@ -43,7 +33,7 @@ pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>, Equivale
     for (index, EquivalentMutant { name, why }) in all.iter().enumerate() {
         let is_duplicate = all[..index].iter().any(|other| other.name == *name);
         if is_duplicate || why.trim().is_empty() {
-            return Err(EquivalentsError::Entry(name.clone()));
+            bail!("{PATH}: `{name}` must have a reason and occur only once");
         }
     }
     Ok(all)

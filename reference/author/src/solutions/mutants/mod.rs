@@ -4,21 +4,25 @@
 pub mod equivalent;
 mod families;
 mod state;
+mod visit;
 
 use std::collections::BTreeMap;
 
-use grader::handed_out::HandedOut;
+use anyhow::{Context, Result};
 
+use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
 
 /// Returns all mutants, sorted by name. A name consists of the file, the family, the change and the
 /// function; changes that are alike are numbered.
-pub fn mutants(handed_out: &HandedOut, reference: &Sources) -> syn::Result<Vec<(String, Sources)>> {
-    let mut found = BTreeMap::new();
-    for file in handed_out.files {
+pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
+    let mut found = Vec::new();
+    for file in reference.handed_out().files {
         let text = reference.text(file.name).unwrap_or_default();
         let mut numbers: BTreeMap<String, u32> = BTreeMap::new();
-        for change in families::changes(text)? {
+        for change in
+            families::changes(text).with_context(|| format!("cannot parse {}", file.name))?
+        {
             let what = change.what.split_whitespace().collect::<Vec<_>>().join(" ");
             let name = format!("{}: {what}, in {}", file.name, change.function);
             let number = numbers.entry(name.clone()).or_default();
@@ -29,10 +33,16 @@ pub fn mutants(handed_out: &HandedOut, reference: &Sources) -> syn::Result<Vec<(
             };
             let (before, after) = (&text[..change.bytes.start], &text[change.bytes.end..]);
             let text = format!("{before}{}{after}", change.now);
-            found.insert(name, reference.clone().with_file(file.name, text));
+            found.push(Solution {
+                id: name,
+                title: String::new(),
+                sources: reference.clone().with_file(file.name, text),
+                expected: Expected::default(),
+            });
         }
     }
-    Ok(found.into_iter().collect())
+    found.sort_by(|a, b| a.id.cmp(&b.id));
+    Ok(found)
 }
 
 #[cfg(test)]
@@ -47,7 +57,7 @@ mod tests {
     fn every_family_changes_every_file_and_nothing_else() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let reference = Sources::reference(&root, &RAYS).expect("the reference can be read");
-        let all = mutants(&RAYS, &reference).expect("the reference is Rust code");
+        let all = mutants(&reference).expect("the reference is Rust code");
         assert!(all.len() > 700, "only {} mutants", all.len());
         for family in [
             "operator",
@@ -63,20 +73,16 @@ mod tests {
         ] {
             let family = format!(": {family}: ");
             assert!(
-                all.iter().any(|(name, _)| name.contains(&family)),
+                all.iter().any(|mutant| mutant.id.contains(&family)),
                 "{family}"
             );
         }
-        for (name, sources) in &all {
+        for Solution { id, sources, .. } in &all {
             let changed = RAYS.files.iter();
             let changed =
                 changed.filter(|file| sources.text(file.name) != reference.text(file.name));
             let changed: Vec<&str> = changed.map(|file| file.name).collect();
-            assert_eq!(
-                changed,
-                [name.split(':').next().unwrap_or_default()],
-                "{name}"
-            );
+            assert_eq!(changed, [id.split(':').next().unwrap_or_default()], "{id}");
         }
     }
 }

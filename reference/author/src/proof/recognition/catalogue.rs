@@ -1,0 +1,134 @@
+//! Mistakes that the exam does not know as they are: known ones in variants, and those of no known kind.
+
+use std::collections::BTreeSet;
+
+use anyhow::Result;
+use grader::clue::KEPT_STATE;
+use judging::exam::Exam;
+
+use super::difference::items_unlike_signature;
+use super::{Recognition, answers, hints, list};
+use crate::proof::grade::Graded;
+use crate::proof::run::run;
+use crate::solutions::Solutions;
+use crate::solutions::catalogue::{independent_mistakes, unknown_mistakes};
+use crate::solutions::solution::Solution;
+
+/// What the report says about a mistake.
+struct ReportedMistake {
+    /// The id of the mistake, and that of the variant that makes it.
+    id: String,
+    /// The hints that are true of it.
+    true_hints: BTreeSet<String>,
+    /// The hints that are false.
+    false_hints: BTreeSet<String>,
+    /// Whether the report says rightly or wrongly that state is kept between calls, if it does.
+    names_state: Option<bool>,
+    /// If it gets no true hint, the items that it answers unlike the same mistake in the reference.
+    unlike: Vec<String>,
+    /// A message if the code loses no points in its task, or points in another task.
+    problems: Vec<String>,
+}
+
+/// Grades solutions, and determines their hints.
+fn report(
+    solutions: &Solutions,
+    mistakes: &[Solution],
+    exam: &Exam,
+) -> Result<Vec<ReportedMistake>> {
+    let rows = run(
+        &solutions.workbench,
+        mistakes,
+        "mistakes",
+        |mistake, built| {
+            let graded = Graded::new(mistake, &built, exam)?;
+            let mut clues = graded.score.items().filter_map(|item| item.clue.as_deref());
+            let names_state = clues.any(|clue| clue == KEPT_STATE);
+            let made = &mistake.expected.true_hints;
+            let is_true = |hint: &String| {
+                let mut made = made.iter();
+                made.any(|made| solutions.is_hint_true_of(hint, made))
+            };
+            let answers = answers(mistake, &built, exam)?;
+            let hints = hints(&answers, exam).into_iter();
+            let (true_hints, false_hints): (BTreeSet<String>, _) = hints.partition(is_true);
+            let unlike = match made.first() {
+                Some(known) if true_hints.is_empty() => {
+                    items_unlike_signature(exam, known, &answers)
+                }
+                _ => Vec::new(),
+            };
+            Ok(ReportedMistake {
+                id: mistake.id.clone(),
+                true_hints,
+                false_hints,
+                names_state: names_state.then_some(mistake.expected.keeps_state),
+                unlike,
+                problems: graded.task_problems(),
+            })
+        },
+    )?;
+    Ok(rows.into_iter().map(|(_, row)| row).collect())
+}
+
+/// Grades every independent mistake, and determines its hints.
+pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
+    let rows = report(solutions, &independent_mistakes(solutions)?, exam)?;
+    let mut recognition = Recognition {
+        count: rows.len(),
+        ..Recognition::default()
+    };
+    for row in rows {
+        let id = row.id;
+        let is_named = !row.true_hints.is_empty() || row.names_state == Some(true);
+        recognition.lines.push(if !row.false_hints.is_empty() {
+            recognition.misled += 1;
+            format!("{id}: false hint {}", list(&row.false_hints))
+        } else if row.names_state == Some(false) {
+            recognition.misled += 1;
+            format!("{id}: said to keep state, which it does not")
+        } else if is_named {
+            recognition.recognised += 1;
+            format!("{id}: recognised")
+        } else {
+            let unlike = row.unlike.join(", ");
+            format!("{id}: no hint; unlike in the reference: {unlike}")
+        });
+        recognition.problems.extend(row.problems);
+    }
+    let Recognition {
+        count,
+        recognised,
+        misled,
+        ..
+    } = recognition;
+    recognition.summary_line = format!(
+        "mistakes in other solutions: {recognised} of {count} recognised ({:.0} %), {} get no \
+         hint, {misled} a false one",
+        100.0 * recognised as f64 / count.max(1) as f64,
+        count - recognised - misled,
+    );
+    Ok(recognition)
+}
+
+/// Grades every unknown mistake, and determines its hints.
+pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
+    let rows = report(solutions, &unknown_mistakes(solutions)?, exam)?;
+    let misled = rows.iter().filter(|row| !row.false_hints.is_empty());
+    let lines: Vec<String> = misled
+        .map(|row| format!("{}: false hint {}", row.id, list(&row.false_hints)))
+        .collect();
+    let hinted = rows.iter().filter(|row| !row.true_hints.is_empty());
+    Ok(Recognition {
+        count: rows.len(),
+        recognised: hinted.count(),
+        misled: lines.len(),
+        summary_line: format!(
+            "mistakes of no known kind: {}, {} get a hint that is false",
+            rows.len(),
+            lines.len()
+        ),
+        lines,
+        problems: rows.into_iter().flat_map(|row| row.problems).collect(),
+    })
+}

@@ -1,0 +1,202 @@
+//! Known mistakes in the reference: one at a time, known and left out of the exam, and two at once.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use anyhow::Result;
+use judging::exam::Exam;
+
+use super::{Recognition, answers, hints, list};
+use crate::exams;
+use crate::hints::with_hints;
+use crate::proof::run::{run, run_compiled};
+use crate::seed::Seed;
+use crate::solutions::Solutions;
+use crate::solutions::catalogue::Mistake;
+use crate::solutions::solution::Solution;
+
+/// The hints that a known mistake gets with one exam.
+struct KnownHints {
+    /// The id of the mistake.
+    id: String,
+    /// The hints with the exam as it is.
+    hints: BTreeSet<String>,
+    /// The hints that are not true of it, with the exam without the mistake's own hint.
+    if_unknown: BTreeSet<String>,
+    /// Whether the exam has a signature of it. There is none if only pictures show it, if it gives no
+    /// answers, or if too many other mistakes give the same answers.
+    has_signature: bool,
+}
+
+/// Runs every known mistake and determines its hints, once with the exam as it is and once without the
+/// mistake's own hint.
+pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
+    Ok(summary(solutions, &known_hints(solutions, exam)?))
+}
+
+/// Does the same with the final exams of some seeds, and adds up the results.
+pub fn recognise_with_seeds(solutions: &Solutions, seeds: Range<u64>) -> Result<Recognition> {
+    let mut all = Vec::new();
+    for seed in seeds {
+        let exam = exams::generate("final", Seed(seed), &solutions.recorder)?;
+        let found = known_hints(solutions, &with_hints(exam, solutions)?)?;
+        eprintln!("seed {seed}: {}", summary(solutions, &found).summary_line);
+        all.extend(found);
+    }
+    Ok(summary(solutions, &all))
+}
+
+fn known_hints(solutions: &Solutions, exam: &Exam) -> Result<Vec<KnownHints>> {
+    let mistakes = &solutions.mistakes;
+    let rows = run(
+        &solutions.workbench,
+        mistakes,
+        "mistakes",
+        |mistake, built| {
+            let answers = answers(mistake, &built, exam)?;
+            let mut if_unknown = hints(&answers, &without_hint(solutions, exam, &mistake.id));
+            if_unknown.retain(|hint| !solutions.is_hint_true_of(hint, &mistake.id));
+            Ok(KnownHints {
+                id: mistake.id.clone(),
+                hints: hints(&answers, exam),
+                if_unknown,
+                has_signature: has_signature(exam, &mistake.id),
+            })
+        },
+    )?;
+    Ok(rows.into_iter().map(|(_, row)| row).collect())
+}
+
+fn has_signature(exam: &Exam, id: &str) -> bool {
+    let index = exam.mistakes.iter().position(|mistake| mistake.id == id);
+    let signatures = exam.items.iter().map(|item| &item.signatures);
+    let mut answers = signatures.flat_map(|signatures| &signatures.mistake_answers);
+    index.is_some_and(|index| answers.any(|answers| answers.mistakes.contains(&(index as u32))))
+}
+
+/// Returns the exam without the signatures of the mistakes with the same hint.
+fn without_hint(solutions: &Solutions, exam: &Exam, id: &str) -> Exam {
+    let mut exam = exam.clone();
+    let mistakes = exam.mistakes.iter();
+    let has_hint: Vec<bool> = mistakes
+        .map(|mistake| solutions.have_same_hint(&mistake.id, id))
+        .collect();
+    for answers in exam
+        .items
+        .iter_mut()
+        .flat_map(|item| &mut item.signatures.mistake_answers)
+    {
+        let mistakes = &mut answers.mistakes;
+        mistakes.retain(|&mistake| !has_hint[mistake as usize]);
+    }
+    exam
+}
+
+/// Adds up the hints of known mistakes.
+fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
+    let is_recognised = |row: &&KnownHints| {
+        let mut hints = row.hints.iter();
+        hints.any(|hint| solutions.have_same_hint(hint, &row.id))
+    };
+    let (recognised, others): (Vec<_>, Vec<_>) = rows.iter().partition(is_recognised);
+    let (others, without_signature): (Vec<_>, Vec<_>) =
+        others.into_iter().partition(|row| row.has_signature);
+    let misled = rows.iter().filter(|row| !row.if_unknown.is_empty());
+    let (count, misled_count) = (recognised.len() + others.len(), misled.clone().count());
+
+    let others = others.into_iter().map(|row| match row.hints.len() {
+        0 => format!("{} gets no hint", row.id),
+        _ => format!("{} gets the hint {}", row.id, list(&row.hints)),
+    });
+    let misled = misled.map(|row| {
+        let hints = list(&row.if_unknown);
+        format!("{}, if unknown, gets the false hint {hints}", row.id)
+    });
+    let unmarked = without_signature.iter();
+    let unmarked = unmarked.map(|row| format!("{} has no signature", row.id));
+    Recognition {
+        count,
+        recognised: recognised.len(),
+        misled: misled_count,
+        problems: Vec::new(),
+        lines: others.chain(misled).chain(unmarked).collect(),
+        summary_line: format!(
+            "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a \
+             signature; when its hint is left out, {misled_count} of {} get one that is false",
+            recognised.len(),
+            100.0 * recognised.len() as f64 / count.max(1) as f64,
+            without_signature.len(),
+            rows.len(),
+        ),
+    }
+}
+
+/// Runs pairs of mistakes in the same task, and determines their hints: all pairs, or the given
+/// number of them, spread evenly.
+pub fn recognise_pairs(
+    solutions: &Solutions,
+    exam: &Exam,
+    count: Option<usize>,
+) -> Result<Recognition> {
+    let mistakes = &solutions.catalogue;
+    let pairs = mistakes.iter().enumerate().flat_map(|(index, one)| {
+        let later = mistakes[index + 1..].iter();
+        later
+            .filter(|other| other.task() == one.task())
+            .map(move |other| (one, other))
+    });
+    let pairs: Vec<_> = pairs.collect();
+    let chosen = count.map_or(pairs.len(), |count| count.clamp(1, pairs.len()));
+    let chosen = (0..chosen).map(|index| pairs[index * pairs.len() / chosen]);
+    let both: Vec<Option<Solution>> = chosen
+        .map(|(one, other)| both_mistakes(solutions, one, other))
+        .collect();
+    let rows = run_compiled(
+        &solutions.workbench,
+        both.iter().flatten(),
+        "pairs",
+        |pair, built| Ok(hints(&answers(pair, &built, exam)?, exam)),
+    )?;
+
+    let compiled: Vec<_> = rows
+        .into_iter()
+        .filter_map(|(pair, hints)| Some((pair, hints?)))
+        .collect();
+    let impossible = both.len() - compiled.len();
+    let (mut with_true_hint, mut without, mut misled) = (0, Vec::new(), Vec::new());
+    for (pair, hints) in compiled {
+        let [one, other] = &pair.expected.true_hints[..] else {
+            continue;
+        };
+        let is_true = |hint: &String| solutions.is_hint_true_of_pair(hint, [one, other]);
+        let (fits, others): (BTreeSet<String>, _) = hints.into_iter().partition(is_true);
+        with_true_hint += usize::from(!fits.is_empty());
+        if !others.is_empty() {
+            misled.push(format!("{} get the false hint {}", pair.id, list(&others)));
+        } else if fits.is_empty() {
+            without.push(format!("{} get no hint", pair.id));
+        }
+    }
+    Ok(Recognition {
+        count: both.len() - impossible,
+        recognised: with_true_hint,
+        misled: misled.len(),
+        problems: Vec::new(),
+        summary_line: format!(
+            "pairs: {with_true_hint} get a true hint, {} no hint, {} a false one; {impossible} change \
+             the same code",
+            without.len(),
+            misled.len(),
+        ),
+        lines: [without, misled].concat(),
+    })
+}
+
+/// Returns the reference with two mistakes, or `None` if there is no code that has both.
+fn both_mistakes(solutions: &Solutions, one: &Mistake, other: &Mistake) -> Option<Solution> {
+    let mut both = one.solution(solutions.recorder.reference()).ok()?;
+    both.sources = other.apply(&both.sources).ok()?;
+    both.id = format!("{} with {}", one.id, other.id);
+    both.expected.true_hints.push(other.id.clone());
+    Some(both)
+}

@@ -1,0 +1,45 @@
+//! A solution, correct or wrong, and what is expected of it.
+
+use judging::assignment::Task;
+
+use crate::solutions::sources::Sources;
+
+/// A solution of an assignment: the reference, a variant, or one of them with a mistake.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The id of the variant or mistake, the ids of a mistake and its variant, or a mutant's name.
+    pub id: String,
+    /// A description of its method, or of what the wrong code does.
+    pub title: String,
+    /// Its files.
+    pub sources: Sources,
+    /// What is expected of it.
+    pub expected: Expected,
+}
+
+/// What is expected of a solution.
+#[derive(Clone, Debug, Default)]
+pub struct Expected {
+    /// The tasks that it is about. A wrong solution must lose points in the first of them, and may
+    /// lose some in the others.
+    pub tasks: Vec<Task>,
+    /// The only items in which a correct solution may lose points.
+    pub may_lose: Vec<String>,
+    /// The items that a wrong solution fails with every seed.
+    pub fails: Vec<String>,
+    /// The known mistakes whose hints are true of it.
+    pub true_hints: Vec<String>,
+    /// Whether the code keeps something from one call to the next.
+    pub keeps_state: bool,
+}
+
+impl Solution {
+    /// Returns the task that a wrong solution must lose points in.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the solution is a mutant, which is about no task in particular.
+    pub fn task(&self) -> Task {
+        self.expected.tasks[0]
+    }
+}

@@ -85,8 +85,10 @@ fn with_attacks(
     workspace: &Path,
 ) -> Result<Vec<(&'static str, String)>> {
     for (attacked, head, entry) in ATTACKS {
-        let path = workspace.join(CORPUS).join(entry).join("attack.rs");
-        let mut attack = files::read_to_string(path)?;
+        let text = files::read_to_string(workspace.join(CORPUS).join(format!("{entry}.rs")))?;
+        // The entry's description is for the corpus.
+        let code = text.lines().filter(|line| !line.starts_with("//!"));
+        let mut attack: String = code.flat_map(|line| [line, "\n"]).collect();
         for (placeholder, path) in TARGETS {
             attack = attack.replace(placeholder, path);
         }

@@ -4,13 +4,8 @@ use protocol::{ElementOutcome, Ray, Shape, Trace};
 
 use crate::describe;
 use crate::exam::{ExpectedHit, HitCheck};
-use crate::judge::measure::{
-    DIRECTION, LENGTH, direction_error, length_error, point_error, unit_error, uv_error,
-};
-use crate::judge::{
-    Comparison, Deviation, FailureKind, Judgement, Measurement, Threshold, judge_table,
-    measure_table, scale,
-};
+use crate::judge::quantity::Quantity;
+use crate::judge::{Deviation, FailureKind, Table, scale};
 
 /// The submitted hits and their key. Every hit must be correct.
 pub(super) struct Hits<'a> {
@@ -21,128 +16,51 @@ pub(super) struct Hits<'a> {
     pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
 }
 
-impl Comparison for Hits<'_> {
-    fn judge(&self) -> Judgement {
-        judge_table(self.answers, self.hits.len(), |element, got| {
-            match (got, &self.hits[element]) {
-                (None, None) => None,
-                (Some(trace), None) => Some(FailureKind::Wrong {
+impl Table for Hits<'_> {
+    type Value = Option<Trace>;
+
+    fn outcomes(&self) -> &[ElementOutcome<Option<Trace>>] {
+        self.answers
+    }
+
+    fn count(&self) -> usize {
+        self.hits.len()
+    }
+
+    fn deviations(&self, element: usize, got: &Option<Trace>) -> Vec<Deviation> {
+        let (ray, hit) = (&self.rays[element], &self.hits[element]);
+        match (got, hit) {
+            (None, None) => Vec::new(),
+            (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
+            (Some(got), Some(hit)) => {
+                let scale = scale::of_hit(self.shapes, ray, Some(hit.distance));
+                let wanted = hit.to_trace(ray);
+                let deviation = |check: &HitCheck| {
+                    let quantity = |trace| Quantity::of_hit(*check, trace);
+                    quantity(got).deviation(quantity(&wanted), scale)
+                };
+                self.checks.iter().map(deviation).collect()
+            }
+        }
+    }
+
+    fn failure(&self, element: usize, got: &Option<Trace>, check: usize) -> FailureKind {
+        match (got, &self.hits[element]) {
+            (Some(got), Some(hit)) => {
+                let quantity = |trace| Quantity::of_hit(self.checks[check], trace);
+                quantity(got).failure(quantity(&hit.to_trace(&self.rays[element])))
+            }
+            (got, wanted) => {
+                let text =
+                    |distance: Option<f32>| distance.map_or("no hit".to_owned(), describe::hit_at);
+                FailureKind::Wrong {
                     what: "hit or miss".to_owned(),
-                    got: describe::hit_at(trace.distance),
-                    wanted: "no hit".to_owned(),
-                }),
-                (None, Some(hit)) => Some(FailureKind::Wrong {
-                    what: "hit or miss".to_owned(),
-                    got: "no hit".to_owned(),
-                    wanted: describe::hit_at(hit.distance),
-                }),
-                (Some(trace), Some(hit)) => {
-                    let (ray, scale) = (&self.rays[element], self.scale(element, hit));
-                    let mut checks = self.checks.iter();
-                    checks.find_map(|part| failed_check(*part, ray, scale, trace, hit))
+                    got: text(got.map(|trace| trace.distance)),
+                    wanted: text(wanted.as_ref().map(|hit| hit.distance)),
                 }
             }
-        })
+        }
     }
-
-    fn measure(&self) -> Vec<Measurement> {
-        measure_table(self.answers, self.hits.len(), |element, got| {
-            match (got, &self.hits[element]) {
-                (None, None) => Vec::new(),
-                (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
-                (Some(trace), Some(hit)) => {
-                    let (ray, scale) = (&self.rays[element], self.scale(element, hit));
-                    let checks = self.checks.iter();
-                    checks
-                        .map(|part| deviation(*part, ray, scale, trace, hit))
-                        .collect()
-                }
-            }
-        })
-    }
-}
-
-impl Hits<'_> {
-    fn scale(&self, element: usize, hit: &ExpectedHit) -> f32 {
-        scale::of_hit(self.shapes, &self.rays[element], Some(hit.distance))
-    }
-}
-
-/// Returns how far one part of a traced hit deviates from the expected hit.
-fn deviation(part: HitCheck, ray: &Ray, scale: f32, trace: &Trace, hit: &ExpectedHit) -> Deviation {
-    let (threshold, error) = match part {
-        HitCheck::Distance => (
-            Threshold::Distance,
-            length_error(trace.distance, hit.distance, scale, LENGTH),
-        ),
-        HitCheck::Position => (
-            Threshold::Position,
-            point_error(trace.position, hit.position, scale),
-        ),
-        HitCheck::Normal => (
-            Threshold::Normal,
-            direction_error(trace.normal, hit.normal, DIRECTION),
-        ),
-        HitCheck::UnitNormal => (Threshold::UnitLength, unit_error(trace.normal)),
-        HitCheck::Uv => (Threshold::Uv, uv_error(trace.uv, hit.uv)),
-        HitCheck::Origin => (
-            Threshold::Origin,
-            point_error(trace.origin, ray.origin, scale),
-        ),
-        HitCheck::Material => return Deviation::binary(trace.material == hit.material),
-    };
-    Deviation::new(threshold, error)
-}
-
-/// Returns the error in one part of a hit, or `None` if that part is correct.
-fn failed_check(
-    part: HitCheck,
-    ray: &Ray,
-    scale: f32,
-    trace: &Trace,
-    hit: &ExpectedHit,
-) -> Option<FailureKind> {
-    if deviation(part, ray, scale, trace, hit).is_right() {
-        return None;
-    }
-    let (what, got, wanted) = match part {
-        HitCheck::Distance => (
-            "distance",
-            describe::number(trace.distance),
-            describe::number(hit.distance),
-        ),
-        HitCheck::Position => (
-            "position",
-            describe::point(trace.position),
-            describe::point(hit.position),
-        ),
-        HitCheck::Normal => (
-            "normal",
-            describe::point(trace.normal),
-            describe::point(hit.normal),
-        ),
-        HitCheck::UnitNormal => (
-            "length of the normal",
-            describe::number(trace.normal.length()),
-            describe::number(1.0),
-        ),
-        HitCheck::Uv => ("uv", describe::uv(trace.uv), describe::uv(hit.uv)),
-        HitCheck::Origin => (
-            "origin",
-            describe::point(trace.origin),
-            describe::point(ray.origin),
-        ),
-        HitCheck::Material => (
-            "material",
-            trace.material.to_string(),
-            hit.material.to_string(),
-        ),
-    };
-    Some(FailureKind::Wrong {
-        what: what.to_owned(),
-        got,
-        wanted,
-    })
 }
 
 #[cfg(test)]
@@ -153,6 +71,7 @@ mod tests {
     use super::*;
     use crate::exam::{ExamQuestion, Key};
     use crate::judge::judge;
+    use crate::judge::measure::LENGTH;
 
     #[test]
     fn an_error_is_judged_by_the_scale_of_its_ray() {

@@ -7,8 +7,9 @@ mod first_hits;
 mod hits;
 pub(crate) mod measure;
 mod mismatch;
+pub(crate) mod quantity;
 mod radiance;
-mod rays;
+pub(crate) mod rays;
 pub(crate) mod scale;
 mod spans;
 mod threshold;
@@ -21,7 +22,7 @@ use crate::exam::{ExamQuestion, Key};
 use first_hits::FirstHits;
 use hits::Hits;
 use radiance::Radiance;
-use rays::CameraRays;
+use rays::{CameraRays, RayPicture};
 use spans::Spans;
 use tree::TreeAnswer;
 
@@ -139,12 +140,15 @@ fn comparison<'a>(
 
     Some(match (&question.key, answer, &question.question) {
         (Key::Rays { checks, directions }, Answer::Rays(rays), Q::Camera { samples, .. }) => {
-            Box::new(CameraRays {
+            let rays = CameraRays {
                 checks,
                 directions,
                 rays,
-                is_picture: matches!(samples, Samples::EveryPixel),
-            })
+            };
+            match samples {
+                Samples::EveryPixel => Box::new(RayPicture(rays)),
+                Samples::List(_) => Box::new(rays),
+            }
         }
         (
             Key::Hits { checks, hits },
@@ -219,49 +223,63 @@ fn comparison<'a>(
     })
 }
 
-/// Judges a table in which every element must be correct. `wrong` receives an element's index and
-/// value, and returns the error if there is one.
-fn judge_table<T>(
-    outcomes: &[ElementOutcome<T>],
-    wanted: usize,
-    wrong: impl Fn(usize, &T) -> Option<FailureKind>,
-) -> Judgement {
-    if outcomes.len() != wanted {
-        return Judgement::protocol("the number of answers differs from the number of questions");
-    }
-    let mut failures = outcomes
-        .iter()
-        .enumerate()
-        .filter_map(|(element, outcome)| {
+/// A table: an answer with several elements, each of which must be correct.
+trait Table {
+    /// The value of an element.
+    type Value;
+
+    /// Returns the submitted elements.
+    fn outcomes(&self) -> &[ElementOutcome<Self::Value>];
+
+    /// Returns the number of elements in the key.
+    fn count(&self) -> usize;
+
+    /// Returns the deviations of all checks on an element.
+    fn deviations(&self, element: usize, value: &Self::Value) -> Vec<Deviation>;
+
+    /// Returns the error of an element whose deviation with this index is the first wrong one.
+    fn failure(&self, element: usize, value: &Self::Value, check: usize) -> FailureKind;
+}
+
+impl<T: Table> Comparison for T {
+    fn judge(&self) -> Judgement {
+        let wanted = self.count();
+        if self.outcomes().len() != wanted {
+            return Judgement::protocol(
+                "the number of answers differs from the number of questions",
+            );
+        }
+        let outcomes = self.outcomes().iter().enumerate();
+        let mut failures = outcomes.filter_map(|(element, outcome)| {
             let kind = match outcome {
-                ElementOutcome::Value(value) => wrong(element, value),
+                ElementOutcome::Value(value) => {
+                    let deviations = self.deviations(element, value);
+                    let wrong = deviations.iter().position(|check| !check.is_right());
+                    wrong.map(|check| self.failure(element, value, check))
+                }
                 ElementOutcome::Panicked(panic) => Some(FailureKind::Panicked(panic.clone())),
                 // Elements are skipped only after panics, so this is never the first failure.
                 ElementOutcome::Skipped => Some(FailureKind::Protocol("skipped".to_owned())),
             };
             Some((element, kind?))
         });
-    match failures.next() {
-        None => Judgement::RIGHT,
-        Some((element, kind)) => Judgement::wrong(Failure {
-            element,
-            kind,
-            count: Some((1 + failures.count(), wanted)),
-        }),
+        match failures.next() {
+            None => Judgement::RIGHT,
+            Some((element, kind)) => Judgement::wrong(Failure {
+                element,
+                kind,
+                count: Some((1 + failures.count(), wanted)),
+            }),
+        }
     }
-}
 
-/// Measures a table. `of_value` receives an element's index and value, and returns the deviations.
-fn measure_table<T>(
-    outcomes: &[ElementOutcome<T>],
-    wanted: usize,
-    of_value: impl Fn(usize, &T) -> Vec<Deviation>,
-) -> Vec<Measurement> {
-    if outcomes.len() != wanted {
-        return deviation::worst_by_threshold([Deviation::WRONG]);
+    fn measure(&self) -> Vec<Measurement> {
+        if self.outcomes().len() != self.count() {
+            return deviation::worst_by_threshold([Deviation::WRONG]);
+        }
+        let elements = self.outcomes().iter().enumerate();
+        deviation::worst_by_threshold(elements.flat_map(|(element, outcome)| {
+            deviation::outcome_deviations(outcome, |value| self.deviations(element, value))
+        }))
     }
-    let elements = outcomes.iter().enumerate();
-    deviation::worst_by_threshold(elements.flat_map(|(element, outcome)| {
-        deviation::outcome_deviations(outcome, |value| of_value(element, value))
-    }))
 }

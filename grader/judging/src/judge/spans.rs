@@ -4,10 +4,7 @@ use protocol::{ElementOutcome, Interval};
 
 use crate::describe;
 use crate::judge::measure::{LENGTH, length_error};
-use crate::judge::{
-    Comparison, Deviation, FailureKind, Judgement, Measurement, Threshold, judge_table,
-    measure_table,
-};
+use crate::judge::{Deviation, FailureKind, Table, Threshold};
 
 /// The submitted intervals and their key. Every interval must be correct.
 pub(super) struct Spans<'a> {
@@ -17,35 +14,19 @@ pub(super) struct Spans<'a> {
     pub(super) answers: &'a [ElementOutcome<Option<Interval>>],
 }
 
-impl Comparison for Spans<'_> {
-    fn judge(&self) -> Judgement {
-        judge_table(self.answers, self.spans.len(), |element, got| {
-            let wanted = self.spans[element];
-            if self.deviation(element, *got).is_right() {
-                return None;
-            }
-            let what = match (got, wanted) {
-                (Some(_), Some(_)) => "interval inside the box",
-                (Some(_), None) | (None, Some(_)) | (None, None) => "hit or miss",
-            };
-            Some(FailureKind::Wrong {
-                what: what.to_owned(),
-                got: describe::span(*got),
-                wanted: describe::span(wanted),
-            })
-        })
+impl Table for Spans<'_> {
+    type Value = Option<Interval>;
+
+    fn outcomes(&self) -> &[ElementOutcome<Option<Interval>>] {
+        self.answers
     }
 
-    fn measure(&self) -> Vec<Measurement> {
-        measure_table(self.answers, self.spans.len(), |element, got| {
-            vec![self.deviation(element, *got)]
-        })
+    fn count(&self) -> usize {
+        self.spans.len()
     }
-}
 
-impl Spans<'_> {
-    fn deviation(&self, element: usize, got: Option<Interval>) -> Deviation {
-        match (got, self.spans[element]) {
+    fn deviations(&self, element: usize, got: &Option<Interval>) -> Vec<Deviation> {
+        vec![match (got, self.spans[element]) {
             (None, None) => Deviation::RIGHT,
             (Some(_), None) | (None, Some(_)) => Deviation::WRONG,
             (Some(got), Some(wanted)) => {
@@ -53,6 +34,19 @@ impl Spans<'_> {
                 let (start, end) = (error(got.min, wanted.min), error(got.max, wanted.max));
                 Deviation::new(Threshold::Times, start.max(end))
             }
+        }]
+    }
+
+    fn failure(&self, element: usize, got: &Option<Interval>, _: usize) -> FailureKind {
+        let wanted = self.spans[element];
+        let what = match (got, wanted) {
+            (Some(_), Some(_)) => "interval inside the box",
+            (Some(_), None) | (None, Some(_)) | (None, None) => "hit or miss",
+        };
+        FailureKind::Wrong {
+            what: what.to_owned(),
+            got: describe::span(*got),
+            wanted: describe::span(wanted),
         }
     }
 }

@@ -5,11 +5,11 @@
 
 mod tree;
 
-use glam::Vec3;
 use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace};
 
 use crate::exam::{ExamQuestion, HitCheck, Item, Key, RayCheck};
-use crate::judge::measure::{DIRECTION, LENGTH, UV};
+use crate::judge::quantity::{Quantity, lengths_in_tolerances};
+use crate::judge::rays::expected_ray;
 use crate::judge::{FailureKind, judge, scale};
 use crate::signatures::{NoAnswerReason, ObservedAnswer};
 
@@ -29,15 +29,8 @@ pub fn expected(item: &Item) -> Vec<ObservedAnswer> {
 fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
     match &question.key {
         Key::Rays { checks, directions } => {
-            let ray = |dir| Ray {
-                origin: glam::Vec3::ZERO,
-                dir,
-                range: Interval::AHEAD,
-            };
-            directions
-                .iter()
-                .map(|&dir| observe_ray(checks, &ray(dir)))
-                .collect()
+            let rays = directions.iter().map(|dir| expected_ray(*dir));
+            rays.map(|ray| observe_ray(checks, &ray)).collect()
         }
         Key::Hits { checks, .. } => {
             let traces = expected_traces(question);
@@ -142,21 +135,8 @@ fn scales(question: &ExamQuestion) -> Vec<f32> {
 }
 
 fn observe_ray(checks: &[RayCheck], ray: &Ray) -> ObservedAnswer {
-    let part = |part: &RayCheck| match part {
-        RayCheck::Origin => lengths(&ray.origin.to_array(), 1.0),
-        RayCheck::Direction => direction(ray.dir),
-        RayCheck::UnitLength => vec![ray.dir.length() / DIRECTION],
-        // The range of a camera ray has no end. All mistakes that give it one are alike.
-        RayCheck::Range => {
-            let end = if ray.range.max.is_finite() {
-                0.0
-            } else {
-                ray.range.max
-            };
-            lengths(&[ray.range.min, end], 1.0)
-        }
-    };
-    ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
+    let numbers = |check: &RayCheck| Quantity::of_ray(*check, ray).in_tolerances(1.0);
+    ObservedAnswer::Numbers(checks.iter().flat_map(numbers).collect())
 }
 
 /// Returns the correct hit of each ray.
@@ -196,34 +176,14 @@ fn observe_checked(checks: &[HitCheck], trace: Option<&Trace>, scale: f32) -> Ob
     let Some(trace) = trace else {
         return ObservedAnswer::NoHit;
     };
-    let part = |part: &HitCheck| match part {
-        HitCheck::Distance => lengths(&[trace.distance], scale),
-        HitCheck::Position => lengths(&trace.position.to_array(), scale),
-        HitCheck::Normal => direction(trace.normal),
-        HitCheck::UnitNormal => vec![trace.normal.length() / DIRECTION],
-        HitCheck::Uv => (trace.uv / UV).to_array().to_vec(),
-        HitCheck::Origin => lengths(&trace.origin.to_array(), scale),
-        // Each material is far from the others.
-        HitCheck::Material => vec![trace.material as f32 / DIRECTION],
-    };
-    ObservedAnswer::Numbers(checks.iter().flat_map(part).collect())
+    let numbers = |check: &HitCheck| Quantity::of_hit(*check, trace).in_tolerances(scale);
+    ObservedAnswer::Numbers(checks.iter().flat_map(numbers).collect())
 }
 
 fn observe_span(span: Option<Interval>, scale: f32) -> ObservedAnswer {
     span.map_or(ObservedAnswer::NoHit, |span| {
-        ObservedAnswer::Numbers(lengths(&[span.min, span.max], scale))
+        ObservedAnswer::Numbers(lengths_in_tolerances(&[span.min, span.max], scale))
     })
-}
-
-fn lengths(lengths: &[f32], scale: f32) -> Vec<f32> {
-    // Everything in a question can be at the origin.
-    let tolerance = (LENGTH * scale).max(f32::MIN_POSITIVE);
-    lengths.iter().map(|length| length / tolerance).collect()
-}
-
-fn direction(direction: Vec3) -> Vec<f32> {
-    let unit = direction / direction.length();
-    (unit / DIRECTION).to_array().to_vec()
 }
 
 /// Returns the defect that the judge finds in a tree.

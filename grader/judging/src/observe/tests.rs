@@ -1,10 +1,11 @@
 //! Tests of observed numbers: they are multiples of the tolerances of their own question.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use protocol::Shape;
 
 use super::*;
 use crate::exam::ExpectedHit;
+use crate::judge::measure::{DIRECTION, LENGTH, UV};
 
 /// Returns the observed numbers of each element of one question.
 fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
@@ -135,8 +136,10 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
         1.0,
     );
     assert_eq!(uv, ObservedAnswer::Numbers(vec![3.0, 0.5 / UV]));
-    assert_eq!(direction(Vec3::Z), [0.0, 0.0, 1.0 / DIRECTION]);
-    assert_eq!(direction(4.0 * Vec3::Z), direction(Vec3::Z));
+    let direction = |dir| observe_ray(&[RayCheck::Direction], &expected_ray(dir));
+    let unit = ObservedAnswer::Numbers(vec![0.0, 0.0, 1.0 / DIRECTION]);
+    assert_eq!(direction(Vec3::Z), unit);
+    assert_eq!(direction(4.0 * Vec3::Z), unit);
 }
 
 /// A normal that is computed from a wrong position has length one only if it is normalised, and both are
@@ -175,5 +178,5 @@ fn what_follows_from_a_wrong_distance_is_not_observed() {
 
 #[test]
 fn a_question_whose_numbers_are_all_0_has_a_tolerance() {
-    assert_eq!(lengths(&[0.0, -0.0], 0.0), [0.0, 0.0]);
+    assert_eq!(lengths_in_tolerances(&[0.0, -0.0], 0.0), [0.0, 0.0]);
 }

@@ -7,6 +7,7 @@
 use std::iter;
 
 use arrayvec::ArrayVec;
+use glam::{Vec2, Vec3};
 use protocol::{ElementOutcome, Trace};
 
 use crate::describe;
@@ -22,15 +23,12 @@ pub(super) const NORMAL: f32 = 5e-3;
 
 /// The compared quantities with their weights in hundredths. A quantity is judged only at positions
 /// where all quantities before it are correct.
-const QUANTITIES: [(&str, u32); 4] = [
-    ("hit or miss", 40),
-    ("depth", 30),
-    ("normal", 20),
-    ("uv", 10),
+const QUANTITIES: [(Aspect, u32); 4] = [
+    (Aspect::HitOrMiss, 40),
+    (Aspect::Depth, 30),
+    (Aspect::Normal, 20),
+    (Aspect::Uv, 10),
 ];
-
-/// The aspect of each quantity, for a mask.
-const ASPECTS: [Aspect; 4] = [Aspect::HitOrMiss, Aspect::Depth, Aspect::Normal, Aspect::Uv];
 
 /// The deviations of the quantities at one position, up to the first wrong one.
 type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
@@ -111,9 +109,9 @@ impl Comparison for FirstHits<'_> {
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
             // Judging stops at the first wrong quantity.
             ElementOutcome::Value(_) => {
-                let wrong = deviations.iter().zip(ASPECTS);
+                let wrong = deviations.iter().zip(QUANTITIES);
                 let mut wrong = wrong.filter(|(deviation, _)| !deviation.is_right());
-                wrong.next().map(|(deviation, aspect)| Mismatch {
+                wrong.next().map(|(deviation, (aspect, _))| Mismatch {
                     aspect,
                     deviation: deviation.value,
                 })
@@ -232,26 +230,17 @@ fn failure_kind(
         ElementOutcome::Panicked(panic) => return FailureKind::Panicked(panic.clone()),
         ElementOutcome::Skipped => return FailureKind::Protocol("skipped".to_owned()),
     };
-    let got_text = |format: fn(&Trace) -> String| got.map_or("no hit".to_owned(), format);
-    let wanted_text = |format: fn(&Surface) -> String| wanted.map_or("no hit".to_owned(), format);
-    let (got, wanted) = match QUANTITIES[quantity].0 {
-        "normal" => (
-            got_text(|trace| describe::point(trace.normal)),
-            wanted_text(|surface| describe::point(surface.normal)),
-        ),
-        "uv" => (
-            got_text(|trace| describe::uv(trace.uv)),
-            wanted_text(|surface| describe::uv(surface.uv)),
-        ),
-        _ => (
-            got_text(|trace| describe::hit_at(trace.distance)),
-            wanted_text(|surface| describe::hit_at(surface.depth)),
-        ),
+    let (aspect, _) = QUANTITIES[quantity];
+    let text = |hit: Option<(f32, Vec3, Vec2)>| match (aspect, hit) {
+        (_, None) => "no hit".to_owned(),
+        (Aspect::Normal, Some((_, normal, _))) => describe::point(normal),
+        (Aspect::Uv, Some((_, _, uv))) => describe::uv(uv),
+        (_, Some((distance, ..))) => describe::hit_at(distance),
     };
     FailureKind::Wrong {
-        what: QUANTITIES[quantity].0.to_owned(),
-        got,
-        wanted,
+        what: aspect.name().to_owned(),
+        got: text(got.map(|trace| (trace.distance, trace.normal, trace.uv))),
+        wanted: text(wanted.map(|surface| (surface.depth, surface.normal, surface.uv))),
     }
 }
 

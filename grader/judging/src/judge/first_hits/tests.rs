@@ -19,7 +19,7 @@ fn judge(
         .mismatches()
         .expect("there are as many answers as rays");
     let tallies = picture.tallies();
-    for (aspect, tally) in ASPECTS.iter().zip(&tallies) {
+    for ((aspect, _), tally) in QUANTITIES.iter().zip(&tallies) {
         let found = mismatches.iter().flatten();
         assert_eq!(
             found.filter(|found| found.aspect == *aspect).count(),

@@ -136,54 +136,33 @@ fn cost_deviation(ratio: f64) -> Deviation {
 
 impl TreeAnswer<'_> {
     fn check_defect(&self, part: TreeCheck, nodes: &[ReachedNode]) -> Option<TreeDefect> {
-        let most = self.max_leaf_size as usize;
+        let (all, most) = (self.shapes.len(), self.max_leaf_size as usize);
+        let node = || nodes.iter().find(|node| breaks(part, node, all, most));
         match part {
-            TreeCheck::Partition => partition_defect(nodes, self.shapes.len()),
-            TreeCheck::Contains => nodes
-                .iter()
-                .find(|node| !containment_deviation(node).is_right())
-                .map(|node| node.box_defect(BOX_TOO_SMALL)),
-            TreeCheck::Tight => nodes
-                .iter()
-                .find(|node| !tightness_deviation(node).is_right())
-                .map(|node| node.box_defect(BOX_TOO_LARGE)),
-            TreeCheck::Split => {
-                let all = self.shapes.len();
-                let is_half =
-                    |node: &&ReachedNode| node.leaf_primitives.is_some() && 2 * node.count >= all;
-                let leaf = nodes.iter().filter(|_| all > 1).find(is_half)?;
-                Some(TreeDefect {
-                    what: "splits",
-                    got: format!(
-                        "leaf {} holds {} of {all} primitives",
-                        leaf.index, leaf.count
-                    ),
-                    wanted: "less than half of them in any leaf".to_owned(),
-                })
-            }
-            TreeCheck::LeafSize => {
-                let leaf = nodes
-                    .iter()
-                    .find(|node| node.leaf_primitives.is_some() && node.count > most)?;
-                Some(TreeDefect {
-                    what: "leaf size",
-                    got: format!("leaf {} holds {} primitives", leaf.index, leaf.count),
-                    wanted: format!("at most {most}"),
-                })
-            }
-            TreeCheck::Stops => {
-                let node = nodes
-                    .iter()
-                    .find(|node| node.leaf_primitives.is_none() && node.count <= most)?;
-                Some(TreeDefect {
-                    what: "splits",
-                    got: format!(
-                        "node {} was split over {} primitives",
-                        node.index, node.count
-                    ),
-                    wanted: format!("a leaf for at most {most} primitives"),
-                })
-            }
+            TreeCheck::Partition => partition_defect(nodes, all),
+            TreeCheck::Contains => Some(node()?.box_defect(BOX_TOO_SMALL)),
+            TreeCheck::Tight => Some(node()?.box_defect(BOX_TOO_LARGE)),
+            TreeCheck::Split => node().map(|leaf| TreeDefect {
+                what: "splits",
+                got: format!(
+                    "leaf {} holds {} of {all} primitives",
+                    leaf.index, leaf.count
+                ),
+                wanted: "less than half of them in any leaf".to_owned(),
+            }),
+            TreeCheck::LeafSize => node().map(|leaf| TreeDefect {
+                what: "leaf size",
+                got: format!("leaf {} holds {} primitives", leaf.index, leaf.count),
+                wanted: format!("at most {most}"),
+            }),
+            TreeCheck::Stops => node().map(|node| TreeDefect {
+                what: "splits",
+                got: format!(
+                    "node {} was split over {} primitives",
+                    node.index, node.count
+                ),
+                wanted: format!("a leaf for at most {most} primitives"),
+            }),
         }
     }
 
@@ -195,6 +174,20 @@ impl TreeAnswer<'_> {
                 vec![Deviation::binary(self.check_defect(part, nodes).is_none())]
             }
         }
+    }
+}
+
+/// Returns whether a node of a tree over `all` primitives breaks a check. A leaf may have at most `most`
+/// of them. The partition is not a matter of single nodes.
+pub fn breaks(check: TreeCheck, node: &ReachedNode, all: usize, most: usize) -> bool {
+    let is_leaf = node.leaf_primitives.is_some();
+    match check {
+        TreeCheck::Partition => false,
+        TreeCheck::Contains => !containment_deviation(node).is_right(),
+        TreeCheck::Tight => !tightness_deviation(node).is_right(),
+        TreeCheck::Split => is_leaf && all > 1 && 2 * node.count >= all,
+        TreeCheck::LeafSize => is_leaf && node.count > most,
+        TreeCheck::Stops => !is_leaf && node.count <= most,
     }
 }
 
@@ -220,10 +213,13 @@ pub fn tightness_deviation(node: &ReachedNode) -> Deviation {
 }
 
 /// Returns the number of leaves that hold each primitive.
-pub fn leaves_of_primitives(nodes: &[ReachedNode], primitives: usize) -> Vec<usize> {
+pub fn leaves_of_primitives<'a>(
+    nodes: impl IntoIterator<Item = &'a ReachedNode<'a>>,
+    primitives: usize,
+) -> Vec<usize> {
     let mut leaves = vec![0; primitives];
     for &primitive in nodes
-        .iter()
+        .into_iter()
         .filter_map(|node| node.leaf_primitives.as_ref())
         .flatten()
     {

@@ -23,17 +23,11 @@ pub(super) fn draw(comparison: &HitComparison) -> Drawing {
         HitAnswer::Miss => (None, "no hit".to_owned()),
         HitAnswer::NoAnswer => (None, "no answer".to_owned()),
     };
-    let row = |name, style, span, empty_text: &str| BarRow {
-        name,
-        style,
-        span,
-        empty_text: empty_text.to_owned(),
-    };
     let wanted = comparison.wanted.map(|hit| before(hit.distance));
     let rows = [
-        row("range", BarStyle::Range, Some(range), "none"),
-        row("wanted", BarStyle::Right, wanted, "no hit"),
-        row("got", BarStyle::Wrong, got, &got_text),
+        BarRow::new("range", BarStyle::Range, Some(range), "none"),
+        BarRow::new("wanted", BarStyle::Right, wanted, "no hit"),
+        BarRow::new("got", BarStyle::Wrong, got, &got_text),
     ];
     let ends = [wanted, got].into_iter().flatten();
     let ends = ends.map(|span| f64::from(span.max));

@@ -29,10 +29,27 @@ pub(super) enum BarStyle {
 /// A row of the diagram: its name, its interval, and the text to show if the interval is empty.
 #[derive(Clone, Debug)]
 pub(super) struct BarRow {
-    pub(super) name: &'static str,
-    pub(super) style: BarStyle,
-    pub(super) span: Option<Interval>,
-    pub(super) empty_text: String,
+    name: &'static str,
+    style: BarStyle,
+    span: Option<Interval>,
+    empty_text: String,
+}
+
+impl BarRow {
+    /// Creates a row.
+    pub(super) fn new(
+        name: &'static str,
+        style: BarStyle,
+        span: Option<Interval>,
+        empty_text: &str,
+    ) -> BarRow {
+        BarRow {
+            name,
+            style,
+            span,
+            empty_text: empty_text.to_owned(),
+        }
+    }
 }
 
 /// A horizontal axis of distances along a ray.

@@ -2,18 +2,16 @@
 //! hits, and as the intervals in which the ray is between the two planes of each axis. The exam
 //! stores these intervals.
 
-use glam::{DVec2, DVec3, Vec3, dvec2};
+use glam::{DVec2, Vec3};
 use judging::describe;
-use judging::drawing_data::DrawingData;
-use protocol::{Answer, ElementOutcome, Interval, Ray};
+use protocol::{Answer, Interval, Ray};
 
-use super::Drawing;
 use super::bars::{self, BarRow, BarStyle};
-use super::canvas::{Canvas, Mark};
+use super::canvas::Mark;
 use super::ink::{Fill, Ink, LineStyle};
+use super::plane::{AXIS_NAMES, Plane};
 use super::sheet::{Sheet, Symbol};
-use super::sphere;
-use super::window::Window;
+use super::{Drawing, value};
 
 /// A question about one ray and one box.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +32,6 @@ pub(super) struct BoxQuery {
 /// The submission's answer: an interval, `None`, or no answer at all.
 type SpanAnswer = Option<Option<Interval>>;
 
-const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
-
 /// Draws the ray and the box of a query.
 pub(super) fn draw(query: &BoxQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     let [min, max] = query.corners.map(|corner| corner.as_dvec3());
@@ -44,16 +40,10 @@ pub(super) fn draw(query: &BoxQuery, element: usize, answer: Option<&Answer>) ->
         return None;
     }
     let got = span_answer(element, answer);
-    let (a, b) = deciding_axes(query);
-    let plane = Plane { a, b };
-
+    let plane = deciding_plane(query);
     let mut sheet = Sheet::default();
-    sheet.title(&format!(
-        "along {}: {} to the right, {} up",
-        AXIS_NAMES[3 - a - b],
-        AXIS_NAMES[a],
-        AXIS_NAMES[b]
-    ));
+    let along = AXIS_NAMES[plane.normal_axis()];
+    sheet.title(&format!("along {along}: {}", plane.name()));
     draw_picture(&mut sheet, query, got, plane);
     let rows = rows(query, got);
     sheet.y = bars::draw(
@@ -68,30 +58,23 @@ pub(super) fn draw(query: &BoxQuery, element: usize, answer: Option<&Answer>) ->
 }
 
 fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
-    let outcome = match answer {
-        Some(Answer::Spans(spans)) => spans.get(element),
-        Some(
-            Answer::Rays(_) | Answer::Hits(_) | Answer::Tree(_) | Answer::Picture(_) | Answer::Done,
-        )
-        | None => None,
+    let Some(Answer::Spans(spans)) = answer else {
+        return None;
     };
-    match outcome {
-        Some(ElementOutcome::Value(span)) => Some(*span),
-        Some(ElementOutcome::Panicked(_) | ElementOutcome::Skipped) | None => None,
-    }
+    value(spans, element).copied()
 }
 
-/// Returns the two axes that decide whether the ray hits: the one whose slab it enters last, and
-/// the one whose slab it leaves first. In the plane of these axes, a hit looks like a hit and a
-/// miss like a miss.
-fn deciding_axes(query: &BoxQuery) -> (usize, usize) {
+/// Returns the plane of the two axes that decide whether the ray hits: the one whose slab it enters
+/// last, and the one whose slab it leaves first. In this plane, a hit looks like a hit and a miss
+/// like a miss.
+fn deciding_plane(query: &BoxQuery) -> Plane {
     let Some(slabs) = query.slabs else {
         // If the exam has no slabs, look along the axis in which the ray's direction has the
         // smallest component.
         let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);
-        return in_order((least + 1) % 3, (least + 2) % 3);
+        return Plane::of((least + 1) % 3, (least + 2) % 3);
     };
     let last_in = (0..3).max_by(|&a, &b| slabs[a].min.total_cmp(&slabs[b].min));
     let last_in = last_in.unwrap_or(0);
@@ -100,24 +83,7 @@ fn deciding_axes(query: &BoxQuery) -> (usize, usize) {
     // If the slab that the ray enters last is also the one that it leaves first, the second axis is
     // the one whose slab it leaves next.
     let first_out = if slabs[p].max <= slabs[q].max { p } else { q };
-    in_order(last_in, first_out)
-}
-
-fn in_order(a: usize, b: usize) -> (usize, usize) {
-    (a.min(b), a.max(b))
-}
-
-/// The plane spanned by two axes.
-#[derive(Clone, Copy)]
-struct Plane {
-    a: usize,
-    b: usize,
-}
-
-impl Plane {
-    fn project(self, point: DVec3) -> DVec2 {
-        dvec2(point[self.a], point[self.b])
-    }
+    Plane::of(last_in, first_out)
 }
 
 fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Plane) {
@@ -139,9 +105,7 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
     .concat();
     let others = others.into_iter().chain([plane.project(origin)]);
     let seen: Vec<DVec2> = corners.into_iter().chain(others.filter(is_near)).collect();
-    let panel = sheet.panel(sphere::panel_height(&seen));
-    let window = Window::around(panel, seen);
-
+    let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
     let (low, high) = (
         window.page_position(corners[0]),
@@ -149,77 +113,43 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
     );
     // An outline makes a flat box visible.
     canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
-    draw_ray(canvas, &window, query, plane);
-    if let Some(span) = query.wanted {
-        draw_segment(
-            canvas,
-            &window,
-            [span.min, span.max].map(at),
-            LineStyle::Right,
-        );
+    canvas.ray(&window, Some(query.times), 1e6, |t| {
+        plane.project(origin + t * dir)
+    });
+    canvas.mark_inside(&window, plane.project(origin), Mark::Origin);
+    let spans = [
+        (query.wanted, LineStyle::Right, Mark::Right),
+        (got.flatten(), LineStyle::Wrong, Mark::Wrong),
+    ];
+    for (span, line, _) in spans {
+        canvas.segment(&window, ends(span), line);
     }
-    if let Some(span) = got.flatten() {
-        draw_segment(
-            canvas,
-            &window,
-            [span.min, span.max].map(at),
-            LineStyle::Wrong,
-        );
-    }
-    for (span, mark) in [(query.wanted, Mark::Right), (got.flatten(), Mark::Wrong)] {
+    for (span, _, mark) in spans {
         for end in ends(span) {
-            if let Some((at, false)) = window.pin_to_border(end) {
-                canvas.mark(at, mark);
-            }
+            canvas.mark_inside(&window, end, mark);
         }
     }
 }
 
-fn draw_ray(canvas: &mut Canvas, window: &Window, query: &BoxQuery, plane: Plane) {
-    const FAR: f64 = 1e6;
-
-    let (origin, dir) = (query.ray.origin.as_dvec3(), query.ray.dir.as_dvec3());
-    let at = |t: f64| plane.project(origin + t.clamp(-FAR, FAR) * dir);
-    let times = [query.times.min, query.times.max].map(|t| at(t.into()));
-    draw_segment(canvas, window, times, LineStyle::Range);
-    draw_segment(canvas, window, [at(-FAR), at(0.0)], LineStyle::Behind);
-    draw_segment(canvas, window, [at(0.0), at(FAR)], LineStyle::Ray);
-    if let Some((start, false)) = window.pin_to_border(at(0.0)) {
-        canvas.mark(start, Mark::Origin);
-    }
-}
-
-fn draw_segment(canvas: &mut Canvas, window: &Window, ends: [DVec2; 2], line: LineStyle) {
-    if let Some((from, to)) = window.clip_segment(ends[0], ends[1]) {
-        canvas.line(from, to, line);
-    }
-}
-
 fn rows(query: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
-    let row = |name, style, span, empty_text: &str| BarRow {
-        name,
-        style,
-        span,
-        empty_text: empty_text.to_owned(),
-    };
+    let never = "never between these planes";
     let slabs = query.slabs.into_iter().flatten().zip(AXIS_NAMES);
     let mut rows: Vec<BarRow> = slabs
-        .map(|(slab, name)| {
-            row(
-                name,
-                BarStyle::Plain,
-                Some(slab),
-                "never between these planes",
-            )
-        })
+        .map(|(slab, name)| BarRow::new(name, BarStyle::Plain, Some(slab), never))
         .collect();
-    rows.push(row("times", BarStyle::Range, Some(query.times), "none"));
-    rows.push(row("wanted", BarStyle::Right, query.wanted, "None"));
+    let (range, times) = (BarStyle::Range, Some(query.times));
+    rows.push(BarRow::new("times", range, times, "none"));
+    rows.push(BarRow::new("wanted", BarStyle::Right, query.wanted, "None"));
     let got_text = match got {
         None => "no answer".to_owned(),
         Some(span) => describe::span(span),
     };
-    rows.push(row("got", BarStyle::Wrong, got.flatten(), &got_text));
+    rows.push(BarRow::new(
+        "got",
+        BarStyle::Wrong,
+        got.flatten(),
+        &got_text,
+    ));
     rows
 }
 
@@ -287,13 +217,5 @@ fn caption(query: &BoxQuery, got: SpanAnswer) -> String {
             describe::interval(span)
         ),
         (None, Some(None)) => "The correct answer is None.".to_owned(),
-    }
-}
-
-/// Returns the slabs of one query, if the exam has them.
-pub(super) fn slabs(data: &DrawingData, element: usize) -> Option<[Interval; 3]> {
-    match data {
-        DrawingData::Slabs(slabs) => slabs.get(element).copied(),
-        DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
     }
 }

@@ -6,8 +6,10 @@
 
 use glam::{DVec2, dvec2};
 use maud::{Markup, PreEscaped, Render, html};
+use protocol::Interval;
 
 use super::ink::{Fill, Ink, LineStyle};
+use super::window::Window;
 use crate::svg::{self, number};
 
 /// The width of every drawing. A phone screen that is 360 pixels wide shows it at full size, with a
@@ -166,6 +168,44 @@ impl Canvas {
                 circle cx=(x) cy=(y) r="4" fill=(PAPER) stroke="currentColor" stroke-width="2" {}
             },
         });
+    }
+
+    /// Draws the part of a line that is in a window.
+    pub(super) fn segment(&mut self, window: &Window, [from, to]: [DVec2; 2], line: LineStyle) {
+        if let Some((from, to)) = window.clip_segment(from, to) {
+            self.line(from, to, line);
+        }
+    }
+
+    /// Draws the line of a ray: its range, and the parts behind and ahead of its origin. `at` returns
+    /// the point at a distance, up to `far` in both directions.
+    pub(super) fn ray(
+        &mut self,
+        window: &Window,
+        range: Option<Interval>,
+        far: f64,
+        at: impl Fn(f64) -> DVec2,
+    ) {
+        if let Some(range) = range {
+            let ends = [range.min, range.max].map(|end| at(f64::from(end).clamp(-far, far)));
+            self.segment(window, ends, LineStyle::Range);
+        }
+        self.segment(window, [at(-far), at(0.0)], LineStyle::Behind);
+        self.segment(window, [at(0.0), at(far)], LineStyle::Ray);
+    }
+
+    /// Draws a mark in a window, at its border if the point is outside.
+    pub(super) fn mark_pinned(&mut self, window: &Window, at: Option<DVec2>, mark: Mark) {
+        if let Some((at, _)) = at.and_then(|at| window.pin_to_border(at)) {
+            self.mark(at, mark);
+        }
+    }
+
+    /// Draws a mark if its point is in a window.
+    pub(super) fn mark_inside(&mut self, window: &Window, at: DVec2, mark: Mark) {
+        if let Some((at, false)) = window.pin_to_border(at) {
+            self.mark(at, mark);
+        }
     }
 
     /// Draws text with an outline in the background colour, so that it can be read on top of lines.

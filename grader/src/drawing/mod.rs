@@ -13,6 +13,7 @@ mod canvas;
 mod hit_comparison;
 mod ink;
 mod numbers;
+mod plane;
 mod shapes;
 mod sheet;
 mod side;
@@ -22,11 +23,10 @@ mod triangle;
 mod uv;
 mod window;
 
-use glam::DVec3;
-use protocol::{Answer, Interval, Question};
+use protocol::{Answer, ElementOutcome, Question};
 
-use judging::drawing_data::{DrawingData, TraversalStep};
-use judging::exam::{ExamQuestion, Key, TreeCheck};
+use judging::drawing_data::DrawingData;
+use judging::exam::{ExamQuestion, Key};
 
 use bbox::BoxQuery;
 use camera::CameraQuery;
@@ -55,20 +55,29 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
         }
         Question::BBox { min, max, queries } => {
             let &(ray, times) = queries.get(element)?;
+            let Key::Spans { spans } = &question.key else {
+                return None;
+            };
             let query = BoxQuery {
                 corners: [*min, *max],
                 ray,
                 times,
-                wanted: wanted_span(&question.key, element)?,
-                slabs: bbox::slabs(&question.drawing_data, element),
+                wanted: *spans.get(element)?,
+                slabs: match &question.drawing_data {
+                    DrawingData::Slabs(slabs) => slabs.get(element).copied(),
+                    DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
+                },
             };
             bbox::draw(&query, element, answer)
         }
         Question::Camera { camera, samples } => {
+            let Key::Rays { directions, .. } = &question.key else {
+                return None;
+            };
             let query = CameraQuery {
                 camera: *camera,
                 sample: *samples.to_vec(camera.film).get(element)?,
-                wanted: wanted_direction(&question.key, element)?,
+                wanted: directions.get(element)?.as_dvec3(),
             };
             camera::draw(&query, element, answer)
         }
@@ -76,12 +85,14 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             shapes,
             max_leaf_size,
         } => {
-            let (checks, sweep_cost) = tree_key(&question.key)?;
+            let Key::Tree { checks, sweep_cost } = &question.key else {
+                return None;
+            };
             let case = build::BuildCase {
                 shapes,
                 max_leaf_size: *max_leaf_size,
                 checks,
-                sweep_cost,
+                sweep_cost: *sweep_cost,
                 drawing_data: &question.drawing_data,
             };
             build::draw(&case, answer)
@@ -93,11 +104,15 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             ..
         } => {
             let comparison = HitComparison::new(question, element, answer)?;
+            let steps = match &question.drawing_data {
+                DrawingData::Traversals(traversals) => traversals.get(element).map(Vec::as_slice),
+                DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => None,
+            };
             let recorded = RecordedTraversal {
                 shapes,
                 nodes,
                 root: *root,
-                steps: steps(&question.drawing_data, element),
+                steps: steps.unwrap_or_default(),
             };
             let drawing = traversal::draw(&comparison, &recorded);
             Some(drawing.unwrap_or_else(|| along_ray::draw(&comparison)))
@@ -109,48 +124,13 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
     }
 }
 
-fn wanted_span(key: &Key, element: usize) -> Option<Option<Interval>> {
-    match key {
-        Key::Spans { spans } => spans.get(element).copied(),
-        Key::Rays { .. }
-        | Key::Hits { .. }
-        | Key::Tree { .. }
-        | Key::FirstHits { .. }
-        | Key::Radiance { .. } => None,
-    }
-}
-
-fn wanted_direction(key: &Key, element: usize) -> Option<DVec3> {
-    match key {
-        Key::Rays { directions, .. } => Some(directions.get(element)?.as_dvec3()),
-        Key::Hits { .. }
-        | Key::Spans { .. }
-        | Key::Tree { .. }
-        | Key::FirstHits { .. }
-        | Key::Radiance { .. } => None,
-    }
-}
-
-fn tree_key(key: &Key) -> Option<(&[TreeCheck], Option<f64>)> {
-    match key {
-        Key::Tree { checks, sweep_cost } => Some((checks, *sweep_cost)),
-        Key::Rays { .. }
-        | Key::Hits { .. }
-        | Key::Spans { .. }
-        | Key::FirstHits { .. }
-        | Key::Radiance { .. } => None,
-    }
-}
-
-fn steps(data: &DrawingData, element: usize) -> &[TraversalStep] {
-    match data {
-        DrawingData::Traversals(traversals) => traversals.get(element).map_or(&[], Vec::as_slice),
-        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => &[],
+/// Returns the value of an element, or `None` if there is none, because the code panicked.
+fn value<T>(outcomes: &[ElementOutcome<T>], element: usize) -> Option<&T> {
+    match outcomes.get(element)? {
+        ElementOutcome::Value(value) => Some(value),
+        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
     }
 }
 
 #[cfg(test)]
 mod tests;
-
-#[cfg(test)]
-mod captions;

@@ -5,7 +5,7 @@ use glam::{DVec2, dvec2};
 use super::Drawing;
 use super::canvas::{Anchor, Canvas, Mark, WIDTH};
 use super::ink::{Fill, Ink, LineStyle};
-use super::window::Panel;
+use super::window::{Panel, Window, extent};
 
 /// The height of a line of the legend.
 const ROW_HEIGHT: f64 = 18.0;
@@ -41,6 +41,15 @@ impl Sheet {
         let panel = self.bordered_panel(1.0, WIDTH - 1.0, height);
         self.advance(height + 6.0);
         panel
+    }
+
+    /// Adds a window across the whole width that shows these points, with a suitable height.
+    pub(super) fn window(&mut self, seen: Vec<DVec2>) -> Window {
+        let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
+        // A single point has no proportions.
+        let shape = if size.x > 0.0 { size.y / size.x } else { 1.0 };
+        let panel = self.panel((306.0 * shape + 32.0).clamp(100.0, 210.0));
+        Window::around(panel, seen)
     }
 
     /// Adds two panels side by side, each with its title above it.

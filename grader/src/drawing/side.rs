@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, dvec2};
 use judging::describe;
 
 use super::canvas::{Canvas, Mark};
-use super::hit_comparison::{Focus, HitAnswer, HitComparison};
+use super::hit_comparison::{DrawnHit, Focus, HitAnswer, HitComparison};
 use super::ink::{Ink, LineStyle};
 use super::numbers::{point, short};
 use super::sheet::{Sheet, Symbol};
@@ -78,20 +78,8 @@ pub(super) fn landmarks(
 
 /// Draws the line of the ray, its origin, and its range if the range is limited.
 pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitComparison) {
-    const FAR: f64 = 1e7;
-
-    let mut along = |from: f64, to: f64, line: LineStyle| {
-        if let Some((from, to)) = window.clip_segment(dvec2(from, 0.0), dvec2(to, 0.0)) {
-            canvas.line(from, to, line);
-        }
-    };
     let range = comparison.limited_range();
-    if let Some(range) = range {
-        let (min, max) = (f64::from(range.min), f64::from(range.max));
-        along(min.max(-FAR), max.min(FAR), LineStyle::Range);
-    }
-    along(-FAR, 0.0, LineStyle::Behind);
-    along(0.0, FAR, LineStyle::Ray);
+    canvas.ray(window, range, 1e7, |t| dvec2(t, 0.0));
     // Draws ticks across the ray at the ends of the range.
     let ends = range.map_or([f32::NAN; 2], |range| [range.min, range.max]);
     for end in ends {
@@ -100,9 +88,7 @@ pub(super) fn draw_ray(canvas: &mut Canvas, window: &Window, comparison: &HitCom
             canvas.line(at - half, at + half, LineStyle::Outline);
         }
     }
-    if let Some((start, false)) = window.pin_to_border(DVec2::ZERO) {
-        canvas.mark(start, Mark::Origin);
-    }
+    canvas.mark_inside(window, DVec2::ZERO, Mark::Origin);
 }
 
 /// Draws the expected and the submitted hit, with the field that is in focus.
@@ -138,23 +124,14 @@ pub(super) fn draw_hits(
         canvas.mark(window.page_position(foot), Mark::Right);
         return;
     }
-    if let Some((at, _)) = wanted.and_then(|at| window.pin_to_border(at)) {
-        canvas.mark(at, Mark::Right);
-    }
+    canvas.mark_pinned(window, wanted, Mark::Right);
     let is_marked = match comparison.focus {
         Focus::Distance | Focus::Position => true,
         Focus::Normal | Focus::Uv | Focus::Origin | Focus::Material => false,
     };
-    if let Some((at, _)) = got
-        .filter(|_| is_marked)
-        .and_then(|at| window.pin_to_border(at))
-    {
-        canvas.mark(at, Mark::Wrong);
-    }
-    if let (Focus::Origin, HitAnswer::Hit(hit)) = (comparison.focus, comparison.got)
-        && let Some((at, _)) = window.pin_to_border(side.project(hit.origin))
-    {
-        canvas.mark(at, Mark::Wrong);
+    canvas.mark_pinned(window, got.filter(|_| is_marked), Mark::Wrong);
+    if let (Focus::Origin, HitAnswer::Hit(hit)) = (comparison.focus, comparison.got) {
+        canvas.mark_pinned(window, Some(side.project(hit.origin)), Mark::Wrong);
     }
 }
 
@@ -169,66 +146,67 @@ pub(super) fn draw_legend(
         .got_point()
         .and_then(|point| window.pin_to_border(side.project(point)));
     let is_off = got.is_some_and(|(_, is_off)| is_off);
-    let off = if is_off { ", outside the picture" } else { "" };
-    let distance = |distance: f64| describe::number(distance as f32);
+    let symbol = |line: LineStyle, mark: Mark| match comparison.focus {
+        Focus::Normal => Symbol::Line(line),
+        Focus::Distance | Focus::Position | Focus::Uv | Focus::Origin | Focus::Material => {
+            Symbol::Mark(mark)
+        }
+    };
     match (comparison.wanted, comparison.focus) {
-        (Some(hit), Focus::Normal) => {
-            let text = format!("wanted: normal {}", point(hit.normal));
-            sheet.add_legend(Symbol::Line(LineStyle::Right), &text);
-        }
-        (Some(hit), Focus::Position) => {
-            let text = format!("wanted: {}", describe::point(hit.position.as_vec3()));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
-        }
-        (Some(hit), Focus::Uv) => {
-            let text = format!("wanted: uv {}", describe::uv(hit.uv.as_vec2()));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
-        }
-        (Some(hit), Focus::Material) => {
-            let text = format!("wanted: material {}", hit.material.unwrap_or_default());
-            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
-        }
-        (Some(hit), Focus::Distance | Focus::Origin) => {
-            let text = format!("wanted: a hit at {}", distance(hit.distance));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
-        }
         (None, _) => sheet.add_legend(Symbol::None, "wanted: no hit"),
+        // The origin is that of the ray, which has its own entry.
+        (Some(hit), Focus::Origin) => {
+            let text = format!("wanted: {}", field(&hit, Focus::Distance));
+            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
+        }
+        (Some(hit), focus) => {
+            let text = format!("wanted: {}", field(&hit, focus));
+            sheet.add_legend(symbol(LineStyle::Right, Mark::Right), &text);
+        }
     }
     match (comparison.got, comparison.focus) {
         (HitAnswer::NoAnswer, _) => {}
         (HitAnswer::Miss, _) => sheet.add_legend(Symbol::None, "got: no hit"),
-        (HitAnswer::Hit(hit), Focus::Normal) => {
-            let text = format!("got: normal {}", point(hit.normal));
-            sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
-        }
-        (HitAnswer::Hit(hit), Focus::Position) => {
-            let text = format!("got: {}{off}", describe::point(hit.position.as_vec3()));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
-        }
-        (HitAnswer::Hit(hit), Focus::Uv) => {
-            let text = format!("got: uv {}", describe::uv(hit.uv.as_vec2()));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
-        }
-        (HitAnswer::Hit(hit), Focus::Origin) => {
-            let text = format!("got: origin {}", describe::point(hit.origin.as_vec3()));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
-        }
-        (HitAnswer::Hit(hit), Focus::Distance) => {
-            let text = format!("got: a hit at {}{off}", distance(hit.distance));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
-        }
+        // Nothing in the picture has a material.
         (HitAnswer::Hit(hit), Focus::Material) => {
-            let text = format!("got: material {}", hit.material.unwrap_or_default());
+            let text = format!("got: {}", field(&hit, Focus::Material));
             sheet.add_legend(Symbol::None, &text);
         }
+        (HitAnswer::Hit(hit), focus) => {
+            let is_drawn = matches!(focus, Focus::Distance | Focus::Position);
+            let off = if is_off && is_drawn {
+                ", outside the picture"
+            } else {
+                ""
+            };
+            let text = format!("got: {}{off}", field(&hit, focus));
+            sheet.add_legend(symbol(LineStyle::Wrong, Mark::Wrong), &text);
+        }
     }
-    if let Some(range) = comparison.limited_range() {
-        let text = format!("the ray's range: {}", describe::interval(range));
-        sheet.add_legend(Symbol::Line(LineStyle::Range), &text);
-    }
+    add_range_legend(sheet, comparison);
     let text = match window.distance_outside(DVec2::ZERO) {
         away if away > 0.0 => format!("the ray starts {} outside the picture", short(away)),
         _ => "the ray's origin".to_owned(),
     };
     sheet.add_legend(Symbol::Mark(Mark::Origin), &text);
+}
+
+/// Returns the text for a field of a hit.
+fn field(hit: &DrawnHit, field: Focus) -> String {
+    match field {
+        Focus::Distance => format!("a hit at {}", describe::number(hit.distance as f32)),
+        Focus::Position => describe::point(hit.position.as_vec3()),
+        Focus::Normal => format!("normal {}", point(hit.normal)),
+        Focus::Uv => format!("uv {}", describe::uv(hit.uv.as_vec2())),
+        Focus::Origin => format!("origin {}", describe::point(hit.origin.as_vec3())),
+        Focus::Material => format!("material {}", hit.material.unwrap_or_default()),
+    }
+}
+
+/// Adds the ray's range to the legend if it is limited.
+pub(super) fn add_range_legend(sheet: &mut Sheet, comparison: &HitComparison) {
+    if let Some(range) = comparison.limited_range() {
+        let text = format!("the ray's range: {}", describe::interval(range));
+        sheet.add_legend(Symbol::Line(LineStyle::Range), &text);
+    }
 }

@@ -9,7 +9,7 @@ use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::Sheet;
 use super::side::{self, SideView};
 use super::uv;
-use super::window::{Window, extent};
+use super::window::Window;
 
 /// Draws a ray and a sphere.
 pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Drawing {
@@ -29,8 +29,7 @@ pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Dr
             Window::around(left, seen)
         }
         Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Material => {
-            let panel = sheet.panel(panel_height(&seen));
-            Window::around(panel, seen)
+            sheet.window(seen)
         }
     };
     draw_circle(&mut sheet.canvas, &window, middle, radius);
@@ -39,14 +38,6 @@ pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Dr
     side::draw_legend(&mut sheet, comparison, &side, &window);
     let title = "The ray and the sphere, in the plane through the ray and the centre";
     sheet.finish(title, comparison.caption())
-}
-
-/// Returns a suitable height for a full-width panel that shows these points.
-pub(super) fn panel_height(seen: &[DVec2]) -> f64 {
-    let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
-    // A single point has no proportions.
-    let shape = if size.x > 0.0 { size.y / size.x } else { 1.0 };
-    (306.0 * shape + 32.0).clamp(100.0, 210.0)
 }
 
 fn draw_circle(canvas: &mut Canvas, window: &Window, middle: DVec2, radius: f64) {

@@ -61,9 +61,7 @@ fn draw_along_ray(
         let got = comparison
             .got_point()
             .map(|point| side.project_along_ray(point));
-        if let Some((at, _)) = got.and_then(|at| window.pin_to_border(at)) {
-            canvas.mark(at, Mark::Wrong);
-        }
+        canvas.mark_pinned(&window, got, Mark::Wrong);
     }
 }
 

@@ -55,38 +55,23 @@ fn find_for_check<'a>(
     case: &BuildCase,
     positions: &[NodePosition<'a>],
 ) -> Option<Flaw<'a>> {
-    let max = case.max_leaf_size as usize;
-    let all = case.shapes.len();
-    let find = |is: &dyn Fn(&NodePosition) -> bool| positions.iter().find(|node| is(node)).copied();
-    let is_leaf = |node: &NodePosition| node.reached.leaf_primitives.is_some();
-    match check {
-        TreeCheck::Partition => find_partition_flaw(case, positions),
-        TreeCheck::Contains => {
-            find(&|node| !tree::containment_deviation(node.reached).is_right()).map(Flaw::TooSmall)
-        }
-        TreeCheck::Tight => {
-            find(&|node| !tree::tightness_deviation(node.reached).is_right()).map(Flaw::TooLarge)
-        }
-        TreeCheck::Split => find(&|node| all > 1 && is_leaf(node) && 2 * node.reached.count >= all)
-            .map(Flaw::NotSplit),
-        TreeCheck::LeafSize => {
-            find(&|node| is_leaf(node) && node.reached.count > max).map(Flaw::LeafTooLarge)
-        }
-        TreeCheck::Stops => {
-            find(&|node| !is_leaf(node) && node.reached.count <= max).map(Flaw::NeedlessSplit)
-        }
-    }
+    let flaw = match check {
+        TreeCheck::Partition => return find_partition_flaw(case, positions),
+        TreeCheck::Contains => Flaw::TooSmall,
+        TreeCheck::Tight => Flaw::TooLarge,
+        TreeCheck::Split => Flaw::NotSplit,
+        TreeCheck::LeafSize => Flaw::LeafTooLarge,
+        TreeCheck::Stops => Flaw::NeedlessSplit,
+    };
+    let (all, most) = (case.shapes.len(), case.max_leaf_size as usize);
+    let is_broken = |node: &&NodePosition| tree::breaks(check, node.reached, all, most);
+    positions.iter().find(is_broken).copied().map(flaw)
 }
 
 fn find_partition_flaw<'a>(case: &BuildCase, positions: &[NodePosition<'a>]) -> Option<Flaw<'a>> {
-    let mut leaves_of = vec![0; case.shapes.len()];
-    let leaves = positions
-        .iter()
-        .filter_map(|node| node.reached.leaf_primitives.as_ref());
-    for &primitive in leaves.flatten() {
-        leaves_of[primitive] += 1;
-    }
-    let of = |is: fn(i32) -> bool| -> Vec<usize> {
+    let reached = positions.iter().map(|node| node.reached);
+    let leaves_of = tree::leaves_of_primitives(reached, case.shapes.len());
+    let of = |is: fn(usize) -> bool| -> Vec<usize> {
         let primitives = leaves_of.iter().enumerate();
         let primitives = primitives.filter(|(_, leaves)| is(**leaves));
         primitives.map(|(primitive, _)| primitive).collect()

@@ -11,8 +11,8 @@ use super::{BuildCase, NodePosition, primitives_below};
 use crate::drawing::canvas::{Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::point;
+use crate::drawing::plane::{AXIS_NAMES, Plane};
 use crate::drawing::sheet::{Sheet, Symbol};
-use crate::drawing::sphere;
 use crate::drawing::window::Window;
 
 /// The maximum number of primitives that are drawn one by one.
@@ -21,8 +21,6 @@ const MAX_PRIMITIVES: usize = 250;
 const MAX_MARKS: usize = 60;
 /// The maximum number of primitives for which the first split is drawn.
 const MAX_ROW_PRIMITIVES: usize = 32;
-
-const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// Draws the flaw with its legend, if the flaw can be drawn.
 pub(super) fn draw(
@@ -53,26 +51,16 @@ pub(super) fn draw(
     }
 }
 
-/// The plane spanned by two axes.
-#[derive(Clone, Copy)]
-struct Plane(usize, usize);
+/// Returns the plane of `axis` and the one of the other two axes along which `size` is larger.
+fn plane_containing(axis: usize, size: DVec3) -> Plane {
+    let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
+    Plane::of(axis, if size[p] >= size[q] { p } else { q })
+}
 
-impl Plane {
-    fn project(self, point: DVec3) -> DVec2 {
-        dvec2(point[self.0], point[self.1])
-    }
-
-    fn name(self) -> String {
-        let (a, b) = (self.0, self.1);
-        format!("{} to the right, {} up", AXIS_NAMES[a], AXIS_NAMES[b])
-    }
-
-    /// Returns the plane of `axis` and the one of the other two axes along which `size` is larger.
-    fn containing(axis: usize, size: DVec3) -> Plane {
-        let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
-        let other = if size[p] >= size[q] { p } else { q };
-        Plane(axis.min(other), axis.max(other))
-    }
+/// Returns the axis with the largest value.
+fn largest(value: impl Fn(usize) -> f64) -> usize {
+    let axis = (0..3).max_by(|&a, &b| value(a).total_cmp(&value(b)));
+    axis.unwrap_or(0)
 }
 
 fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &NodePosition) {
@@ -91,10 +79,7 @@ fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &
             out
         }
     };
-    let worst = (0..3)
-        .max_by(|&a, &b| out(a).total_cmp(&out(b)))
-        .unwrap_or(0);
-    let plane = Plane::containing(worst, needs.max - needs.min);
+    let plane = plane_containing(largest(out), needs.max - needs.min);
     let corners = |bounds: Bounds| [bounds.min, bounds.max].map(|corner| plane.project(corner));
     let (right, got) = (corners(needs), corners(has));
     let reach = 6.0 * right[0].distance(right[1]).max(1e-9);
@@ -102,8 +87,7 @@ fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &
     let seen: Vec<DVec2> = right.into_iter().chain(near).collect();
 
     sheet.title(&format!("node {}: {}", node.reached.index, plane.name()));
-    let panel = sheet.panel(sphere::panel_height(&seen));
-    let window = Window::around(panel, seen);
+    let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
     let shapes = primitives.iter().map(|&index| &case.shapes[index]);
     draw_outlines(canvas, &window, plane, shapes);
@@ -121,9 +105,7 @@ fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &
 fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line: LineStyle) {
     let corners = [min, dvec2(max.x, min.y), max, dvec2(min.x, max.y)];
     for i in 0..4 {
-        if let Some((from, to)) = window.clip_segment(corners[i], corners[(i + 1) % 4]) {
-            canvas.line(from, to, line);
-        }
+        canvas.segment(window, [corners[i], corners[(i + 1) % 4]], line);
     }
 }
 
@@ -133,14 +115,12 @@ fn draw_partition(sheet: &mut Sheet, case: &BuildCase, missing: &[usize], duplic
         all.enclose(Bounds::of_shape(shape));
     }
     let size = all.max - all.min;
-    let longest = (0..3)
-        .max_by(|&a, &b| size[a].total_cmp(&size[b]))
-        .unwrap_or(0);
-    let plane = Plane::containing(longest, size);
-    let seen = [all.min, all.max].map(|corner| plane.project(corner));
+    let plane = plane_containing(largest(|axis| size[axis]), size);
+    let seen = [all.min, all.max]
+        .map(|corner| plane.project(corner))
+        .to_vec();
     sheet.title(&plane.name());
-    let panel = sheet.panel(sphere::panel_height(&seen));
-    let window = Window::around(panel, seen);
+    let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
     draw_outlines(canvas, &window, plane, case.shapes.iter());
     let mut mark = |indices: &[usize], mark: Mark| {

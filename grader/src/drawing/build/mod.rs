@@ -6,12 +6,12 @@ mod geometry;
 mod levels;
 mod node_positions;
 
-use protocol::{Answer, ElementOutcome, Shape, Tree};
+use protocol::{Answer, Shape, Tree};
 
-use super::Drawing;
 use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
+use super::{Drawing, value};
 
 use flaw::Flaw;
 use judging::drawing_data::{DrawingData, LevelNode, Sweep};
@@ -74,15 +74,10 @@ pub(super) fn draw(case: &BuildCase, answer: Option<&Answer>) -> Option<Drawing>
 }
 
 fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
-    match answer? {
-        Answer::Tree(ElementOutcome::Value(tree)) => Some(tree),
-        Answer::Tree(ElementOutcome::Panicked(_) | ElementOutcome::Skipped)
-        | Answer::Rays(_)
-        | Answer::Hits(_)
-        | Answer::Spans(_)
-        | Answer::Picture(_)
-        | Answer::Done => None,
-    }
+    let Answer::Tree(tree) = answer? else {
+        return None;
+    };
+    value(std::slice::from_ref(tree), 0)
 }
 
 fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {

@@ -32,9 +32,7 @@ pub(super) fn draw(
     let marks = |canvas: &mut Canvas, window: &Window| {
         let marks = [(Some(wanted), Mark::Right), (seen, Mark::Wrong)];
         for (point, mark) in marks {
-            if let Some((at, _)) = point.and_then(|point| window.pin_to_border(point)) {
-                canvas.mark(at, mark);
-            }
+            canvas.mark_pinned(window, point, mark);
         }
     };
 

@@ -6,9 +6,9 @@ mod sensor;
 mod side;
 
 use glam::{DVec2, DVec3};
-use protocol::{Answer, ElementOutcome, PinholeCamera, Ray, Sample};
+use protocol::{Answer, PinholeCamera, Ray, Sample};
 
-use super::Drawing;
+use super::{Drawing, value};
 
 use sensor::Sensor;
 
@@ -39,21 +39,10 @@ pub(super) fn draw(
 }
 
 fn ray_answer(element: usize, answer: Option<&Answer>) -> Option<Ray> {
-    let outcome = match answer {
-        Some(Answer::Rays(rays)) => rays.get(element),
-        Some(
-            Answer::Hits(_)
-            | Answer::Spans(_)
-            | Answer::Tree(_)
-            | Answer::Picture(_)
-            | Answer::Done,
-        )
-        | None => None,
+    let Some(Answer::Rays(rays)) = answer else {
+        return None;
     };
-    match outcome {
-        Some(ElementOutcome::Value(ray)) => Some(*ray),
-        Some(ElementOutcome::Panicked(_) | ElementOutcome::Skipped) | None => None,
-    }
+    value(rays, element).copied()
 }
 
 /// Returns the point where a direction crosses the plane z = -1, or `None` if it does not point

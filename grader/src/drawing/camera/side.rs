@@ -49,19 +49,19 @@ pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
     arrow(DVec2::ZERO, see(query.wanted), LineStyle::Right, Ink::Right);
     arrow(see(start), tip, LineStyle::Wrong, Ink::Wrong);
     canvas.mark(window.page_position(DVec2::ZERO), Mark::Origin);
-    if see(start).length() > 1e-4
-        && let Some((at, _)) = window.pin_to_border(see(start))
-    {
-        canvas.mark(at, Mark::Wrong);
+    if see(start).length() > 1e-4 {
+        canvas.mark_pinned(&window, Some(see(start)), Mark::Wrong);
     }
-    let is_range_right = ray.range == Interval::AHEAD;
-    if !is_range_right {
-        sheet.y = bars::draw(
-            &mut sheet.canvas,
-            sheet.y,
-            &range_rows(ray.range),
-            range_ends(ray.range),
-        );
+    if ray.range != Interval::AHEAD {
+        let (wanted, got) = (Interval::AHEAD, ray.range);
+        let row =
+            |name, style, span| BarRow::new(name, style, Some(span), &describe::interval(span));
+        let rows = [
+            row("wanted", BarStyle::Right, wanted),
+            row("got", BarStyle::Wrong, got),
+        ];
+        let ends = [0.0, 1.0, got.min.into(), got.max.into()];
+        sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, ends);
     }
     sheet.add_legend(
         Symbol::Line(LineStyle::Right),
@@ -89,27 +89,8 @@ fn draw_unit_arc(canvas: &mut Canvas, window: &Window) {
 
     let at = |step: i32| DVec2::from_angle(f64::from(step) / f64::from(STEPS) * 1.4);
     for step in -STEPS..STEPS {
-        if let Some((from, to)) = window.clip_segment(at(step), at(step + 1)) {
-            canvas.line(from, to, LineStyle::Behind);
-        }
+        canvas.segment(window, [at(step), at(step + 1)], LineStyle::Behind);
     }
-}
-
-fn range_rows(range: Interval) -> [BarRow; 2] {
-    let row = |name, bar, span| BarRow {
-        name,
-        style: bar,
-        span: Some(span),
-        empty_text: describe::interval(span),
-    };
-    [
-        row("wanted", BarStyle::Right, Interval::AHEAD),
-        row("got", BarStyle::Wrong, range),
-    ]
-}
-
-fn range_ends(range: Interval) -> [f64; 4] {
-    [0.0, 1.0, range.min.into(), range.max.into()]
 }
 
 fn caption(ray: &Ray, length: f64) -> String {

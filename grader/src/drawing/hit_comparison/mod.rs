@@ -3,9 +3,11 @@
 mod caption;
 
 use glam::{DVec2, DVec3};
-use protocol::{Answer, ElementOutcome, Interval, Ray, Trace};
+use protocol::{Answer, Interval, Ray, Trace};
 
 use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
+
+use super::value;
 
 /// A hit to draw. If it comes from the key of a picture, it has no material.
 #[derive(Clone, Copy, Debug)]
@@ -123,21 +125,13 @@ impl HitComparison {
 }
 
 fn hit_answer(element: usize, answer: Option<&Answer>) -> HitAnswer {
-    let outcome = match answer {
-        Some(Answer::Hits(hits)) => hits.get(element),
-        Some(
-            Answer::Rays(_)
-            | Answer::Spans(_)
-            | Answer::Tree(_)
-            | Answer::Picture(_)
-            | Answer::Done,
-        )
-        | None => None,
+    let Some(Answer::Hits(hits)) = answer else {
+        return HitAnswer::NoAnswer;
     };
-    match outcome {
-        Some(ElementOutcome::Value(Some(trace))) => HitAnswer::Hit(DrawnHit::from_trace(trace)),
-        Some(ElementOutcome::Value(None)) => HitAnswer::Miss,
-        Some(ElementOutcome::Panicked(_) | ElementOutcome::Skipped) | None => HitAnswer::NoAnswer,
+    match value(hits, element) {
+        Some(Some(trace)) => HitAnswer::Hit(DrawnHit::from_trace(trace)),
+        Some(None) => HitAnswer::Miss,
+        None => HitAnswer::NoAnswer,
     }
 }
 

@@ -11,9 +11,10 @@ use super::Drawing;
 use super::bars::Axis;
 use super::canvas::{Anchor, Mark, WIDTH};
 use super::hit_comparison::{HitAnswer, HitComparison};
-use super::ink::{Fill, Ink, LineStyle};
+use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
+use super::side::add_range_legend;
 
 use judging::describe;
 use judging::drawing_data::TraversalStep;
@@ -94,13 +95,7 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
         HitAnswer::Miss => sheet.add_legend(Symbol::None, "got: no hit"),
         HitAnswer::NoAnswer => {}
     }
-    if comparison.limited_range().is_some() {
-        let text = format!(
-            "the ray's range: {}",
-            describe::interval(comparison.ray.range)
-        );
-        sheet.add_legend(Symbol::Line(LineStyle::Range), &text);
-    }
+    add_range_legend(sheet, comparison);
     let entered = Fill::Tint(Ink::Text, 0.4);
     sheet.add_legend(
         Symbol::Area(entered),

@@ -1,5 +1,7 @@
 //! Tests that every answer of a submission gives a small, well-formed drawing, or none.
 
+mod captions;
+
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3};

@@ -7,7 +7,7 @@ use glam::{Vec3, vec2, vec3};
 use judging::exam::{ExamQuestion, ExpectedHit};
 use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 
-use super::draw;
+use crate::drawing::draw;
 
 fn caption(question: &ExamQuestion, answer: Answer) -> String {
     let drawing = draw(question, 0, Some(&answer));

@@ -159,7 +159,11 @@ fn first_error(folder: &Path) -> Cost {
         let read = BufReader::new(stderr).read_line(&mut first_line);
         read.expect("the grader writes text");
     });
-    assert!(first_line.contains("sphere.rs: error"), "{first_line}");
+    let (file, error) = first_line.split_once(": error").unwrap_or_default();
+    assert!(
+        file.contains("sphere.rs:") && !error.is_empty(),
+        "{first_line}"
+    );
     child
         .expect("the grader was started")
         .wait()

@@ -37,7 +37,7 @@ fn main() {
     let times: u32 = std::env::args().nth(1).unwrap().parse().unwrap();
     for _ in 0..=times {
         for question in &questions {
-            std::hint::black_box(framework::harness::answer::question(&world::Student, question));
+            std::hint::black_box(framework::harness::answer::answer_question(&world::Student, question));
         }
     }
 }

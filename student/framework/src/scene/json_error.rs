@@ -14,77 +14,66 @@ pub(super) fn scene_error(text: &str, path: &Path, error: &serde_json::Error) ->
     let message = error.to_string();
     let suffix = format!(" at line {line} column {column}");
     let message = message.strip_suffix(&suffix).unwrap_or(&message);
-    let position = match error.classify() {
-        Category::Data => Some(TextPosition::at_offset(
-            text,
-            value_offset(text, path, message),
-        )),
-        // Line 0 means that the parser does not know the position.
-        Category::Syntax | Category::Eof | Category::Io => {
-            (line > 0).then(|| TextPosition::new(text, line, column))
+    let (position, message) = match error.classify() {
+        Category::Data => {
+            let (offset, message) = data_error(text, path, message);
+            (Some(TextPosition::at_offset(text, offset)), message)
         }
-    };
-    let message = match error.classify() {
-        Category::Data => data_message(message, path),
-        Category::Syntax | Category::Eof | Category::Io => syntax_message(message),
+        // Line 0 means that the parser does not know the position.
+        Category::Syntax | Category::Eof | Category::Io => (
+            (line > 0).then(|| TextPosition::new(text, line, column)),
+            syntax_message(message),
+        ),
     };
     SceneError::new(position, SceneErrorKind::Syntax(message))
 }
 
-/// Returns the offset of the value or key that is wrong.
-fn value_offset(text: &str, path: &Path, message: &str) -> usize {
-    let start = offset_of(text, path);
-    let Some(name) = message.split('`').nth(1) else {
-        return start;
+/// Returns the offset of a value or key that is valid JSON, but not valid in a scene, and the message
+/// about it.
+fn data_error(text: &str, path: &Path, message: &str) -> (usize, String) {
+    let value = offset_of(text, path);
+    let last_name = path.iter().filter_map(segment_name).next_back();
+    // The parser quotes the wrong name first, and then the known ones.
+    let (problem, rest) = message.split_once('`').unwrap_or((message, ""));
+    let mut quoted = rest.split('`').step_by(2);
+    let name = quoted.next().unwrap_or_default();
+    let known: Vec<&str> = quoted.collect();
+    let key = || {
+        let key = format!("{name:?}");
+        // The path of an unknown key ends with that key, and so leads to its value.
+        let found = match path.iter().next_back().and_then(segment_name) {
+            Some(last) if last == name => text[..value].rfind(&key),
+            Some(_) | None => text[value..].find(&key).map(|key| value + key),
+        };
+        found.unwrap_or(value)
     };
-    if message.starts_with('`') {
-        return member(text, start, name).unwrap_or(start);
-    }
-    let is_about_a_key = ["unknown field ", "unknown variant ", "duplicate field "]
-        .iter()
-        .any(|term| message.starts_with(term));
-    if !is_about_a_key {
-        return start;
-    }
-    let key = format!("{name:?}");
-    // The path of an unknown key ends with that key, and so leads to its value.
-    let is_of_value = path.iter().next_back().and_then(segment_name) == Some(name);
-    let key_start = if is_of_value {
-        text[..start].rfind(&key)
-    } else {
-        text[start..].find(&key).map(|key| start + key)
-    };
-    key_start.unwrap_or(start)
-}
-
-/// Returns the message about a value that is valid JSON, but not valid in a scene.
-fn data_message(message: &str, path: &Path) -> String {
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    if let Some(rest) = message.strip_prefix("missing field ") {
-        return format!("missing key {rest}");
-    }
-    if let Some(rest) = message.strip_prefix("duplicate field ") {
-        return format!("the key {rest} occurs twice");
-    }
-    if let (true, [name, known @ ..]) = (message.starts_with("unknown field "), &quoted[..]) {
-        let known_keys = known.join(", ");
-        return format!(
-            "unknown key `{name}`{}; the keys here are: {known_keys}",
-            suggestion(name, known)
-        );
-    }
-    if let (true, [name, known @ ..]) = (message.starts_with("unknown variant "), &quoted[..]) {
-        return format!(
-            "there is no {} `{name}`{}; the kinds are: {}",
-            kind(path),
-            suggestion(name, known),
-            known.join(", ")
-        );
-    }
-    let text = type_message(message).unwrap_or_else(|| message.to_owned());
-    match path.iter().filter_map(segment_name).next_back() {
-        Some(key) if !text.starts_with('`') => format!("`{key}`: {text}"),
-        Some(_) | None => text,
+    let suggestion = || suggestion(name, &known);
+    match problem {
+        "missing field " => (value, format!("missing key `{name}`")),
+        "duplicate field " => (key(), format!("the key `{name}` occurs twice")),
+        "unknown field " => {
+            let (known, suggestion) = (known.join(", "), suggestion());
+            let message = format!("unknown key `{name}`{suggestion}; the keys here are: {known}");
+            (key(), message)
+        }
+        "unknown variant " => {
+            let (kind, known, suggestion) = (kind(path), known.join(", "), suggestion());
+            let message =
+                format!("there is no {kind} `{name}`{suggestion}; the kinds are: {known}");
+            (key(), message)
+        }
+        // The message names the key itself.
+        "" => (
+            member(text, value, name).unwrap_or(value),
+            message.to_owned(),
+        ),
+        _ => {
+            let message = type_message(message).unwrap_or_else(|| message.to_owned());
+            let key = last_name
+                .map(|key| format!("`{key}`: "))
+                .unwrap_or_default();
+            (value, key + &message)
+        }
     }
 }
 

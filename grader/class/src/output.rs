@@ -29,7 +29,7 @@ pub enum Completion {
     Incomplete,
 }
 
-/// What the files of a class depend on, apart from the results of its submissions.
+/// The inputs of a class's files, apart from the results of its submissions.
 pub struct ClassContext<'a> {
     /// The output folder.
     pub store: &'a Store,

@@ -13,11 +13,11 @@ pub struct Solution {
     pub title: String,
     /// Its files.
     pub sources: Sources,
-    /// What is expected of it.
+    /// The results that it must have.
     pub expected: Expected,
 }
 
-/// What is expected of a solution.
+/// The results that a solution must have.
 #[derive(Clone, Debug, Default)]
 pub struct Expected {
     /// The tasks that it is about. A wrong solution must lose points in the first of them, and may

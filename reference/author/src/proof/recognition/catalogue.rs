@@ -14,7 +14,7 @@ use crate::solutions::Solutions;
 use crate::solutions::catalogue::{independent_mistakes, unknown_mistakes};
 use crate::solutions::solution::Solution;
 
-/// What the report says about a mistake.
+/// The report's words about a mistake.
 struct ReportedMistake {
     /// The id of the mistake, and that of the variant that makes it.
     id: String,

@@ -205,12 +205,16 @@ pub fn exit_code_and_stderr(output: &Output) -> (i32, String) {
     (output.status.code().unwrap(), error)
 }
 
-/// Returns all files in a folder, without the timings, which differ in every run.
+/// Returns all files in a folder, without the timings, which differ in every run, the folder's own
+/// path in the reports, and the mark of lists that a merge has from its parts.
 pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     collect_files(folder, folder, &mut files);
     files
 }
+
+/// The mark of a list that a merge has from its parts.
+const IS_OF_PARTS: &str = ",\n      \"is_of_parts\": true";
 
 fn collect_files(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
     for entry in fs::read_dir(folder).unwrap() {
@@ -224,6 +228,10 @@ fn collect_files(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u
             let mut score: Value = serde_json::from_slice(&bytes).unwrap();
             score["timings"] = Value::Null;
             bytes = serde_json::to_vec(&score).unwrap();
+        } else if path.ends_with("report.html") || path.ends_with("run.json") {
+            let here = root.canonicalize().unwrap().display().to_string();
+            let text = String::from_utf8(bytes).unwrap().replace(&here, "OUT");
+            bytes = text.replace(IS_OF_PARTS, "").into_bytes();
         }
         files.insert(path.strip_prefix(root).unwrap().to_owned(), bytes);
     }

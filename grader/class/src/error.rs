@@ -19,7 +19,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Returns an error that the user can fix, with the message of another one.
+    /// Returns an error that the user can fix, with another error's message.
     pub fn user(error: impl ToString) -> Self {
         Error::User(error.to_string())
     }

@@ -112,7 +112,7 @@ impl Input {
     }
 }
 
-/// Marks each entry of which a file could not be unpacked as an entry without files. Files of no entry
+/// Marks each entry with a file that could not be unpacked as an entry without files. Files of no entry
 /// are listed.
 fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec<UnmatchedPath>) {
     for file in incomplete {

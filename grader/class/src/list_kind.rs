@@ -26,7 +26,7 @@ pub enum ListKind {
 }
 
 impl ListKind {
-    /// Returns the name, as it is written on the command line: the option without its dashes.
+    /// Returns the name on the command line: the option without its dashes.
     pub fn name(self) -> &'static str {
         match self {
             ListKind::Policy => "policy",
@@ -51,7 +51,7 @@ impl ListKind {
     }
 }
 
-/// A list of which the output folder has a copy.
+/// A list that the output folder has a copy of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptList {
     /// The hash of the file.

@@ -46,7 +46,7 @@ pub struct ClassContext<'a> {
 }
 
 impl ClassContext<'_> {
-    /// Counts the points, writes the files of the class, and prints a summary.
+    /// Counts the points, writes the files of the class and prints a summary.
     pub fn finish(self, results: Vec<EntryResult>, changes: Changes) -> Result<Completion, Error> {
         let settings = &self.run.settings;
         let class = GradedClass {

@@ -39,7 +39,7 @@ pub struct RecognisedClass {
     pub unmatched: Vec<UnmatchedPath>,
     /// Sentences about how the input was read, for a person to check.
     pub notes: Vec<String>,
-    /// The reasons why single entries seem to be several people's. They are not graded.
+    /// For each entry that seems to be several people's and is not graded, the reason.
     pub mixtures: Vec<String>,
 }
 

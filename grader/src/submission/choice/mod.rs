@@ -7,6 +7,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
+use super::names::is_archive_name;
 use super::{MAX_NOTES, SubmissionFiles, TaskFileError, display_name};
 use crate::handed_out::HandedOut;
 
@@ -105,7 +106,7 @@ pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
 /// A folder whose files are all in the chosen one as well is ignored, with a note if they differ
 /// there. A folder that has as much as the chosen one, or a file that the chosen one lacks, could
 /// be what is meant: then the result is an error. So could a changed copy of a file that is as it was
-/// handed out; other files that resemble task files are noted.
+/// handed out, in an archive or under another name; other files that resemble task files are noted.
 pub(super) fn choose(
     mut candidates: Vec<Candidate>,
     lookalikes: Vec<Lookalike>,
@@ -139,6 +140,13 @@ pub(super) fn choose(
     let written: Vec<&str> = chosen.written(handed_out).map(|(name, _)| name).collect();
     let mut notes = Vec::new();
     for other in candidates {
+        let starters = chosen.archived_copies_of_starter(&other, handed_out);
+        if !starters.is_empty() {
+            return Err(AmbiguousSource::StarterBesideCopies {
+                copies: starters.iter().map(|name| chosen.path_of(name)).collect(),
+                starters: starters.into_iter().map(str::to_owned).collect(),
+            });
+        }
         let files: Vec<_> = other.written(handed_out).collect();
         let differs = |(name, text): &&(&'static str, &FileContents)| {
             chosen.files.task_files.get(name) != Some(*text)
@@ -246,6 +254,30 @@ impl Candidate {
         files
             .filter(|(name, contents)| !is_starter(name, contents, handed_out))
             .map(|(name, contents)| (*name, contents))
+    }
+
+    /// Returns the files that are changed in this folder, which is in an archive, and are the
+    /// starter's in another folder, which is in none.
+    fn archived_copies_of_starter(
+        &self,
+        other: &Candidate,
+        handed_out: &HandedOut,
+    ) -> Vec<&'static str> {
+        if !self.is_in_archive() || other.is_in_archive() {
+            return Vec::new();
+        }
+        let other = &other.files.task_files;
+        let is_starter = |name: &&'static str| {
+            let contents = other.get(name);
+            contents.is_some_and(|contents| is_starter(name, contents, handed_out))
+        };
+        let written = self.written(handed_out).map(|(name, _)| name);
+        written.filter(is_starter).collect()
+    }
+
+    /// Returns whether the folder is in an archive that is itself part of the submission.
+    fn is_in_archive(&self) -> bool {
+        self.folder.split('/').any(is_archive_name)
     }
 
     fn path_of(&self, name: &str) -> String {

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use crate::handed_out::RAYS;
     use crate::score::Hint;
-    use crate::small_exam::{boxes, exam, pending};
+    use crate::score::tests::small_exam::{boxes, exam, pending};
 
     #[test]
     fn hints_come_from_the_answers_that_count() {

@@ -61,8 +61,6 @@ pub mod run_exam;
 pub mod sandbox;
 pub mod score;
 pub mod select_isolation;
-#[cfg(test)]
-mod small_exam;
 pub mod source_paths;
 pub mod stage_times;
 pub mod submission;

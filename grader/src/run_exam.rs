@@ -152,7 +152,7 @@ mod tests {
     use crate::build::NotCompiled;
     use crate::handed_out::RAYS;
     use crate::score::Verdict;
-    use crate::small_exam::{boxes, exam, item, pending};
+    use crate::score::tests::small_exam::{boxes, exam, item, pending};
 
     #[test]
     fn every_item_of_a_submission_that_does_not_compile_is_recorded() {

@@ -8,7 +8,7 @@ use crate::handed_out::RAYS;
 use crate::options::Dependents;
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
-use crate::small_exam::{exam, pending};
+use crate::score::tests::small_exam::{exam, pending};
 use crate::submission::TaskFileError;
 use crate::task_selection::TaskSelection;
 

@@ -83,7 +83,7 @@ pub fn headline_with_counted(view: &StudentView) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::sample;
+    use crate::format::tests::sample;
 
     /// Returns the text about the item with this id.
     fn text(view: &StudentView, id: &str) -> String {

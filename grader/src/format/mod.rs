@@ -16,8 +16,6 @@ mod junit;
 pub mod outputs;
 mod prairielearn;
 mod redact;
-#[cfg(test)]
-mod sample;
 mod sentence;
 mod size;
 mod spec;

@@ -203,7 +203,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::format::sample;
+    use crate::format::tests::sample;
     use crate::handed_out::RAYS;
 
     /// The folder with the starter's files, relative to the package, in which Cargo runs the tests.

@@ -201,7 +201,8 @@ fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::{StudentView, sample};
+    use crate::format::StudentView;
+    use crate::format::tests::sample;
 
     fn item<'a>(view: &'a StudentView, id: &str) -> &'a ItemScore {
         let mut items = view.visible.items();

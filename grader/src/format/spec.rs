@@ -113,7 +113,7 @@ impl FromStr for OutputSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::sample;
+    use crate::format::tests::sample;
 
     #[test]
     fn a_format_is_named_with_or_without_a_path() {

@@ -107,7 +107,7 @@ fn hidden_ids(policy: &Policy, score: &Score) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::sample;
+    use crate::format::tests::sample;
 
     /// Returns what students see of the sample as a final exam, with these exceptions.
     fn view(items: &str) -> StudentView {

@@ -190,7 +190,7 @@ mod tests {
     use std::path::Path;
 
     use crate::policy::{DEFAULT, Policy};
-    use crate::small_exam::exam;
+    use crate::score::tests::small_exam::exam;
 
     #[test]
     fn documented_default_equals_the_built_in_default() {

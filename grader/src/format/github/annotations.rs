@@ -67,7 +67,7 @@ fn is_annotated(verdict: &Verdict) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::sample;
+    use crate::format::tests::sample;
 
     /// A file that does not compile, and one item of each task that can be fixed by itself.
     #[test]

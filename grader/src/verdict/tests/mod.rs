@@ -5,7 +5,7 @@ use protocol::{Panic, Question};
 
 use super::*;
 use crate::handed_out::RAYS;
-use crate::small_exam::{boxes, exam, item, pending};
+use crate::score::tests::small_exam::{boxes, exam, item, pending};
 
 fn right() -> Judgement {
     Judgement {

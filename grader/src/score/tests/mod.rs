@@ -1,6 +1,10 @@
+//! Tests of scores, and a small exam for other tests.
+
+pub mod small_exam;
+
 use super::*;
 use crate::handed_out::RAYS;
-use crate::small_exam::{exam, pending};
+use small_exam::{exam, pending};
 
 /// Returns the score of an exam with these items.
 fn score(ids: &[&str]) -> Score {

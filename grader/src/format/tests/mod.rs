@@ -2,9 +2,11 @@
 
 use serde_json::Value;
 
-use super::sample::{self, LATE, RESTRICTED};
+pub mod sample;
+
 use super::{FORMATS, FormatContext, FormatSpec, StudentView};
 use crate::score::Verdict;
+use sample::{LATE, RESTRICTED};
 
 fn format(id: &str) -> &'static FormatSpec {
     let mut formats = FORMATS.into_iter();

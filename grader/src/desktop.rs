@@ -1,20 +1,9 @@
 //! Opens a file in the user's default application for its type.
 
+use std::env;
 use std::path::Path;
-use std::{env, io};
 
 use crate::printing::print_error_line;
-
-/// Reasons why a file was not opened.
-#[derive(Debug, thiserror::Error)]
-pub enum OpenError {
-    /// There is no desktop session in which the user would see the file.
-    #[error("no desktop session is available")]
-    NoDesktop,
-    /// No program is associated with this type of file, or the program does not start.
-    #[error("no program can open the page ({0})")]
-    NoProgram(#[from] io::Error),
-}
 
 /// Opens a file with the desktop's default program for it, without waiting for that program. If
 /// this fails, prints the path of the file instead of returning an error.
@@ -25,11 +14,16 @@ pub fn show(file: &Path) {
 }
 
 /// Opens a file with the desktop's default program for it, without waiting for that program.
-pub fn open(file: &Path) -> Result<(), OpenError> {
+///
+/// # Errors
+///
+/// The reason, for a message: there is no desktop, or no program for this type of file.
+pub fn open(file: &Path) -> Result<(), String> {
     if !has_desktop() {
-        return Err(OpenError::NoDesktop);
+        return Err("no desktop session is available".to_owned());
     }
-    Ok(open::that_detached(file)?)
+    let opened = open::that_detached(file);
+    opened.map_err(|error| format!("no program can open the page ({error})"))
 }
 
 /// Returns whether there is a desktop session. Windows and macOS always have one. On other systems

@@ -1,80 +1,53 @@
-//! Errors that prevent grading, and their exit codes.
+//! The error that ends a command, and its exit code.
 
 use std::io;
 
-use crate::build::BuildError;
-use crate::exam_source::ExamSourceError;
 use crate::files::PathError;
-use crate::format::outputs::OutputError;
-use crate::policy::{PolicyError, SubmissionTimeError};
-use crate::select_isolation::IsolationError;
-use crate::submission::SubmissionError;
-use crate::workspace::WorkspaceError;
 
-/// An error that prevents grading.
+/// An error that ends a command. An error that some caller treats in a way of its own has another
+/// type, which is converted to this one.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The submission cannot be found or read.
-    #[error(transparent)]
-    Submission(#[from] SubmissionError),
-    /// The exam cannot be used.
-    #[error(transparent)]
-    Exam(#[from] ExamSourceError),
-    /// The policy cannot be used.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
-    /// The submission time cannot be read.
-    #[error(transparent)]
-    SubmissionTime(#[from] SubmissionTimeError),
-    /// An output format cannot be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// The question to replay does not exist.
+    /// The user can fix it: the command line, the submission, the exam or the policy is wrong.
     #[error("{0}")]
-    Replay(String),
-    /// More points are required than there are.
-    #[error("--require {points} cannot be met: the assignment has {most} points")]
-    RequiredPoints {
-        /// The required points.
-        points: u32,
-        /// The points of the assignment.
-        most: u32,
-    },
-    /// The workspace cannot be found.
-    #[error(transparent)]
-    Workspace(#[from] WorkspaceError),
-    /// The compiler cannot be found, or the dependencies cannot be built.
-    #[error(transparent)]
-    Build(#[from] BuildError),
+    User(String),
+    /// The grader or the machine is at fault.
+    #[error("{0}")]
+    Machine(String),
     /// The required isolation is not available.
-    #[error(transparent)]
-    Isolation(#[from] IsolationError),
-    /// A file of the report cannot be written.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A probe cannot be built or started.
-    #[error("cannot run the submission's program: {0}")]
-    Probe(#[from] io::Error),
+    #[error("{0}")]
+    Isolation(String),
 }
 
 impl Error {
+    /// Returns an error that the user can fix.
+    pub fn user(message: impl ToString) -> Self {
+        Error::User(message.to_string())
+    }
+
+    /// Returns an error of the grader or the machine.
+    pub fn machine(message: impl ToString) -> Self {
+        Error::Machine(message.to_string())
+    }
+
     /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Submission(error) if error.is_machine_fault() => 3,
-            Error::Submission(_)
-            | Error::Exam(_)
-            | Error::Policy(_)
-            | Error::Output(OutputError::MissingVariable { .. })
-            | Error::Replay(_)
-            | Error::RequiredPoints { .. } => 2,
-            Error::Workspace(_)
-            | Error::SubmissionTime(_)
-            | Error::Build(_)
-            | Error::Output(OutputError::File(_))
-            | Error::Isolation(_)
-            | Error::File(_)
-            | Error::Probe(_) => 3,
+            Error::User(_) => 2,
+            Error::Machine(_) | Error::Isolation(_) => 3,
         }
+    }
+}
+
+impl From<PathError> for Error {
+    fn from(error: PathError) -> Self {
+        Error::machine(error)
+    }
+}
+
+/// An error while a probe is built or started.
+impl From<io::Error> for Error {
+    fn from(error: io::Error) -> Self {
+        Error::Machine(format!("cannot run the submission's program: {error}"))
     }
 }

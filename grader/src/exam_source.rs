@@ -5,8 +5,9 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use judging::content_hash::file_hash;
-use judging::exam_file::{self, ExamError, ExamFile};
+use judging::exam_file::{self, ExamFile};
 
+use crate::error::Error;
 use crate::files::{self, AtPath, PathError};
 use crate::handed_out::HandedOut;
 
@@ -33,20 +34,6 @@ pub enum ExamSource {
     File(PathBuf),
 }
 
-/// Reasons why an exam cannot be loaded.
-#[derive(Debug, thiserror::Error)]
-pub enum ExamSourceError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The file is larger than the limit.
-    #[error("the exam {} is larger than 64 MiB", .0.display())]
-    TooLong(PathBuf),
-    /// The file is not a valid exam.
-    #[error(transparent)]
-    Invalid(#[from] ExamError),
-}
-
 impl ExamSource {
     /// Returns the source that the value of `--exam` selects: standard input if it is `-`, the
     /// practice exam if it is missing, and otherwise a file.
@@ -68,25 +55,27 @@ impl ExamSource {
     }
 
     /// Reads the exam, and validates it as one for this assignment.
-    pub fn load(&self, handed_out: &HandedOut) -> Result<ExamFile, ExamSourceError> {
+    pub fn load(&self, handed_out: &HandedOut) -> Result<ExamFile, Error> {
         let name = self.option().unwrap_or(Path::new(PRACTICE_FILE));
         let bytes = self.bytes(handed_out)?;
-        Ok(exam_file::parse(name, &bytes, handed_out.assignment)?)
+        exam_file::parse(name, &bytes, handed_out.assignment).map_err(Error::user)
     }
 
     /// Returns the hash of the exam's bytes, which need not be a valid exam.
-    pub fn hash(&self, handed_out: &HandedOut) -> Result<String, ExamSourceError> {
+    pub fn hash(&self, handed_out: &HandedOut) -> Result<String, Error> {
         Ok(file_hash(&self.bytes(handed_out)?))
     }
 
-    fn bytes(&self, handed_out: &HandedOut) -> Result<Cow<'static, [u8]>, ExamSourceError> {
+    fn bytes(&self, handed_out: &HandedOut) -> Result<Cow<'static, [u8]>, Error> {
         Ok(match self {
             ExamSource::Practice => Cow::Borrowed(handed_out.practice_exam.as_bytes()),
             ExamSource::StandardInput => Cow::Owned(read(Path::new("-"), io::stdin())?),
             ExamSource::File(path) => {
-                let file = files::open(path).map_err(|error| PathError {
-                    action: ACTION,
-                    ..error
+                let file = files::open(path).map_err(|error| {
+                    Error::user(PathError {
+                        action: ACTION,
+                        ..error
+                    })
                 })?;
                 Cow::Owned(read(path, file)?)
             }
@@ -94,12 +83,16 @@ impl ExamSource {
     }
 }
 
-fn read(path: &Path, input: impl Read) -> Result<Vec<u8>, ExamSourceError> {
+fn read(path: &Path, input: impl Read) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     let limited = &mut input.take(MAX_FILE_BYTES + 1);
-    limited.read_to_end(&mut bytes).at(ACTION, path)?;
+    let read = limited.read_to_end(&mut bytes).at(ACTION, path);
+    read.map_err(Error::user)?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(ExamSourceError::TooLong(path.to_owned()));
+        let path = path.display();
+        return Err(Error::User(format!(
+            "the exam {path} is larger than 64 MiB"
+        )));
     }
     Ok(bytes)
 }

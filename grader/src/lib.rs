@@ -9,13 +9,13 @@
 //! | layer | modules |
 //! |---|---|
 //! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`], [`hand_in`] |
-//! | grading | [`cache_lookup`], [`grade`], [`cached_report`], [`report_files`], [`error`], [`options`] |
+//! | grading | [`cache_lookup`], [`grade`], [`cached_report`], [`report_files`], [`options`] |
 //! | exam runs | [`run_exam`], `explain`, [`task_session`], [`kept_state`], [`verdict`] |
 //! | reports | [`mod@format`], [`report`], [`report_answers`], [`drawing`], [`svg`] |
 //! | steps of an exam run | [`item_outcome`], [`clue`], [`select_isolation`], [`build`], [`probe`] |
 //! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`given_files`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`exam_source`], [`question_ref`], [`task_selection`], [`book`], [`workspace`], [`handed_out`] |
-//! | the machine | `backup`, [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`], [`files`], [`disk`], [`system`], [`alone`], [`nearest_name`] |
+//! | the machine | `backup`, [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`], [`error`], [`files`], [`disk`], [`system`], [`alone`], [`nearest_name`] |
 //!
 //! The package [`judging`] is below all of them: exams, their keys, and the comparison of answers
 //! with keys.

@@ -1,6 +1,5 @@
 //! `cargo grade`: grades one submission.
 
-use std::fmt::Display;
 use std::process::ExitCode;
 
 use grader::cli::{Arguments, Command};
@@ -18,14 +17,10 @@ fn main() -> ExitCode {
     if let Some(code) = sandbox::run_as_launcher() {
         return code;
     }
-    run(Arguments::from_command_line().resolve())
-        .unwrap_or_else(|error| failure(&error, error.exit_code()))
-}
-
-/// Prints an error that ends the program.
-fn failure(error: &impl Display, exit_code: u8) -> ExitCode {
-    print_error(error);
-    ExitCode::from(exit_code)
+    run(Arguments::from_command_line().resolve()).unwrap_or_else(|error| {
+        print_error(&error);
+        ExitCode::from(error.exit_code())
+    })
 }
 
 fn run(command: Command) -> Result<ExitCode, Error> {
@@ -37,10 +32,7 @@ fn run(command: Command) -> Result<ExitCode, Error> {
             handed_out,
             folder,
             names,
-        } => match reset(handed_out, folder.as_deref(), &names) {
-            Ok(message) => print(message),
-            Err(error) => return Ok(failure(&error, error.exit_code())),
-        },
+        } => print(reset(handed_out, folder.as_deref(), &names)?),
         Command::Diagnose => return diagnose_and_print(),
         Command::PrintSchema => print(score::PUBLISHED_SCHEMA),
         Command::PrintDefaultPolicy => print(policy::DEFAULT),

@@ -91,7 +91,7 @@ fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'s
 
 fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
     let item = exam.items.iter().find(|item| item.id == id);
-    item.ok_or_else(|| Error::Replay(unknown_item(exam, id)))
+    item.ok_or_else(|| Error::User(unknown_item(exam, id)))
 }
 
 /// Returns a message that names the items that may be meant: those of all tasks with this name, or those
@@ -125,7 +125,7 @@ fn unknown_item(exam: &Exam, id: &str) -> String {
 /// Returns the indices of a question and of an element in it.
 fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     item.element(number).ok_or_else(|| {
-        Error::Replay(format!(
+        Error::User(format!(
             "{} has {} questions, so there is no number {number}",
             item.id,
             item.count(),

@@ -4,31 +4,11 @@
 use std::fmt::Write;
 
 use crate::build::{Builder, SelfTestError};
+use crate::error::Error;
 use crate::sandbox::{Isolation, Sandbox};
 
 /// The minimum level for other people's code, unless another level is requested.
 pub const MIN_FOR_UNTRUSTED: Isolation = Isolation::NoNamespaces;
-
-/// Reasons why the requested isolation is not available on this machine.
-#[derive(Debug, thiserror::Error)]
-pub enum IsolationError {
-    /// The requested level is not available.
-    #[error("isolation level {level} is not available: {why}\n{ADVICE}")]
-    LevelUnavailable {
-        /// The requested level.
-        level: Isolation,
-        /// The reason why it is not available.
-        why: SelfTestError,
-    },
-    /// No level that is good enough for other people's code is available.
-    #[error(
-        "other people's code cannot be graded here: neither isolation level {MIN_FOR_UNTRUSTED} nor a better one is available\n{missing}{ADVICE}"
-    )]
-    NoSufficientLevel {
-        /// One line for each tested level, with the reason why it is not available.
-        missing: String,
-    },
-}
 
 /// The requested isolation of a submission's code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,21 +26,21 @@ const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave 
 
 /// Returns the builder with the requested isolation, after testing it. For
 /// [`IsolationRequest::OwnWork`], the builder is returned unchanged.
-pub fn with_requested_level(
-    builder: Builder,
-    request: IsolationRequest,
-) -> Result<Builder, IsolationError> {
+pub fn with_requested_level(builder: Builder, request: IsolationRequest) -> Result<Builder, Error> {
     match request {
         IsolationRequest::OwnWork => Ok(builder),
         IsolationRequest::Untrusted => with_best_level(&builder),
-        IsolationRequest::Level(level) => with_level(&builder, level)
-            .map_err(|why| IsolationError::LevelUnavailable { level, why }),
+        IsolationRequest::Level(level) => with_level(&builder, level).map_err(|why| {
+            Error::Isolation(format!(
+                "isolation level {level} is not available: {why}\n{ADVICE}"
+            ))
+        }),
     }
 }
 
 /// Returns the builder with the best available level, provided that it is good enough for other
 /// people's code.
-pub fn with_best_level(builder: &Builder) -> Result<Builder, IsolationError> {
+pub fn with_best_level(builder: &Builder) -> Result<Builder, Error> {
     let mut missing = String::new();
     for level in Isolation::ALL
         .into_iter()
@@ -73,7 +53,10 @@ pub fn with_best_level(builder: &Builder) -> Result<Builder, IsolationError> {
             }
         }
     }
-    Err(IsolationError::NoSufficientLevel { missing })
+    Err(Error::Isolation(format!(
+        "other people's code cannot be graded here: neither isolation level {MIN_FOR_UNTRUSTED} nor a \
+         better one is available\n{missing}{ADVICE}"
+    )))
 }
 
 /// Returns the builder with this level, after testing it.

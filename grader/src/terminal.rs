@@ -41,7 +41,9 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
     let most = options.handed_out.assignment.points();
     if print.require > most {
         let points = print.require;
-        return Err(Error::RequiredPoints { points, most });
+        return Err(Error::User(format!(
+            "--require {points} cannot be met: the assignment has {most} points"
+        )));
     }
     // A cached report has no timings.
     let may_reuse = !print.fresh && !print.timings;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use judging::sanitize::sanitize_line;
 
+use crate::error::Error;
 use crate::handed_out::HandedOut;
 
 /// The folder that contains `student/` and the lock file.
@@ -12,13 +13,6 @@ use crate::handed_out::HandedOut;
 pub struct Workspace {
     root: PathBuf,
 }
-
-/// The error if the workspace cannot be found.
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "cannot find the assignment's folder, which contains student/framework: run the command inside it"
-)]
-pub struct WorkspaceError;
 
 /// Returns a path for a message: relative to the current folder if it is inside that folder, and
 /// safe to print.
@@ -31,7 +25,7 @@ pub fn display_path(path: &Path) -> String {
 impl Workspace {
     /// Finds the workspace around the current folder, or else the one in which this program was
     /// built.
-    pub fn find() -> Result<Self, WorkspaceError> {
+    pub fn find() -> Result<Self, Error> {
         let here = env::current_dir().unwrap_or_default();
         let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
         here.ancestors()
@@ -45,7 +39,12 @@ impl Workspace {
             .map(|root| Workspace {
                 root: root.to_owned(),
             })
-            .ok_or(WorkspaceError)
+            .ok_or_else(|| {
+                Error::machine(
+                    "cannot find the assignment's folder, which contains student/framework: run the \
+                     command inside it",
+                )
+            })
     }
 
     /// Returns the workspace's root folder.

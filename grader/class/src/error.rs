@@ -2,7 +2,6 @@
 
 use grader::error::Error as GraderError;
 use grader::files::PathError;
-use grader::policy::PolicyError;
 
 /// An error that stops the grading of a class.
 #[derive(Debug, thiserror::Error)]
@@ -37,12 +36,6 @@ impl Error {
 impl From<PathError> for Error {
     fn from(error: PathError) -> Self {
         Error::Machine(error.to_string())
-    }
-}
-
-impl From<PolicyError> for Error {
-    fn from(error: PolicyError) -> Self {
-        Error::user(error)
     }
 }
 

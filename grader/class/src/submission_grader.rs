@@ -57,7 +57,7 @@ impl SubmissionGrader for Grader<'_> {
         let exam = self.exam_name();
         // The executable itself is hashed: any change to it, such as a build with another compiler,
         // may change a score.
-        let program = env::current_exe().map_err(Error::Probe)?;
+        let program = env::current_exe()?;
         Ok(Settings {
             exam: exam.id.clone(),
             exam_hash: exam.hash.clone(),

@@ -18,7 +18,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::build::toolchain::Toolchain;
-use crate::files::{self, AtPath, PathError};
+use crate::error::Error;
+use crate::files::{self, AtPath};
 use crate::printing::print_error_line;
 use crate::system;
 use crate::workspace::Workspace;
@@ -47,28 +48,9 @@ pub struct Dependencies {
     pub folder: PathBuf,
 }
 
-/// Reasons why the dependencies cannot be built. They are the fault of the grader or the machine.
-#[derive(Debug, thiserror::Error)]
-pub enum DependenciesError {
-    /// The cache cannot be used.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// Cargo failed, and has printed why.
-    #[error(
-        "cargo could not build student/framework (see its messages above); the first run needs network access"
-    )]
-    Cargo,
-    /// Cargo's messages do not mention a required crate.
-    #[error("cargo did not build the crate {0}: has student/framework been changed?")]
-    MissingCrate(String),
-}
-
 impl Dependencies {
     /// Returns the dependencies from the cache, or builds them.
-    pub fn prepare(
-        workspace: &Workspace,
-        toolchain: &Toolchain,
-    ) -> Result<Self, DependenciesError> {
+    pub fn prepare(workspace: &Workspace, toolchain: &Toolchain) -> Result<Self, Error> {
         let key = cache_key(workspace, toolchain)?;
         let cache = workspace
             .cache_folder()
@@ -89,7 +71,7 @@ impl Dependencies {
         names: &[String],
         workspace: &Workspace,
         toolchain: &Toolchain,
-    ) -> Result<Self, DependenciesError> {
+    ) -> Result<Self, Error> {
         let cache = workspace.cache_folder().join("dependencies");
         let cache = cache.join(format!(
             "{}-{}",
@@ -113,7 +95,7 @@ impl Dependencies {
         folder: &Path,
         workspace: &Workspace,
         toolchain: &Toolchain,
-    ) -> Result<Self, DependenciesError> {
+    ) -> Result<Self, Error> {
         let mut sources = vec![folder.join("Cargo.toml")];
         list_sources(&folder.join("src"), &mut sources)?;
         let mut hash = ContentHash::default().with(cache_key(workspace, toolchain)?.as_bytes());
@@ -135,8 +117,8 @@ impl Dependencies {
 /// again, because another process may be reading them.
 fn prepare_once(
     cache: &Path,
-    make: impl FnOnce() -> Result<Dependencies, DependenciesError>,
-) -> Result<Dependencies, DependenciesError> {
+    make: impl FnOnce() -> Result<Dependencies, Error>,
+) -> Result<Dependencies, Error> {
     let record = cache.join("dependencies.json");
     if let Some(ready) = read(&record) {
         return Ok(ready);
@@ -154,7 +136,7 @@ fn prepare_once(
 }
 
 /// Locks this folder until the returned file is dropped.
-fn lock(cache: &Path) -> Result<File, DependenciesError> {
+fn lock(cache: &Path) -> Result<File, Error> {
     files::create_dir_all(cache)?;
     let path = cache.join("lock");
     let lock = File::create(&path).at("create", &path)?;
@@ -173,7 +155,7 @@ fn read(record: &Path) -> Option<Dependencies> {
 
 /// Returns a hash of everything that the compiled dependencies depend on: the compiler, the lock
 /// file and the sources.
-fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, DependenciesError> {
+fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Error> {
     let mut hash = ContentHash::default()
         .with(RECIPE_VERSION.as_bytes())
         .with(toolchain.fingerprint().as_bytes());
@@ -192,7 +174,7 @@ fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Dep
     Ok(hash.hex())
 }
 
-fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), DependenciesError> {
+fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
     for path in files::read_dir(folder)? {
         if path.is_dir() {
             list_sources(&path, files)?;
@@ -209,7 +191,7 @@ fn build(
     package: &[&str],
     workspace: &Workspace,
     toolchain: &Toolchain,
-) -> Result<Vec<(String, PathBuf)>, DependenciesError> {
+) -> Result<Vec<(String, PathBuf)>, Error> {
     let run = |offline: bool| {
         let mut cargo = system::command_killed_at_eof(&toolchain.cargo);
         cargo
@@ -248,7 +230,10 @@ fn build(
         output = run(false)?;
     }
     if !output.status.success() {
-        return Err(DependenciesError::Cargo);
+        return Err(Error::machine(
+            "cargo could not build student/framework (see its messages above); the first run needs \
+             network access",
+        ));
     }
     Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
 }
@@ -289,7 +274,7 @@ fn copy(
     libraries: Vec<(String, PathBuf)>,
     names: &[&str],
     folder: &Path,
-) -> Result<Dependencies, DependenciesError> {
+) -> Result<Dependencies, Error> {
     files::create_dir_all(folder)?;
     let mut externs = BTreeMap::new();
     for (name, library) in libraries {
@@ -300,7 +285,9 @@ fn copy(
         }
     }
     if let Some(name) = names.iter().find(|name| !externs.contains_key(**name)) {
-        return Err(DependenciesError::MissingCrate((*name).to_owned()));
+        return Err(Error::Machine(format!(
+            "cargo did not build the crate {name}: has student/framework been changed?"
+        )));
     }
     Ok(Dependencies {
         externs,

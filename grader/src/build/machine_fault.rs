@@ -1,7 +1,8 @@
 //! Failures of the machine during compilation, for which no submission may lose points.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 
 use crate::build::diagnostics::Diagnostic;
 use crate::sandbox::ExitReason;
@@ -13,34 +14,23 @@ const MIN_FREE_BYTES: u64 = 64 << 20;
 /// with other signals.
 const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 
-/// Reasons why the machine cannot compile at the moment, regardless of the source code.
-#[derive(Debug, PartialEq, Eq, thiserror::Error)]
-pub(super) enum MachineFault {
-    /// The compiler was killed, most likely because the machine ran out of memory.
-    #[error(
-        "the system killed the compiler (signal 9), even for a small program: give this machine more memory, or grade fewer submissions at once"
-    )]
-    Memory,
-    /// The disk is full.
-    #[error("the disk is full: {} has {} MiB left, but a build needs up to {} MiB", .path.display(), .left >> 20, MIN_FREE_BYTES >> 20)]
-    DiskFull {
-        /// The folder that contains the build directory.
-        path: PathBuf,
-        /// Free space, in bytes.
-        left: u64,
-    },
-}
+/// The message about a compiler that was killed, most likely because the machine ran out of memory.
+pub(super) const KILLED: &str = "the system killed the compiler (signal 9), even for a small program: \
+                                 give this machine more memory, or grade fewer submissions at once";
 
-impl MachineFault {
-    /// Returns an error if the disk is full. `folder` is the build directory of a failed compile. It
-    /// is removed first, so that source code that fills the disk by itself is not excused.
-    pub(super) fn check_disk(folder: &Path) -> Result<(), Self> {
-        fs::remove_dir_all(folder).ok();
-        let path = folder.parent().unwrap_or(folder).to_owned();
-        match system::free_space(&path) {
-            Some(left) if left < MIN_FREE_BYTES => Err(MachineFault::DiskFull { path, left }),
-            Some(_) | None => Ok(()),
-        }
+/// Returns an error if the disk is full. `folder` is the build directory of a failed compile. It is
+/// removed first, so that source code that fills the disk by itself is not excused.
+pub(super) fn check_disk(folder: &Path) -> io::Result<()> {
+    fs::remove_dir_all(folder).ok();
+    let path = folder.parent().unwrap_or(folder);
+    match system::free_space(path) {
+        Some(left) if left < MIN_FREE_BYTES => Err(io::Error::other(format!(
+            "the disk is full: {} has {} MiB left, but a build needs up to {} MiB",
+            path.display(),
+            left >> 20,
+            MIN_FREE_BYTES >> 20
+        ))),
+        Some(_) | None => Ok(()),
     }
 }
 

@@ -29,12 +29,13 @@ use judging::content_hash::ContentHash;
 use crate::build::blame::{blame, blame_all, explain, incomplete_files, unreadable_files};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::{compile, compile_starter};
-use crate::build::dependencies::{Dependencies, DependenciesError};
+use crate::build::dependencies::Dependencies;
 use crate::build::program_cache::ProgramCache;
 use crate::build::rustc::{CompileOutcome, Rustc};
-use crate::build::substitution::{ReferenceParts, Substitution, SubstitutionError};
-use crate::build::toolchain::{Toolchain, ToolchainError};
-use crate::files::{AtPath, PathError};
+use crate::build::substitution::{ReferenceParts, Substitution};
+use crate::build::toolchain::Toolchain;
+use crate::error::Error;
+use crate::files::AtPath;
 use crate::handed_out::{HandedOut, TaskFile};
 use crate::probe::Interrupt;
 use crate::sandbox::{Isolation, Sandbox};
@@ -59,31 +60,9 @@ pub struct Builder {
     folder: PathBuf,
 }
 
-/// An error of the grader or the machine.
-#[derive(Debug, thiserror::Error)]
-pub enum BuildError {
-    /// There is no compiler.
-    #[error(transparent)]
-    Toolchain(#[from] ToolchainError),
-    /// The dependencies cannot be built.
-    #[error(transparent)]
-    Dependencies(#[from] DependenciesError),
-    /// The reference's parts cannot be built.
-    #[error(transparent)]
-    Substitution(#[from] SubstitutionError),
-    /// Not even the starter compiles.
-    #[error(
-        "not even the starter compiles on this machine: is the disk full, or the linker missing?\n{0}"
-    )]
-    Machine(String),
-    /// The build folder cannot be used.
-    #[error(transparent)]
-    Folder(#[from] PathError),
-}
-
 impl Builder {
     /// Finds the compiler, and builds the dependencies unless they are cached.
-    pub fn prepare(workspace: &Workspace) -> Result<Self, BuildError> {
+    pub fn prepare(workspace: &Workspace) -> Result<Self, Error> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
         Ok(Builder::new(toolchain, dependencies, workspace))
@@ -112,7 +91,7 @@ impl Builder {
         reference: &Path,
         handed_out: &'static HandedOut,
         workspace: &Workspace,
-    ) -> Result<Self, BuildError> {
+    ) -> Result<Self, Error> {
         let cache = workspace.cache_folder().join("parts");
         let parts = handed_out
             .substitutions
@@ -127,7 +106,7 @@ impl Builder {
 
     /// Returns a builder whose programs can import additional crates from the lock file. It is used
     /// for the course's own solutions, and never for submissions.
-    pub fn with_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, BuildError> {
+    pub fn with_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, Error> {
         let mut builder = self.clone();
         builder.rustc.dependencies =
             Dependencies::with_crates(names, workspace, &self.rustc.toolchain)?;
@@ -140,7 +119,7 @@ impl Builder {
         name: &str,
         folder: &Path,
         workspace: &Workspace,
-    ) -> Result<Self, BuildError> {
+    ) -> Result<Self, Error> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::with_package(name, folder, workspace, &toolchain)?;
         Ok(Builder::new(toolchain, dependencies, workspace))
@@ -178,13 +157,13 @@ impl Builder {
     }
 
     /// Returns a builder that stores all programs in this folder and reuses them.
-    pub fn with_cache(mut self, folder: &Path) -> Result<Self, BuildError> {
+    pub fn with_cache(mut self, folder: &Path) -> Result<Self, Error> {
         self.rustc.cache = Some(ProgramCache::new(folder)?);
         Ok(self)
     }
 
     /// Builds a submission. Each file that does not compile is replaced by the starter's.
-    pub fn build(&self, submission: &Submission) -> Result<Build, BuildError> {
+    pub fn build(&self, submission: &Submission) -> Result<Build, Error> {
         self.build_with_progress(submission, |_| {})
     }
 
@@ -194,7 +173,7 @@ impl Builder {
         &self,
         submission: &Submission,
         mut report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
-    ) -> Result<Build, BuildError> {
+    ) -> Result<Build, Error> {
         let build_dir = BuildDir::new_in(&self.folder)?;
         let rustc = &self.rustc.for_submission();
         let handed_out = submission.handed_out;
@@ -242,7 +221,12 @@ impl Builder {
             // broken linker or too little memory), not the submission.
             let folder = build_dir.path().join("starter");
             let starter = compile_starter(handed_out, &folder, &self.rustc);
-            starter.map_err(BuildError::Machine)?;
+            starter.map_err(|why| {
+                Error::Machine(format!(
+                    "not even the starter compiles on this machine: is the disk full, or the linker \
+                     missing?\n{why}"
+                ))
+            })?;
             let why = "the remaining files do not compile together";
             blame_all(submission, why, &mut not_compiled);
         }

@@ -16,7 +16,7 @@ use crate::build::compiler_sandbox;
 use crate::build::control::Control;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
-use crate::build::machine_fault::{MachineFault, is_killed};
+use crate::build::machine_fault::{KILLED, check_disk, is_killed};
 use crate::build::program_cache::ProgramCache;
 use crate::build::toolchain::Toolchain;
 use crate::build::verified_copy::{self, OutputFile};
@@ -187,11 +187,11 @@ impl Rustc {
         match attempt {
             CompileAttempt::Killed => match self.budget {
                 Some(_) => Ok(CompileOutcome::Failed(KILLED_ALONE.to_owned())),
-                None => Err(io::Error::other(MachineFault::Memory)),
+                None => Err(io::Error::other(KILLED)),
             },
             CompileAttempt::Ended(outcome) => {
                 if outcome.is_unexplained() {
-                    MachineFault::check_disk(source.folder).map_err(io::Error::other)?;
+                    check_disk(source.folder)?;
                 }
                 Ok(outcome)
             }

@@ -17,7 +17,8 @@ use judging::content_hash::ContentHash;
 use tempfile::TempDir;
 
 use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
-use crate::files::{self, AtPath, PathError};
+use crate::error::Error;
+use crate::files::{self, AtPath};
 use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
 use crate::sandbox::Sandbox;
 
@@ -47,17 +48,6 @@ struct Scaffold {
     wrapper: String,
 }
 
-/// Reasons why the reference's parts cannot be compiled. Students cannot fix them.
-#[derive(Debug, thiserror::Error)]
-pub enum SubstitutionError {
-    /// A file cannot be read or written.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The reference does not compile.
-    #[error("the reference does not compile: see `cargo check -p reference`")]
-    NotCompiled,
-}
-
 impl ReferenceParts {
     /// Returns the parts from `cache`, or compiles them if the reference's files or the compiler
     /// have changed.
@@ -66,7 +56,7 @@ impl ReferenceParts {
         reference: &Path,
         cache: &Path,
         rustc: &Rustc,
-    ) -> Result<Self, SubstitutionError> {
+    ) -> Result<Self, Error> {
         // The course's own code needs no sandbox, and one compile serves all isolation levels.
         let rustc = &Rustc {
             sandbox: Sandbox::none(),
@@ -162,7 +152,7 @@ fn compile_parts(
     root: &str,
     folder: &Path,
     rustc: &Rustc,
-) -> Result<(), SubstitutionError> {
+) -> Result<(), Error> {
     for (name, text) in parts.iter().chain([&("parts.rs", root)]) {
         files::write(folder.join(name), text)?;
     }
@@ -177,7 +167,9 @@ fn compile_parts(
     match rustc.compile(&library).at("compile in", folder)? {
         CompileOutcome::Done(_) => {}
         CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
-            return Err(SubstitutionError::NotCompiled);
+            return Err(Error::machine(
+                "the reference does not compile: see `cargo check -p reference`",
+            ));
         }
     }
     // The sources are no longer needed, and they would leave a solution on this machine.

@@ -7,6 +7,7 @@ use std::process::Command;
 use std::time::UNIX_EPOCH;
 
 use crate::build::linker::SystemLinker;
+use crate::error::Error;
 
 /// The real `cargo` and `rustc` instead of rustup's proxies, which take 8 ms per call and obey any
 /// `rust-toolchain.toml` in the current folder.
@@ -20,14 +21,9 @@ pub struct Toolchain {
     pub linker: SystemLinker,
 }
 
-/// An error returned if the compiler cannot be found.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot find rustc: install Rust, or put it on the PATH ({0})")]
-pub struct ToolchainError(String);
-
 impl Toolchain {
     /// Finds the toolchain whose cargo runs this program, or else the one on the PATH.
-    pub fn find() -> Result<Self, ToolchainError> {
+    pub fn find() -> Result<Self, Error> {
         if let Some(toolchain) =
             env::var_os("CARGO").and_then(|cargo| toolchain_beside(Path::new(&cargo)))
         {
@@ -36,11 +32,11 @@ impl Toolchain {
         let output = Command::new("rustc")
             .args(["--print", "sysroot"])
             .output()
-            .map_err(|error| ToolchainError(error.to_string()))?;
+            .map_err(|error| not_found(&error.to_string()))?;
         let sysroot = String::from_utf8_lossy(&output.stdout);
         let cargo = format!("cargo{}", env::consts::EXE_SUFFIX);
         toolchain_beside(&Path::new(sysroot.trim()).join("bin").join(cargo))
-            .ok_or_else(|| ToolchainError(format!("there is no toolchain in {:?}", sysroot.trim())))
+            .ok_or_else(|| not_found(&format!("there is no toolchain in {:?}", sysroot.trim())))
     }
 
     /// Returns the toolchain's root folder.
@@ -66,6 +62,12 @@ pub fn file_fingerprint(path: &Path) -> String {
     let age = metadata.and_then(|metadata| metadata.modified()).ok();
     let age = age.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     format!("{size} {age:?}")
+}
+
+fn not_found(why: &str) -> Error {
+    Error::Machine(format!(
+        "cannot find rustc: install Rust, or put it on the PATH ({why})"
+    ))
 }
 
 fn toolchain_beside(cargo: &Path) -> Option<Toolchain> {

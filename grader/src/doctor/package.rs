@@ -5,13 +5,12 @@ use std::path::Path;
 
 use crate::doctor::folder;
 use crate::doctor::package_contents::read_package;
+use crate::error::Error;
 use crate::handed_out::HandedOut;
-
-pub use crate::doctor::package_contents::PackageError;
 
 /// Returns a message for each problem, including what to do about it. If there is none, the package
 /// will work.
-pub fn problems(path: &Path, handed_out: &HandedOut) -> Result<Vec<String>, PackageError> {
+pub fn problems(path: &Path, handed_out: &HandedOut) -> Result<Vec<String>, Error> {
     if path.is_dir() {
         Ok(folder::problems(path, handed_out))
     } else {

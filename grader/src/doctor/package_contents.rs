@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use judging::exam::Exam;
 use rawzip::FileReader;
 
-use crate::files::{AtPath, PathError};
+use crate::error::Error;
+use crate::files::AtPath;
 use crate::policy::Policy;
 use crate::zipfile::{Zip, ZipError};
 
@@ -23,25 +24,6 @@ const MAX_FILE_BYTES: u64 = 64 << 20;
 /// Maximum number of entries in a zip. A package has several thousand.
 const MAX_ENTRIES: usize = 100_000;
 
-/// Reasons why a package cannot be checked.
-#[derive(Debug, thiserror::Error)]
-pub enum PackageError {
-    /// The package does not exist or cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The package is not a zip.
-    #[error(
-        "{} is not a zip that can be unpacked ({source}): create it with `cargo author package gradescope`",
-        path.display()
-    )]
-    Zip {
-        /// Path of the package.
-        path: PathBuf,
-        /// The reason why it cannot be unpacked.
-        source: ZipError,
-    },
-}
-
 /// The contents of a zip, as far as they are checked.
 #[derive(Debug, Default)]
 pub(super) struct PackageContents {
@@ -54,10 +36,13 @@ pub(super) struct PackageContents {
 }
 
 /// Reads a zip and unpacks every entry in memory, to check that it can be unpacked.
-pub(super) fn read_package(path: &Path) -> Result<PackageContents, PackageError> {
-    let zip = |source| PackageError::Zip {
-        path: path.to_owned(),
-        source,
+pub(super) fn read_package(path: &Path) -> Result<PackageContents, Error> {
+    let zip = |error: ZipError| {
+        Error::User(format!(
+            "{} is not a zip that can be unpacked ({error}): create it with `cargo author package \
+             gradescope`",
+            path.display()
+        ))
     };
     let file = File::open(path).at("read", path)?;
     let length = file.metadata().at("read", path)?.len();

@@ -8,32 +8,13 @@ use std::path::{Path, PathBuf};
 use judging::assignment::{Task, TaskInfo};
 use judging::sanitize::sanitize_line;
 
-use crate::files::{self, PathError};
+use crate::error::Error;
+use crate::files;
 use crate::format::{FormatContext, FormatSpec, MethodLocation, OutputSpec, StudentView};
 use crate::handed_out::HandedOut;
 use crate::report::atomic_write;
 use crate::report::text::HintDetail;
 use crate::submission::Submission;
-
-/// Reasons why an output file cannot be written.
-#[derive(Debug, thiserror::Error)]
-pub enum OutputError {
-    /// An environment variable that the format needs is missing.
-    #[error(
-        "--format {format} needs the environment variable {variable}, which is not set: grade on the platform's runner, or set {all}"
-    )]
-    MissingVariable {
-        /// The name of the format.
-        format: &'static str,
-        /// The name of the missing variable.
-        variable: &'static str,
-        /// The names of all variables that the format needs.
-        all: String,
-    },
-    /// A file cannot be read or written.
-    #[error(transparent)]
-    File(#[from] PathError),
-}
 
 /// The requested output files, and the context to render them.
 #[derive(Clone, Debug, Default)]
@@ -61,7 +42,7 @@ impl Outputs {
         submitted: &Path,
         submission: &Submission,
         hints: HintDetail,
-    ) -> Result<Self, OutputError> {
+    ) -> Result<Self, Error> {
         let mut outputs = Outputs {
             files: Vec::new(),
             context: FormatContext {
@@ -79,7 +60,7 @@ impl Outputs {
     }
 
     /// Writes each file atomically. `view` is called only if there are files to write.
-    pub fn write(&self, view: &dyn Fn() -> StudentView) -> Result<(), OutputError> {
+    pub fn write(&self, view: &dyn Fn() -> StudentView) -> Result<(), Error> {
         if self.is_empty() {
             return Ok(());
         }
@@ -119,7 +100,7 @@ impl Outputs {
     }
 }
 
-fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, OutputError> {
+fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, Error> {
     let format = spec.format;
     let shared = format.shared_file.and_then(env::var_os);
     let shared = shared.filter(|path| !path.is_empty()).map(PathBuf::from);
@@ -142,13 +123,16 @@ fn resolve_output(spec: &OutputSpec, folder: &Path) -> Result<Output, OutputErro
 fn read_variables(
     format: &FormatSpec,
     known: &mut BTreeMap<&'static str, String>,
-) -> Result<(), OutputError> {
+) -> Result<(), Error> {
     for variable in format.variables {
         let value = env::var(variable).ok().filter(|value| !value.is_empty());
-        let value = value.ok_or_else(|| OutputError::MissingVariable {
-            format: format.id,
-            variable,
-            all: format.variables.join(", "),
+        let value = value.ok_or_else(|| {
+            Error::User(format!(
+                "--format {} needs the environment variable {variable}, which is not set: grade on \
+                 the platform's runner, or set {}",
+                format.id,
+                format.variables.join(", ")
+            ))
         })?;
         known.insert(variable, value);
     }
@@ -185,10 +169,10 @@ fn find_methods(submission: &Submission) -> BTreeMap<Task, MethodLocation> {
     let line = |task: &TaskInfo| {
         let mut files = submission.files.iter();
         let (_, text) = files.find(|(file, _)| file.name == task.file)?;
-        let head = format!("pub fn {}(", task.method);
-        let mut lines = (1..).zip(text.as_ref().ok()?.lines());
-        let (line, _) = lines.find(|(_, line)| line.trim_start().starts_with(&head))?;
-        Some(line)
+        let method = submission
+            .handed_out
+            .task_method(task.task(), text.as_ref().ok()?);
+        Some(method.ok()?.line)
     };
     let location = |task: &TaskInfo| {
         let (file, line) = (task.file, line(task));
@@ -352,25 +336,13 @@ mod tests {
     }
 
     #[test]
-    fn each_method_is_found_in_its_own_file() {
-        let methods = outputs(&[], "out".as_ref()).context.methods;
-        for task in RAYS.assignment.tasks {
-            let text = RAYS.task_file(task.file).unwrap().starter;
-            let head = format!("pub fn {}(", task.method);
-            let before = text.split(&head).next().unwrap();
-            let line = u32::try_from(before.matches('\n').count()).unwrap() + 1;
-            let expected = MethodLocation {
-                file: task.file,
-                line: Some(line),
-            };
-            assert_eq!(methods[&task.task()], expected, "{}", task.id);
-        }
-    }
-
-    #[test]
-    fn a_file_that_is_missing_has_no_line() {
+    fn each_method_of_a_file_has_its_line() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("sphere.rs"), "\n  pub fn hit(&self)").unwrap();
+        fs::write(
+            folder.path().join("sphere.rs"),
+            "impl Sphere {\n  pub fn hit(&self) {}\n}",
+        )
+        .unwrap();
         let submission = Submission::collect(folder.path(), &RAYS).unwrap();
         let methods = find_methods(&submission);
         let lines: Vec<Option<u32>> = methods.values().map(|method| method.line).collect();

@@ -16,11 +16,11 @@ use super::resolve::{
     builder, collect, default_folder, lateness, policy, source_paths, submission_path,
 };
 use crate::book::Book;
-use crate::build::{Build, BuildError, Builder, NotCompiled};
+use crate::build::{Build, Builder, NotCompiled};
 use crate::bundle_version::mixed_versions;
 use crate::error::Error;
 use crate::format::StudentView;
-use crate::format::outputs::{OutputError, Outputs};
+use crate::format::outputs::Outputs;
 use crate::given_files;
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
@@ -64,7 +64,7 @@ impl BuiltSubmission {
         builder: &Builder,
         submission: &Submission,
         report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
-    ) -> Result<Self, BuildError> {
+    ) -> Result<Self, Error> {
         let started_at = Instant::now();
         let build = builder.build_with_progress(submission, report_errors)?;
         Ok(BuiltSubmission {
@@ -173,11 +173,7 @@ impl<'a> Grader<'a> {
 
     /// Returns the requested output formats. They are written to `folder` unless they have a
     /// location of their own.
-    pub(super) fn outputs(
-        &self,
-        submission: &Submission,
-        folder: &Path,
-    ) -> Result<Outputs, OutputError> {
+    pub(super) fn outputs(&self, submission: &Submission, folder: &Path) -> Result<Outputs, Error> {
         let submitted = submission_path(self.options, &self.workspace);
         let (formats, hints) = (&self.options.formats, self.options.hints);
         Outputs::new(formats, folder, &submitted, submission, hints)
@@ -232,7 +228,7 @@ impl<'a> Grader<'a> {
 
     /// Builds a submission. Files that do not compile are replaced by the starter's.
     pub fn build(&self, submission: &Submission) -> Result<BuiltSubmission, Error> {
-        Ok(BuiltSubmission::new(&self.builder, submission, |_| {})?)
+        BuiltSubmission::new(&self.builder, submission, |_| {})
     }
 
     /// Returns the score before any item is graded.

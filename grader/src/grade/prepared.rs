@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::resolve::{builder, collect, source_paths};
-use crate::build::{BuildError, Builder};
+use crate::build::Builder;
 use crate::error::Error;
 use crate::options::GradeOptions;
 use crate::source_paths::SourcePaths;
@@ -39,7 +39,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// Returns the builder without a sandbox. It is prepared at the first call.
-    pub fn builder(&mut self) -> Result<&Builder, BuildError> {
+    pub fn builder(&mut self) -> Result<&Builder, Error> {
         let builder = match self.builder.take() {
             Some(builder) => builder,
             None => builder(self.options, &self.workspace)?,

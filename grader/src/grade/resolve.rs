@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use judging::exam::Exam;
 use judging::sanitize::safe_folder_name;
 
-use crate::build::{BuildError, Builder};
+use crate::build::Builder;
 use crate::error::Error;
 use crate::options::{Dependents, GradeOptions};
-use crate::policy::{Lateness, Policy, PolicyError, SubmissionTime, SubmissionTimeError};
+use crate::policy::{Lateness, Policy, SubmissionTime};
 use crate::source_paths::SourcePaths;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Returns the policy that the options name, or the default.
-pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, PolicyError> {
+pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Error> {
     let Some(path) = &options.policy else {
         return Ok(Policy::default());
     };
@@ -24,10 +24,7 @@ pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Poli
 }
 
 /// Returns how late the submission is, if the options name the platform's metadata.
-pub(super) fn lateness(
-    options: &GradeOptions,
-    policy: &Policy,
-) -> Result<Lateness, SubmissionTimeError> {
+pub(super) fn lateness(options: &GradeOptions, policy: &Policy) -> Result<Lateness, Error> {
     let submission_time = options
         .gradescope_metadata
         .as_deref()
@@ -45,10 +42,7 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
 }
 
 /// Returns the builder. It uses the reference's parts if they exist and are wanted.
-pub(super) fn builder(
-    options: &GradeOptions,
-    workspace: &Workspace,
-) -> Result<Builder, BuildError> {
+pub(super) fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, Error> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference(options.handed_out) {
         Some(reference) if options.dependents == Dependents::SubstituteReference => {

@@ -2,13 +2,13 @@
 
 mod archive;
 mod cli;
-mod error;
 mod former;
 mod summary;
 
 use std::path::PathBuf;
 
 use crate::build::Builder;
+use crate::error::Error;
 use crate::files;
 use crate::grade::{build_report, collect};
 use crate::handed_out::HandedOut;
@@ -20,7 +20,6 @@ use crate::workspace::Workspace;
 
 pub use archive::archive_bytes;
 pub use cli::HandInArguments;
-pub use error::HandInError;
 use former::FormerArchive;
 
 /// The name of the archive, in the workspace's root.
@@ -44,16 +43,16 @@ pub struct HandIn {
 impl HandIn {
     /// Makes the archive of a student's own work or of another folder, reads it back, and compiles
     /// what is in it.
-    pub fn make(
-        arguments: HandInArguments,
-        handed_out: &'static HandedOut,
-    ) -> Result<Self, HandInError> {
+    pub fn make(arguments: HandInArguments, handed_out: &'static HandedOut) -> Result<Self, Error> {
         let workspace = Workspace::find()?;
         let folder = arguments.folder;
         if let Some(folder) = &folder
             && workspace.resolve(folder).is_file()
         {
-            return Err(HandInError::NotAFolder(folder.clone()));
+            return Err(Error::User(format!(
+                "{} is a file: name the folder with the task files, such as `student`",
+                folder.display()
+            )));
         }
         let options = GradeOptions {
             handed_out,
@@ -66,9 +65,13 @@ impl HandIn {
             None => workspace.root().join(ARCHIVE),
         };
         if original.files.iter().all(|(_, text)| text.is_err()) {
-            return Err(HandInError::NothingReadable(original.name));
+            return Err(Error::User(format!(
+                "no task file in {} can be read: `cargo grade` says why",
+                original.name
+            )));
         }
-        let bytes = archive_bytes(&original).map_err(HandInError::Archive)?;
+        let bytes = archive_bytes(&original)
+            .map_err(|error| Error::Machine(format!("cannot create the archive: {error}")))?;
         let kept = former::keep_lost_work(&archive, &original)?;
         atomic_write::write(&bytes, &archive)?;
 
@@ -100,8 +103,13 @@ fn read_back(
     archive: &std::path::Path,
     original: &Submission,
     bytes: &[u8],
-) -> Result<Submission, HandInError> {
-    let changed = || HandInError::ReadBack(archive.to_owned());
+) -> Result<Submission, Error> {
+    let changed = || {
+        Error::Machine(format!(
+            "{} changed while it was checked, or the disk is damaged: run `cargo handin` again",
+            archive.display()
+        ))
+    };
     if files::read(archive)? != bytes {
         return Err(changed());
     }

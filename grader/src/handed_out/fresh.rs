@@ -1,57 +1,49 @@
-//! Task files with some of their methods as they were handed out.
+//! The methods of a submission, compared with the starter's.
 
 use judging::assignment::Task;
 
-use super::method_span::{MethodSpanError, find_method, methods_named};
+use super::method_span::{MethodSpan, find_method, methods};
 use super::tokens::tokens;
-use super::{HandedOut, TaskFile, methods};
+use super::{HandedOut, TaskFile};
 
-/// A task file in which a task's method is as it was handed out.
+/// A task's method in a submission's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FreshMethod {
-    /// The file's text.
-    pub text: String,
+pub struct TaskMethod {
     /// The method's name, such as `Sphere::hit`.
-    pub method: String,
-    /// Whether the method was different before, in more than its format and comments.
+    pub name: String,
+    /// The line of the method's name, counted from 1.
+    pub line: u32,
+    /// Whether the method differs from the starter's in more than its format and comments.
     pub is_changed: bool,
-}
-
-/// The error if a task's method cannot be found in a file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("cannot find {method} in {file}: {reason}")]
-pub struct FreshMethodError {
-    /// The method's name, such as `Sphere::hit`.
-    pub method: String,
-    /// The name of the file.
-    pub file: &'static str,
-    /// The reason.
-    pub reason: MethodSpanError,
+    /// The file's text with the method replaced by the starter's.
+    pub fresh_text: String,
 }
 
 impl HandedOut {
-    /// Returns the text of a task's file with the task's method replaced by the starter's. The rest
-    /// of the text is unchanged.
+    /// Finds a task's method in the text of the task's file.
+    ///
+    /// # Errors
+    ///
+    /// A message that says why the method is not found.
     ///
     /// # Panics
     ///
     /// If the assignment has no such task, or the starter lacks its method; a test checks that.
-    pub fn with_fresh_method(
-        &self,
-        task: Task,
-        text: &str,
-    ) -> Result<FreshMethod, FreshMethodError> {
+    pub fn task_method(&self, task: Task, text: &str) -> Result<TaskMethod, String> {
         let info = self.assignment.info(task);
         let file = self.task_file(info.file).expect("tasks have a task file");
-        let (implemented, handed_out) = starter_method(file, info.method);
-        let method = format!("{implemented}::{}", info.method);
-        let span =
-            find_method(text, &implemented, info.method).map_err(|reason| FreshMethodError {
-                method: method.clone(),
-                file: file.name,
-                reason,
-            })?;
+        let is_tasks = |span: &MethodSpan| {
+            let is_inherent = !span.implemented.split(' ').any(|word| word == "for");
+            span.name == info.method && is_inherent
+        };
+        let starter = file.methods().into_iter().find(is_tasks);
+        let starter = starter.expect("the starter has each task's method");
+        let handed_out = &file.starter[starter.bytes];
+        let name = format!("{}::{}", starter.implemented, info.method);
+        let span = find_method(text, &starter.implemented, info.method)
+            .map_err(|why| format!("cannot find {name} in {}: {why}", file.name))?;
         let (before, after) = (&text[..span.bytes.start], &text[span.bytes.end..]);
+        let line = 1 + text[..span.name_start].matches('\n').count();
         let is_changed = tokens(&text[span.bytes.clone()]) != tokens(handed_out);
         // An editor on Windows may have changed all line ends.
         let handed_out = if text.contains("\r\n") {
@@ -59,10 +51,11 @@ impl HandedOut {
         } else {
             handed_out.to_owned()
         };
-        Ok(FreshMethod {
-            text: format!("{before}{handed_out}{after}"),
-            method,
+        Ok(TaskMethod {
+            name,
+            line: u32::try_from(line).unwrap_or(u32::MAX),
             is_changed,
+            fresh_text: format!("{before}{handed_out}{after}"),
         })
     }
 }
@@ -79,16 +72,16 @@ pub struct ChangedDeclaration {
 /// Returns the first declaration in a file that is not as it was handed out, in more than its format.
 /// Methods that are not found are left to the compiler.
 pub fn changed_declaration(file: &TaskFile, text: &str) -> Option<ChangedDeclaration> {
-    methods(file.starter)
-        .into_iter()
-        .find_map(|(name, method)| {
-            let handed_out = declaration(method);
-            let found = methods_named(text, name).ok()?.into_iter();
-            let found: Vec<String> = found.map(|span| declaration(&text[span.bytes])).collect();
-            let is_there = found.iter().any(|now| tokens(now) == tokens(&handed_out));
-            let now = found.into_iter().next().filter(|_| !is_there)?;
-            Some(ChangedDeclaration { now, handed_out })
-        })
+    let own = methods(text).ok()?;
+    file.methods().into_iter().find_map(|given| {
+        let handed_out = declaration(&file.starter[given.bytes]);
+        let found = own.iter().filter(|method| method.name == given.name);
+        let mut found = found.map(|method| declaration(&text[method.bytes.clone()]));
+        let now = found.next()?;
+        let mut all = [now.clone()].into_iter().chain(found);
+        let is_there = all.any(|now| tokens(&now) == tokens(&handed_out));
+        (!is_there).then_some(ChangedDeclaration { now, handed_out })
+    })
 }
 
 /// Returns a method's text without its documentation, attributes and body, on one line.
@@ -97,15 +90,6 @@ fn declaration(method: &str) -> String {
     let code = lines.filter(|line| !line.starts_with("//") && !line.starts_with('#'));
     let code = code.collect::<Vec<_>>().join(" ");
     code.split('{').next().unwrap_or_default().trim().to_owned()
-}
-
-/// Returns the type that has the method in the starter, and the method's text.
-fn starter_method(file: &TaskFile, method: &str) -> (String, &'static str) {
-    let found = methods_named(file.starter, method).expect("the starter's braces match");
-    let inherent = |implemented: &str| !implemented.split(' ').any(|word| word == "for");
-    let mut found = found.into_iter().filter(|span| inherent(&span.implemented));
-    let span = found.next().expect("the starter has each task's method");
-    (span.implemented, &file.starter[span.bytes])
 }
 
 #[cfg(test)]
@@ -118,8 +102,10 @@ mod tests {
     fn a_fresh_method_in_the_starter_changes_nothing() {
         for task in RAYS.assignment.tasks {
             let starter = RAYS.task_file(task.file).unwrap().starter;
-            let fresh = RAYS.with_fresh_method(task.task(), starter).unwrap();
-            assert_eq!((&*fresh.text, fresh.is_changed), (starter, false));
+            let method = RAYS.task_method(task.task(), starter).unwrap();
+            assert_eq!((&*method.fresh_text, method.is_changed), (starter, false));
+            let before = starter.split(&format!("pub fn {}(", task.method)).next();
+            assert_eq!(method.line as usize, before.unwrap().lines().count());
         }
     }
 
@@ -135,20 +121,20 @@ mod tests {
             )
             .replace("traces.fold(None, Trace::nearer)", "traces.last()?")
             .replace('\n', "\r\n");
-        let fresh = RAYS.with_fresh_method(task("build"), &solved).unwrap();
-        assert_eq!(fresh.method, "Bvh::build");
+        let fresh = RAYS.task_method(task("build"), &solved).unwrap();
+        assert_eq!(fresh.name, "Bvh::build");
         assert!(fresh.is_changed);
         let expected = solved.replace("let mine =", "let _ =");
-        assert_eq!(fresh.text, expected);
+        assert_eq!(fresh.fresh_text, expected);
         let both = RAYS
-            .with_fresh_method(task("traverse"), &fresh.text)
+            .task_method(task("traverse"), &fresh.fresh_text)
             .unwrap();
-        assert!(both.text.contains("Trace::nearer") && both.text.contains("fn helper"));
+        assert!(both.fresh_text.contains("Trace::nearer") && both.fresh_text.contains("fn helper"));
 
         let renamed = solved.replace("fn build(", "fn build2(");
-        let error = RAYS.with_fresh_method(task("build"), &renamed).unwrap_err();
+        let error = RAYS.task_method(task("build"), &renamed).unwrap_err();
         assert_eq!(
-            error.to_string(),
+            error,
             "cannot find Bvh::build in bvh.rs: it was renamed or removed"
         );
     }

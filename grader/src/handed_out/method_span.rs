@@ -1,6 +1,7 @@
 //! Finds a method in source code by its tokens, so that it can be replaced without touching anything
 //! else in the file.
 
+use std::mem;
 use std::ops::Range;
 
 use ra_ap_rustc_lexer::{FrontmatterAllowed, Token, TokenKind, tokenize};
@@ -23,21 +24,25 @@ pub enum MethodSpanError {
 
 /// A method in an `impl` block at the top level of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MethodSpan {
+pub struct MethodSpan<'a> {
     /// The tokens between `impl` and the block's brace, separated by spaces, such as `Sphere`.
     pub implemented: String,
+    /// The method's name.
+    pub name: &'a str,
+    /// The index of the name's first byte in the text.
+    pub name_start: usize,
     /// The method's bytes in the text, from its documentation to its closing brace.
     pub bytes: Range<usize>,
 }
 
 /// Returns the method with this name in an `impl` block of the type `implemented`.
-pub fn find_method(
-    text: &str,
+pub fn find_method<'a>(
+    text: &'a str,
     implemented: &str,
-    method: &str,
-) -> Result<MethodSpan, MethodSpanError> {
-    let mut found = methods_named(text, method)?;
-    found.retain(|span| span.implemented == implemented);
+    name: &str,
+) -> Result<MethodSpan<'a>, MethodSpanError> {
+    let mut found = methods(text)?;
+    found.retain(|span| span.implemented == implemented && span.name == name);
     match found.len() {
         0 => Err(MethodSpanError::NotFound),
         1 => Ok(found.remove(0)),
@@ -45,16 +50,15 @@ pub fn find_method(
     }
 }
 
-/// Returns all methods with this name in the `impl` blocks at the top level of a file.
-pub fn methods_named(text: &str, method: &str) -> Result<Vec<MethodSpan>, MethodSpanError> {
+/// Returns all methods in the `impl` blocks at the top level of a file.
+pub fn methods(text: &str) -> Result<Vec<MethodSpan<'_>>, MethodSpanError> {
     let mut scan = Scan {
         text,
-        method,
         open: Vec::new(),
         header: None,
         block: None,
         item: None,
-        is_method: false,
+        name: None,
         after_fn: false,
         found: Vec::new(),
     };
@@ -73,7 +77,6 @@ pub fn methods_named(text: &str, method: &str) -> Result<Vec<MethodSpan>, Method
 /// The state while the tokens of a file are read in order.
 struct Scan<'a> {
     text: &'a str,
-    method: &'a str,
     /// The closing delimiters that are expected, from the outermost to the innermost.
     open: Vec<&'static str>,
     /// The end of the keyword `impl`, while its header is read.
@@ -82,11 +85,11 @@ struct Scan<'a> {
     block: Option<String>,
     /// The start of the item in the block that is being read, with its documentation.
     item: Option<usize>,
-    /// Whether this item is a method with the name.
-    is_method: bool,
+    /// The name of this item, if it is a method.
+    name: Option<Range<usize>>,
     /// Whether the last token was `fn`.
     after_fn: bool,
-    found: Vec<MethodSpan>,
+    found: Vec<MethodSpan<'a>>,
 }
 
 impl Scan<'_> {
@@ -105,7 +108,7 @@ impl Scan<'_> {
         if in_block && word != "}" {
             self.item.get_or_insert(bytes.start);
         }
-        let is_after_fn = std::mem::take(&mut self.after_fn);
+        let is_after_fn = mem::take(&mut self.after_fn);
         // The text says what a token is: a brace in a string or a character has quotation marks.
         match word {
             "impl" if self.open.is_empty() => self.header = Some(bytes.end),
@@ -134,7 +137,9 @@ impl Scan<'_> {
             ";" if in_block => self.end_item(bytes.end),
             ";" if self.open.is_empty() => self.header = None,
             word if in_block => {
-                self.is_method |= is_after_fn && word == self.method;
+                if is_after_fn {
+                    self.name = Some(bytes);
+                }
                 self.after_fn = word == "fn";
             }
             _ => {}
@@ -142,13 +147,14 @@ impl Scan<'_> {
         Ok(())
     }
 
-    /// Ends the item that is being read, and records it if it is the method.
+    /// Ends the item that is being read, and records it if it is a method.
     fn end_item(&mut self, end: usize) {
-        let start = self.item.take();
-        let is_method = std::mem::take(&mut self.is_method);
-        if let (Some(start), Some(implemented), true) = (start, &self.block, is_method) {
+        let (start, name) = (self.item.take(), self.name.take());
+        if let (Some(start), Some(implemented), Some(name)) = (start, &self.block, name) {
             self.found.push(MethodSpan {
                 implemented: implemented.clone(),
+                name_start: name.start,
+                name: &self.text[name],
                 bytes: start..end,
             });
         }

@@ -12,10 +12,11 @@ use std::fmt;
 
 use judging::assignment::{Assignment, TaskInfo};
 
+use method_span::{MethodSpan, methods};
 use tokens::{contains, tokens};
 
-pub use fresh::{ChangedDeclaration, FreshMethod, FreshMethodError, changed_declaration};
-pub use method_span::MethodSpanError;
+pub use fresh::{ChangedDeclaration, TaskMethod, changed_declaration};
+pub use method_span::find_method;
 pub use rays::RAYS;
 pub use tokens::without_comments;
 
@@ -92,6 +93,11 @@ impl TaskFile {
     pub fn is_starter(&self, text: &str) -> bool {
         tokens(text) == tokens(self.starter)
     }
+
+    /// Returns the methods in the starter's file.
+    fn methods(&self) -> Vec<MethodSpan<'static>> {
+        methods(self.starter).expect("the starter's braces match")
+    }
 }
 
 impl HandedOut {
@@ -128,28 +134,24 @@ impl HandedOut {
         }
     }
 
-    /// Returns the methods that students write in this file.
-    fn methods_to_write<'a>(&self, file: &'a str) -> impl Iterator<Item = &'static str> + use<'a> {
-        let tasks = self.assignment.tasks.iter();
-        tasks
-            .filter(move |task| task.file == file)
-            .map(|task: &TaskInfo| task.method)
-    }
-
     /// Returns the given methods of a task file that differ from the starter in `text`. They are
     /// mentioned in a note.
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
-        let to_write: Vec<&str> = self.methods_to_write(file.name).collect();
-        let given = methods(file.starter).into_iter();
-        given
-            .filter(|(name, _)| !to_write.contains(name))
-            .filter(|(_, method)| !contains(&text, &tokens(method)))
-            .map(|(name, _)| ChangedMethod {
-                name,
-                is_missing: !contains(&text, &tokens(&format!("fn {name}"))),
-            })
-            .collect()
+        let is_to_write = |task: &TaskInfo, name| task.file == file.name && task.method == name;
+        let given = file.methods().into_iter().filter(|method| {
+            let mut tasks = self.assignment.tasks.iter();
+            !tasks.any(|task| is_to_write(task, method.name))
+        });
+        let changed = given.filter(|method| {
+            let method = &file.starter[method.bytes.clone()];
+            !contains(&text, &tokens(method))
+        });
+        let changed = changed.map(|MethodSpan { name, .. }| ChangedMethod {
+            name,
+            is_missing: !contains(&text, &["fn", name]),
+        });
+        changed.collect()
     }
 }
 
@@ -168,24 +170,6 @@ impl fmt::Debug for HandedOut {
     }
 }
 
-/// Returns the methods that are complete in a starter file, as pairs of name and text. The text
-/// extends from the signature to the closing brace.
-fn methods(starter: &'static str) -> Vec<(&'static str, &'static str)> {
-    const END: &str = "\n    }\n";
-    let code = starter.split("#[cfg(test)]").next().unwrap_or(starter);
-    let starts = code
-        .match_indices("\n    pub fn ")
-        .map(|(start, _)| start + 1);
-    starts
-        .filter_map(|start| {
-            let method = &code[start..start + code[start..].find(END)? + END.len()];
-            let name = method.trim_start().strip_prefix("pub fn ")?;
-            let name = &name[..name.find('(')?];
-            Some((name, method))
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,8 +181,8 @@ mod tests {
     #[test]
     fn finds_the_methods_of_a_file() {
         let names = |file| -> Vec<&str> {
-            let methods = methods(task_file(file).starter);
-            methods.iter().map(|(name, _)| *name).collect()
+            let methods = task_file(file).methods();
+            methods.iter().map(|method| method.name).collect()
         };
         assert_eq!(names("camera.rs"), ["new", "sample_ray"]);
         assert_eq!(names("sphere.rs"), ["new", "bbox", "uv", "hit"]);

@@ -21,8 +21,7 @@ use serde::Deserialize;
 pub use counted::{CountedPoints, Deduction};
 pub use extension::Extension;
 pub use lateness::Lateness;
-pub use read::PolicyError;
-pub use submission_time::{SubmissionTime, SubmissionTimeError};
+pub use submission_time::SubmissionTime;
 pub use visibility::Visibility;
 pub use written_time::{TimeError, are_far_apart, read_time};
 

@@ -1,87 +1,56 @@
 //! Reads policies. An invalid policy is rejected with a message that shows the line and says what
 //! to do.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 use judging::exam::Exam;
-use serde::de::Error;
+use serde::de;
 use serde::{Deserialize, Deserializer};
 use toml::value::Datetime;
 
+use crate::error::Error;
 use crate::files::{self, PathError};
 use crate::policy::Policy;
 use crate::policy::written_time::has_plausible_year;
 
-/// Reasons why a policy cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum PolicyError {
-    /// The file cannot be read.
-    #[error("{0}; `cargo grade --policy-default` prints one to start from")]
-    File(#[source] PathError),
-    /// The file is not TOML, or not a valid policy.
-    #[error(
-        "the policy {}, line {line}: {problem}\n  {text}\n`cargo grade --policy-default` prints all keys with explanations",
-        path.display()
-    )]
-    Invalid {
-        /// Path of the policy file.
-        path: PathBuf,
-        /// Line number, counted from 1.
-        line: usize,
-        /// Text of the line.
-        text: String,
-        /// The problem with the line.
-        problem: String,
-    },
-    /// An exception refers to an unknown task or item.
-    #[error(
-        "the policy {}: [visibility.items] names `{name}`, but the exam `{exam}` has no task or item of that name: correct it or remove the line",
-        path.display()
-    )]
-    UnknownItem {
-        /// Path of the policy file.
-        path: PathBuf,
-        /// The unknown name.
-        name: String,
-        /// The exam's id.
-        exam: String,
-    },
-}
-
 impl Policy {
     /// Reads the policy at `path`.
-    pub fn read(path: &Path) -> Result<Policy, PolicyError> {
+    pub fn read(path: &Path) -> Result<Policy, Error> {
         Policy::from_text(path, &Policy::read_text(path)?)
     }
 
     /// Reads the text of the policy at `path`, which need not be valid.
-    pub fn read_text(path: &Path) -> Result<String, PolicyError> {
+    pub fn read_text(path: &Path) -> Result<String, Error> {
         files::read_to_string(path).map_err(|error| {
-            PolicyError::File(PathError {
+            let error = PathError {
                 action: "read the policy",
                 ..error
-            })
+            };
+            Error::User(format!(
+                "{error}; `cargo grade --policy-default` prints one to start from"
+            ))
         })
     }
 
     /// Parses a policy. `path` is used in error messages only.
-    pub fn from_text(path: &Path, text: &str) -> Result<Policy, PolicyError> {
+    pub fn from_text(path: &Path, text: &str) -> Result<Policy, Error> {
         Policy::parse(text).map_err(|problem| problem.into_error(path, text))
     }
 
     /// Rejects exceptions for items that the exam does not contain. Otherwise a misspelt name would
     /// go unnoticed.
-    pub fn check(&self, path: &Path, exam: &Exam) -> Result<(), PolicyError> {
+    pub fn check(&self, path: &Path, exam: &Exam) -> Result<(), Error> {
         let items = exam.items.iter().map(|item| item.id.as_str());
         match self.unmatched_exception(items) {
             None => Ok(()),
-            Some(name) => Err(PolicyError::UnknownItem {
-                path: path.to_owned(),
-                name: name.to_owned(),
-                exam: exam.id.clone(),
-            }),
+            Some(name) => Err(Error::User(format!(
+                "the policy {}: [visibility.items] names `{name}`, but the exam `{}` has no task or \
+                 item of that name: correct it or remove the line",
+                path.display(),
+                exam.id
+            ))),
         }
     }
 
@@ -135,7 +104,7 @@ pub(super) fn due_time<'de, D: Deserializer<'de>>(
         .ok();
     let time = time.filter(|time| has_plausible_year(*time));
     time.map(Some).ok_or_else(|| {
-        D::Error::custom(
+        de::Error::custom(
             "must be a date and time with an offset, such as 2026-11-20T23:59:59+01:00",
         )
     })
@@ -147,7 +116,7 @@ pub(super) fn time_zone<'de, D: Deserializer<'de>>(
 ) -> Result<Option<TimeZone>, D::Error> {
     let name = String::deserialize(deserializer)?;
     TimeZone::get(&name).map(Some).map_err(|_| {
-        D::Error::custom("must be the name of a time zone, such as America/New_York or UTC")
+        de::Error::custom("must be the name of a time zone, such as America/New_York or UTC")
     })
 }
 
@@ -158,15 +127,17 @@ struct Problem {
 }
 
 impl Problem {
-    fn into_error(self, path: &Path, text: &str) -> PolicyError {
+    fn into_error(self, path: &Path, text: &str) -> Error {
         let before = text.get(..self.offset).unwrap_or(text);
         let line = before.matches('\n').count();
-        PolicyError::Invalid {
-            path: path.to_owned(),
-            line: line + 1,
-            text: text.lines().nth(line).unwrap_or_default().trim().to_owned(),
-            problem: self.problem,
-        }
+        Error::User(format!(
+            "the policy {}, line {}: {}\n  {}\n`cargo grade --policy-default` prints all keys with \
+             explanations",
+            path.display(),
+            line + 1,
+            self.problem,
+            text.lines().nth(line).unwrap_or_default().trim()
+        ))
     }
 }
 

@@ -2,11 +2,12 @@
 //! gives to autograders
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/>).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use jiff::Timestamp;
 use serde::Deserialize;
 
+use crate::error::Error;
 use crate::files::{self, PathError};
 use crate::policy::written_time::read_time;
 use crate::policy::{Extension, Lateness, Policy};
@@ -19,25 +20,6 @@ pub struct SubmissionTime {
     people: Vec<String>,
     /// The due time, or `None` if the assignment has no due date.
     due: Option<Timestamp>,
-}
-
-/// Reasons why the platform's file cannot be used. Students cannot fix them.
-#[derive(Debug, thiserror::Error)]
-pub enum SubmissionTimeError {
-    /// The file cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// The file does not have the documented format.
-    #[error(
-        "{} has no valid submission time and due date ({why}); without --gradescope-metadata, nothing counts as late",
-        path.display()
-    )]
-    Invalid {
-        /// Path of Gradescope's file.
-        path: PathBuf,
-        /// The problem with the file.
-        why: String,
-    },
 }
 
 /// The fields that are read from the file. Other fields are ignored.
@@ -62,14 +44,17 @@ struct Assignment {
 
 impl SubmissionTime {
     /// Reads Gradescope's file at `path`.
-    pub fn read(path: &Path) -> Result<Self, SubmissionTimeError> {
+    pub fn read(path: &Path) -> Result<Self, Error> {
         let text = files::read_to_string(path).map_err(|error| PathError {
             action: "read Gradescope's",
             ..error
         })?;
-        SubmissionTime::parse(&text).map_err(|why| SubmissionTimeError::Invalid {
-            path: path.to_owned(),
-            why,
+        SubmissionTime::parse(&text).map_err(|why| {
+            Error::Machine(format!(
+                "{} has no valid submission time and due date ({why}); without \
+                 --gradescope-metadata, nothing counts as late",
+                path.display()
+            ))
         })
     }
 

@@ -1,7 +1,6 @@
 //! Starts tasks afresh: replaces their methods, or whole files, with the starter's. The old files
 //! are kept.
 
-mod error;
 mod source_folder;
 
 use std::collections::BTreeMap;
@@ -10,14 +9,13 @@ use std::path::Path;
 use judging::assignment::Task;
 
 use crate::backup;
+use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile};
 use crate::report::atomic_write;
 use crate::task_selection::NamedTasks;
 use crate::workspace::{Workspace, display_path};
 
 use source_folder::SourceFolder;
-
-pub use error::ResetError;
 
 /// Starts the named tasks afresh in a submission's folder, by default the folder of students' own
 /// work. Returns a message that says what has changed. If there is an error, nothing has changed,
@@ -26,18 +24,18 @@ pub fn reset(
     handed_out: &'static HandedOut,
     folder: Option<&Path>,
     names: &[NamedTasks],
-) -> Result<String, ResetError> {
+) -> Result<String, Error> {
     let workspace = Workspace::find()?;
     let folder = workspace.resolve(folder.unwrap_or(Path::new(handed_out.student)));
     let source = SourceFolder::find(&folder, handed_out)?;
     let changes: Vec<FileChange> = requests(handed_out, names)
         .into_iter()
         .map(|(file, request)| FileChange::new(handed_out, &source, file, request))
-        .collect::<Result<_, ResetError>>()?;
+        .collect::<Result<_, Error>>()?;
     let lines: Vec<String> = changes
         .iter()
         .map(|change| change.apply(&source))
-        .collect::<Result<_, ResetError>>()?;
+        .collect::<Result<_, Error>>()?;
     Ok(lines.concat())
 }
 
@@ -85,7 +83,7 @@ impl FileChange {
         source: &SourceFolder,
         file: &'static str,
         request: Request,
-    ) -> Result<Self, ResetError> {
+    ) -> Result<Self, Error> {
         let task_file = handed_out.task_file(file);
         let file = task_file.expect("tasks have a task file");
         let before = source.read(file)?;
@@ -96,10 +94,21 @@ impl FileChange {
                 ("the whole file".to_owned(), after)
             }
             Request::Methods(tasks) => {
-                let bytes = before.as_deref().ok_or(ResetError::Missing(file.name))?;
+                let name = file.name;
+                let bytes = before.as_deref().ok_or_else(|| {
+                    Error::User(format!(
+                        "{name} is missing: `cargo grade --reset {name}` writes the file as it was \
+                         handed out"
+                    ))
+                })?;
                 let text = std::str::from_utf8(bytes);
-                let text = text.map_err(|_| ResetError::NotText(file.name))?;
-                fresh_methods(handed_out, text, &tasks)?
+                let text = text.map_err(|_| format!("{name} is not UTF-8 text: "));
+                let fresh = text.and_then(|text| fresh_methods(handed_out, text, &tasks));
+                fresh.map_err(|why| {
+                    Error::User(format!(
+                        "{why}`cargo grade --reset {name}` replaces the whole file, and keeps a copy"
+                    ))
+                })?
             }
         };
         Ok(FileChange {
@@ -111,7 +120,7 @@ impl FileChange {
     }
 
     /// Keeps the old file and writes the new one. Returns lines for a message.
-    fn apply(&self, source: &SourceFolder) -> Result<String, ResetError> {
+    fn apply(&self, source: &SourceFolder) -> Result<String, Error> {
         let path = source.path.join(self.file.name);
         let part = &self.part;
         let Some(after) = &self.after else {
@@ -137,18 +146,23 @@ impl FileChange {
 
 /// Returns the names of the tasks' methods, and the text with all of them as they were handed out,
 /// or `None` if they already are.
+///
+/// # Errors
+///
+/// The beginning of a message that goes on with a remedy.
 fn fresh_methods(
     handed_out: &HandedOut,
     text: &str,
     tasks: &[Task],
-) -> Result<(String, Option<String>), ResetError> {
+) -> Result<(String, Option<String>), String> {
     let (mut methods, mut changed) = (Vec::new(), None);
     for task in tasks {
         let current = changed.as_deref().unwrap_or(text);
-        let fresh = handed_out.with_fresh_method(*task, current)?;
-        methods.push(fresh.method);
+        let fresh = handed_out.task_method(*task, current);
+        let fresh = fresh.map_err(|why| format!("{why}; "))?;
+        methods.push(fresh.name);
         if fresh.is_changed {
-            changed = Some(fresh.text);
+            changed = Some(fresh.fresh_text);
         }
     }
     Ok((methods.join(", "), changed))

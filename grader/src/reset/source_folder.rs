@@ -4,11 +4,11 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::files::{AtPath, PathError};
+use crate::error::Error;
+use crate::files::AtPath;
 use crate::handed_out::{HandedOut, TaskFile};
+use crate::submission::places;
 use crate::system;
-
-use super::ResetError;
 
 /// A folder with task files.
 pub(super) struct SourceFolder {
@@ -17,10 +17,14 @@ pub(super) struct SourceFolder {
 
 impl SourceFolder {
     /// Finds the folder with the task files of a submission, where the assignment expects them.
-    pub(super) fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, ResetError> {
+    pub(super) fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         refuse_link(folder)?;
         if !folder.is_dir() {
-            return Err(ResetError::NotAFolder(folder.to_owned()));
+            return Err(Error::User(format!(
+                "{} is not a folder: --reset changes the files in a folder, such as `student`; unpack \
+                 an archive first",
+                folder.display()
+            )));
         }
         let folders = handed_out.assignment.folders.iter();
         let found: Vec<&str> = folders
@@ -31,10 +35,11 @@ impl SourceFolder {
             .copied()
             .collect();
         match found[..] {
-            [] => Err(ResetError::NoTaskFiles {
-                folder: folder.to_owned(),
-                files: handed_out.file_list(),
-            }),
+            [] => Err(Error::User(format!(
+                "{} has none of {}: name the folder with the task files, such as `student`",
+                folder.display(),
+                handed_out.file_list()
+            ))),
             [below] => {
                 let mut path = folder.to_owned();
                 for part in below.split('/').filter(|part| !part.is_empty()) {
@@ -43,22 +48,28 @@ impl SourceFolder {
                 }
                 Ok(SourceFolder { path })
             }
-            _ => Err(ResetError::SeveralFolders {
-                folder: folder.to_owned(),
-                folders: found.into_iter().map(str::to_owned).collect(),
-            }),
+            _ => Err(Error::User(format!(
+                "{} has task files in {}: name the one that you mean",
+                folder.display(),
+                places(&found)
+            ))),
         }
     }
 
     /// Returns the bytes of a task file, or `None` if it does not exist.
-    pub(super) fn read(&self, file: &TaskFile) -> Result<Option<Vec<u8>>, ResetError> {
+    pub(super) fn read(&self, file: &TaskFile) -> Result<Option<Vec<u8>>, Error> {
         let path = self.path.join(file.name);
         refuse_link(&path)?;
         if !exists(&path) {
             return Ok(None);
         }
         let opened = system::open_regular_file(&path).at("read", &path)?;
-        let mut opened = opened.ok_or_else(|| ResetError::NotRegular(path.clone()))?;
+        let mut opened = opened.ok_or_else(|| {
+            let path = path.display();
+            Error::User(format!(
+                "{path} is not a regular file: move it away, and try again"
+            ))
+        })?;
         let mut bytes = Vec::new();
         opened.read_to_end(&mut bytes).at("read", &path)?;
         Ok(Some(bytes))
@@ -70,13 +81,13 @@ fn exists(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-fn refuse_link(path: &Path) -> Result<(), ResetError> {
+fn refuse_link(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
-        Ok(found) if found.is_symlink() => Err(ResetError::Link(path.to_owned())),
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            let failed: Result<(), PathError> = Err(error).at("read", path);
-            Ok(failed?)
-        }
+        Ok(found) if found.is_symlink() => Err(Error::User(format!(
+            "{} is a link, and links are not followed: replace it with the actual file or folder",
+            path.display()
+        ))),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Ok(Err(error).at("read", path)?),
         Ok(_) | Err(_) => Ok(()),
     }
 }

@@ -6,6 +6,7 @@ use super::archive::ArchiveError;
 use super::budget::Limit;
 use super::choice::AmbiguousSource;
 use super::display_name;
+use crate::error::Error;
 use crate::files::PathError;
 use crate::handed_out::HandedOut;
 
@@ -147,6 +148,16 @@ impl SubmissionError {
     }
 }
 
+impl From<SubmissionError> for Error {
+    fn from(error: SubmissionError) -> Self {
+        if error.is_machine_fault() {
+            Error::machine(error)
+        } else {
+            Error::user(error)
+        }
+    }
+}
+
 /// Returns the error for a folder or archive without task files, given the names in it.
 pub(super) fn no_task_files(
     path: &Path,
@@ -191,12 +202,13 @@ pub(super) fn ambiguous(path: &Path, source: AmbiguousSource) -> SubmissionError
 }
 
 /// Lists the folders and files of [`SubmissionError::Ambiguous`] for a message.
-pub fn places(paths: &[String]) -> String {
-    let name = |path: &String| match path.as_str() {
-        "" => "its top level".to_owned(),
-        path => path.to_owned(),
+pub fn places(paths: &[impl AsRef<str>]) -> String {
+    let name = |path| match path {
+        "" => "its top level",
+        path => path,
     };
-    paths.iter().map(name).collect::<Vec<_>>().join(" and ")
+    let names = paths.iter().map(|path| name(path.as_ref()));
+    names.collect::<Vec<_>>().join(" and ")
 }
 
 #[cfg(test)]

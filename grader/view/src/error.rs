@@ -3,32 +3,23 @@
 use std::io;
 
 use framework::scene::SceneError;
-use grader::build::BuildError;
-use grader::exam_source::ExamSourceError;
+use grader::error::Error;
 use grader::files::PathError;
 use grader::nearest_name::suggestion;
-use grader::select_isolation::IsolationError;
 use grader::submission::SubmissionError;
-use grader::workspace::WorkspaceError;
 
 /// An error that prevents viewing.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
-    /// The workspace cannot be found.
+    /// The workspace, the compiler, the exam or the required isolation cannot be used.
     #[error(transparent)]
-    Workspace(#[from] WorkspaceError),
+    Grader(#[from] Error),
     /// The submission cannot be found or read.
     #[error(transparent)]
     Submission(#[from] SubmissionError),
     /// The reference is not on this machine.
     #[error("there is no reference here: leave out --reference")]
     NoReference,
-    /// The compiler cannot be found, or the dependencies cannot be built.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// The required isolation is not available.
-    #[error(transparent)]
-    Isolation(#[from] IsolationError),
     /// There is no scene with this name.
     #[error(
         "there is no scene `{name}`{}; the folder `scenes` contains: {}",
@@ -44,9 +35,6 @@ pub enum ViewError {
     /// A scene file is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The practice exam cannot be used.
-    #[error(transparent)]
-    Exam(#[from] ExamSourceError),
     /// The question does not exist, or shows nothing.
     #[error("{0}")]
     Question(String),
@@ -77,13 +65,8 @@ impl ViewError {
             | ViewError::Scene(_)
             | ViewError::Question(_)
             | ViewError::PortInUse { .. } => 2,
-            ViewError::Workspace(_)
-            | ViewError::Build(_)
-            | ViewError::Isolation(_)
-            | ViewError::Exam(_)
-            | ViewError::Listen(_)
-            | ViewError::File(_)
-            | ViewError::Random(_) => 3,
+            ViewError::Grader(error) => error.exit_code(),
+            ViewError::Listen(_) | ViewError::File(_) | ViewError::Random(_) => 3,
         }
     }
 }

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use grader::build::{Build, BuildError, Builder, NotCompiled};
+use grader::build::{Build, Builder, NotCompiled};
+use grader::error::Error;
 use grader::handed_out::{GivenFile, HandedOut, RAYS};
 use grader::sandbox::Sandbox;
 use grader::select_isolation::{IsolationRequest, with_requested_level};
@@ -99,7 +100,7 @@ impl Programs {
         &self,
         submission: &Submission,
         report: impl FnMut(Vec<FileError>),
-    ) -> Result<Result<Program, Vec<FileError>>, BuildError> {
+    ) -> Result<Result<Program, Vec<FileError>>, Error> {
         self.build(submission, report)
     }
 
@@ -107,7 +108,7 @@ impl Programs {
     pub fn build_recording(
         &self,
         submission: &Submission,
-    ) -> Result<Result<Program, Vec<FileError>>, BuildError> {
+    ) -> Result<Result<Program, Vec<FileError>>, Error> {
         let mut changed = submission.clone();
         changed.handed_out = self.recording;
         for method in RECORDED {
@@ -127,7 +128,7 @@ impl Programs {
         &self,
         submission: &Submission,
         mut report: impl FnMut(Vec<FileError>),
-    ) -> Result<Result<Program, Vec<FileError>>, BuildError> {
+    ) -> Result<Result<Program, Vec<FileError>>, Error> {
         let started_at = Instant::now();
         let build = self.builder.build_with_progress(submission, |files| {
             report(file_errors(files.iter().map(|(file, why)| (*file, why))));

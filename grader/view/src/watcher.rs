@@ -108,7 +108,7 @@ fn build_recordings(studio: &Studio, programs: &Programs) {
     }
 }
 
-fn state(built: Result<Result<Program, Vec<FileError>>, grader::build::BuildError>) -> BuildState {
+fn state(built: Result<Result<Program, Vec<FileError>>, grader::error::Error>) -> BuildState {
     match built {
         Ok(Ok(program)) => BuildState::Ready(program),
         Ok(Err(errors)) => BuildState::Failed(errors),

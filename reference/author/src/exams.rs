@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use grader::exam_source::{ExamSource, ExamSourceError};
+use grader::error::Error;
+use grader::exam_source::ExamSource;
 use grader::handed_out::RAYS;
 use judging::exam::Exam;
 use serde::Serialize;
@@ -31,7 +32,7 @@ pub fn generated_files() -> Result<Vec<GeneratedFile>> {
 }
 
 /// Reads the practice exam that is committed in the workspace at `root`.
-pub fn load_practice(root: &Path) -> Result<Exam, ExamSourceError> {
+pub fn load_practice(root: &Path) -> Result<Exam, Error> {
     Ok(ExamSource::File(root.join(PRACTICE_FILE)).load(&RAYS)?.exam)
 }
 

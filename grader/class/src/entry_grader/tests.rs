@@ -47,7 +47,7 @@ impl SubmissionGrader for FailingGrader {
         _: &dyn Fn(&str),
     ) -> Result<(Score, String), Error> {
         self.asked.fetch_add(1, Ordering::Relaxed);
-        Err(Error::Probe(io::Error::other("no\u{1b} program")))
+        Err(io::Error::other("no\u{1b} program").into())
     }
 }
 

@@ -167,7 +167,7 @@ impl SubmissionGrader for RecordedGrader {
         match self.fault {
             ProcessFault::CannotStart(count) if failed < count => {
                 let why = "resource temporarily unavailable";
-                return Err(Error::Probe(io::Error::other(why)));
+                return Err(io::Error::other(why).into());
             }
             ProcessFault::Panics(count) if failed < count => panic!("a bug of the grader"),
             ProcessFault::None | ProcessFault::CannotStart(_) | ProcessFault::Panics(_) => {}

@@ -1,6 +1,6 @@
 //! Remarks about the submission: tasks that are not written yet, panics, and faults.
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{RAYS, TaskMethod};
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
 use view_probe::messages::{Part, TreeSize};
@@ -79,7 +79,8 @@ impl Session {
         }
         if let Some(why) = &self.tree_fault {
             let text = format!("The tree cannot be shown: {why}");
-            add(text, self.line_of("bvh.rs", "pub fn build"));
+            let build = self.task_method("build");
+            add(text, build.as_ref().map(line_in_tree));
         }
         if self.invalid_paths > 0 {
             add(
@@ -95,21 +96,25 @@ impl Session {
     }
 
     fn add_notes_about_tree(&self, size: TreeSize, mut add: impl FnMut(String, Option<String>)) {
-        let (build, hit) = ("pub fn build", "pub fn hit");
+        let [build, traverse] = ["build", "traverse"].map(|task| self.task_method(task));
+        let is_unwritten = |method: &Option<TaskMethod>| {
+            let method = method.as_ref();
+            method.is_some_and(|method| !method.is_changed)
+        };
         let effect = match size.primitives {
             0 => String::new(),
             count => format!(", so each ray tests all {count} primitives"),
         };
-        if size.nodes == 0 && self.is_from_starter("bvh.rs", build) {
+        if size.nodes == 0 && is_unwritten(&build) {
             let text = format!("{}: not written yet{effect}.", title("build"));
-            add(text, self.line_of("bvh.rs", build));
+            add(text, build.as_ref().map(line_in_tree));
         } else if size.nodes == 0 && size.primitives > 0 {
             let text = format!("{}: the tree has no nodes.", title("build"));
-            add(text, self.line_of("bvh.rs", build));
+            add(text, build.as_ref().map(line_in_tree));
         }
-        if self.is_from_starter("bvh.rs", hit) {
+        if is_unwritten(&traverse) {
             let text = format!("{}: not written yet{effect}.", title("traverse"));
-            add(text, self.line_of("bvh.rs", hit));
+            add(text, traverse.as_ref().map(line_in_tree));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` of triangles or spheres first.";
@@ -117,25 +122,16 @@ impl Session {
         }
     }
 
-    /// Returns whether a method of the submission is that of the starter.
-    fn is_from_starter(&self, file: &str, declaration: &str) -> bool {
-        let starter = RAYS.task_file(file).map(|file| file.starter);
-        let starter = starter.and_then(|text| method(text, declaration));
-        let own = self.text(file).and_then(|text| method(text, declaration));
-        own.is_some() && own == starter
+    /// Returns the method of a task in the submission, if it is found.
+    fn task_method(&self, task: &str) -> Option<TaskMethod> {
+        let task = RAYS.assignment.find(task)?;
+        RAYS.task_method(task.task(), self.text(task.file)?).ok()
     }
 
     fn text(&self, file: &str) -> Option<&str> {
         let mut files = self.submission.as_ref()?.files.iter();
         let (_, text) = files.find(|(known, _)| known.name == file)?;
         text.as_deref().ok()
-    }
-
-    /// Returns the file and line in which a declaration of the submission begins.
-    fn line_of(&self, file: &str, declaration: &str) -> Option<String> {
-        let mut lines = self.text(file)?.lines();
-        let number = lines.position(|line| line.trim_start().starts_with(declaration))?;
-        Some(format!("{file}:{}", number + 1))
     }
 
     /// Adds the panics of some pixels.
@@ -155,19 +151,9 @@ impl Session {
     }
 }
 
-/// Returns the lines of a method, without indentation and empty lines. It ends with the first line
-/// that is a brace as far to the left as its declaration.
-fn method<'a>(text: &'a str, declaration: &str) -> Option<Vec<&'a str>> {
-    let mut lines = text
-        .lines()
-        .skip_while(|line| !line.trim_start().starts_with(declaration))
-        .peekable();
-    let indentation = |line: &str| line.len() - line.trim_start().len();
-    let depth = indentation(lines.peek()?);
-    let end = format!("{}}}", " ".repeat(depth));
-    let body = lines.take_while(|line| line.trim_end() != end);
-    let lines = body.map(str::trim).filter(|line| !line.is_empty());
-    Some(lines.collect())
+/// Returns the file and line of a method in `bvh.rs`.
+fn line_in_tree(method: &TaskMethod) -> String {
+    format!("bvh.rs:{}", method.line)
 }
 
 /// Returns the reason why tests cannot be recorded.

@@ -7,44 +7,27 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 /// Held while a program runs: shared by those that run beside others.
 static RUNNING: RwLock<()> = RwLock::new(());
 
-/// The outcome of an attempt to compile or run something.
-#[derive(Debug)]
-pub enum Attempt<T> {
-    /// The machine is not the reason for this outcome.
-    Certain(T),
-    /// The machine may be the reason for this outcome.
-    Doubtful(T),
-}
-
-impl<T> Attempt<T> {
-    /// Returns the outcome.
-    pub fn into_outcome(self) -> T {
-        match self {
-            Attempt::Certain(outcome) | Attempt::Doubtful(outcome) => outcome,
-        }
-    }
-}
-
-/// Attempts something beside others and, if the outcome is doubtful, once more alone. If it is
-/// doubtful again, `control` attempts the same with code of the grader's own, and returns an error
-/// if that fails, too. Otherwise, the outcome stands. A thread must not call this within `attempt`
-/// or `control`.
+/// Attempts something beside others and, if the machine may be the reason for the outcome, once more
+/// alone. If it may be the reason again, `control` attempts the same with code of the grader's own, and
+/// returns an error if that fails, too. Otherwise, the outcome stands. A thread must not call this
+/// within `attempt` or `control`.
 pub fn decide<T>(
-    mut attempt: impl FnMut() -> io::Result<Attempt<T>>,
+    mut attempt: impl FnMut() -> io::Result<T>,
+    is_doubtful: impl Fn(&T) -> bool,
     control: impl FnOnce(&T) -> io::Result<()>,
 ) -> io::Result<T> {
     {
         let _permit = beside_others();
-        if let Attempt::Certain(outcome) = attempt()? {
+        let outcome = attempt()?;
+        if !is_doubtful(&outcome) {
             return Ok(outcome);
         }
     }
     let _permit = alone();
-    let outcome = match attempt()? {
-        Attempt::Certain(outcome) => return Ok(outcome),
-        Attempt::Doubtful(outcome) => outcome,
-    };
-    control(&outcome)?;
+    let outcome = attempt()?;
+    if is_doubtful(&outcome) {
+        control(&outcome)?;
+    }
     Ok(outcome)
 }
 
@@ -67,13 +50,9 @@ mod tests {
         let mut attempts = 0;
         let attempt = || {
             attempts += 1;
-            Ok(if doubtful[attempts - 1] {
-                Attempt::Doubtful(attempts)
-            } else {
-                Attempt::Certain(attempts)
-            })
+            Ok(attempts)
         };
-        decide(attempt, |_| control)
+        decide(attempt, |attempt| doubtful[attempt - 1], |_| control)
     }
 
     #[test]

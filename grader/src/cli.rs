@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::StyledStr;
-use clap::{CommandFactory, FromArgMatches, Parser, value_parser};
+use clap::{CommandFactory, FromArgMatches, Id, Parser, value_parser};
 
 use crate::exam_source::ExamSource;
 use crate::format::{FORMATS, OutputSpec};
@@ -20,29 +20,8 @@ use crate::terminal::PrintOptions;
 
 /// The heading of the options that students do not need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
-/// The options about grading, none of which goes with `--reset`.
-const GRADING: [&str; 20] = [
-    "task",
-    "replay",
-    "hints",
-    "watch",
-    "open",
-    "fresh",
-    "timings",
-    "doctor",
-    "exam",
-    "out",
-    "require",
-    "untrusted",
-    "isolation",
-    "no_reference",
-    "cpu_limit",
-    "policy",
-    "policy_default",
-    "gradescope_metadata",
-    "format",
-    "schema",
-];
+/// The arguments that go with `--reset`. The others are about grading.
+const WITH_RESET: [&str; 3] = ["submission", "reset", "help_staff"];
 /// The last line of the help for students.
 const MORE_HELP: &str =
     "`cargo grade --help-staff` also shows the options for course staff and CI.";
@@ -102,7 +81,7 @@ pub struct Arguments {
 
     /// Start a task afresh, such as sphere, or a whole file, such as bvh; keeps a copy of your file,
     /// such as bvh.rs.bak-1
-    #[arg(long, value_name = "TASK", value_parser = parse_names, conflicts_with_all = GRADING)]
+    #[arg(long, value_name = "TASK", value_parser = parse_names)]
     pub reset: Option<TaskNames>,
 
     /// If a known mistake is recognised, show its full hint instead of a nudge
@@ -207,6 +186,11 @@ impl Arguments {
             let hidden = is_staff(&arg);
             arg.hide(hidden)
         });
+        let all = command.get_arguments().map(|arg| arg.get_id().clone());
+        let grading: Vec<Id> = all
+            .filter(|id| !WITH_RESET.contains(&id.as_str()))
+            .collect();
+        let command = command.mut_arg("reset", |arg| arg.conflicts_with_all(grading));
         command.after_help(MORE_HELP)
     }
 

@@ -9,7 +9,7 @@
 //! | layer | modules |
 //! |---|---|
 //! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`], [`hand_in`] |
-//! | grading | [`cache_lookup`], [`grade`], [`cached_report`], [`report_files`], [`options`] |
+//! | grading | [`grade`], [`cached_report`], [`report_files`], [`options`] |
 //! | exam runs | [`run_exam`], `explain`, [`task_session`], [`kept_state`], [`verdict`] |
 //! | reports | [`mod@format`], [`report`], [`report_answers`], [`drawing`], [`svg`] |
 //! | steps of an exam run | [`item_outcome`], [`clue`], [`select_isolation`], [`build`], [`probe`] |
@@ -25,7 +25,6 @@ mod backup;
 pub mod book;
 pub mod build;
 pub mod bundle_version;
-pub mod cache_lookup;
 pub mod cached_report;
 pub mod capture;
 pub mod cli;

@@ -13,7 +13,7 @@ use protocol::{Answer, ElementOutcome, Question, Shape};
 use crate::build::Builder;
 use crate::clue;
 use crate::error::Error;
-use crate::grade::{collect, source_paths};
+use crate::grade::Prepared;
 use crate::handed_out::HandedOut;
 use crate::nearest_name::suggestion;
 use crate::options::GradeOptions;
@@ -21,27 +21,26 @@ use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
 use crate::question_ref::QuestionRef;
 use crate::select_isolation::with_requested_level;
 use crate::verdict::file_message;
-use crate::workspace::Workspace;
 
 /// Maximum length of the printed text that is shown, in characters.
 const MAX_PRINTED_CHARS: usize = 20_000;
 
 /// Runs the question and returns the text for the terminal.
 pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String, Error> {
-    let workspace = Workspace::find()?;
     let exam = options.exam.load(options.handed_out)?.exam;
     let item = find_item(&exam, &reference.item)?;
     let given = reference.number.map(|number| find_element(item, number));
     let given = given.transpose()?;
-    let submission = collect(options, &workspace)?;
-    let build = with_requested_level(Builder::prepare(&workspace)?, options.isolation)?
-        .build(&submission)?;
+    let prepared = Prepared::new(options)?;
+    let builder = Builder::prepare(&prepared.workspace)?;
+    let builder = with_requested_level(builder, options.isolation)?;
+    let build = builder.build(&prepared.submission)?;
 
     let mut text = String::new();
     for (file, why) in &build.not_compiled {
         writeln!(text, "{}\n", file_message(file, why)).expect("writing to a string cannot fail");
     }
-    let paths = source_paths(options, &workspace);
+    let paths = prepared.source_paths();
     let needed = files_asked(&exam, item, options.handed_out);
     let mut missing = build.not_compiled.keys();
     // In place of a file that does not compile, the program has the one that was handed out.

@@ -7,8 +7,8 @@ use judging::exam::Exam;
 
 use crate::error::Error;
 use crate::format::outputs::Outputs;
+use crate::report::atomic_write;
 use crate::report::html::{self, Reload};
-use crate::report::{atomic_write, json};
 use crate::report_answers::ReportAnswers;
 use crate::score::Score;
 
@@ -77,7 +77,7 @@ impl ReportFiles {
     /// Writes the score file if it is due.
     pub fn write_score(&mut self, score: &Score) -> Result<(), Error> {
         if score.complete || is_due(self.score_written_at, SCORE_INTERVAL) {
-            atomic_write::write(json::to_string(score), &self.score)?;
+            atomic_write::write(score.to_json(), &self.score)?;
             self.score_written_at = Some(Instant::now());
         }
         Ok(())

@@ -12,7 +12,7 @@ use judging::recognise::Observations;
 use judging::sanitize::sanitize;
 use protocol::Answer;
 
-use crate::alone::{Attempt, decide};
+use crate::alone::decide;
 use crate::build::Build;
 use crate::item_outcome::{ItemOutcome, NotRun};
 use crate::kept_state::is_right_alone;
@@ -183,18 +183,16 @@ impl<'a> TaskSession<'a> {
             let answered = probe.ask(questions, limits);
             spent.asking += started_at.elapsed();
             used += probe.take_time_used();
-            let is_doubtful = answered.as_ref().is_err_and(Fault::is_doubtful);
-            let outcome = (probe, answered);
-            Ok(if is_doubtful {
-                Attempt::Doubtful(outcome)
-            } else {
-                Attempt::Certain(outcome)
-            })
+            Ok((probe, answered))
         };
-        let (probe, answered) = decide(attempt, |(_, answered)| match answered {
-            Err(Fault::Crashed(Crash::NotStarted)) => build.check_start(&launcher.program, cpu),
-            Ok(_) | Err(_) => build.control().check_run(),
-        })?;
+        let (probe, answered) = decide(
+            attempt,
+            |(_, answered)| answered.as_ref().is_err_and(Fault::is_doubtful),
+            |(_, answered)| match answered {
+                Err(Fault::Crashed(Crash::NotStarted)) => build.check_start(&launcher.program, cpu),
+                Ok(_) | Err(_) => build.check_run(),
+            },
+        )?;
         Ok(Asked {
             probe,
             answered,

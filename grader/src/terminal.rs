@@ -5,12 +5,11 @@ use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
 use crate::book::Book;
-use crate::cache_lookup::find_cached_report;
-use crate::cached_report;
+use crate::cached_report::{self, CacheKey, CachedReport};
 use crate::desktop;
 use crate::doctor::diagnose;
 use crate::error::Error;
-use crate::grade::{GradedSubmission, Prepared, grade_prepared};
+use crate::grade::{GradedSubmission, Prepared, default_folder, grade_prepared};
 use crate::options::GradeOptions;
 use crate::printing::{print, print_commands, print_line};
 use crate::report::next_step::next_step;
@@ -67,6 +66,30 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Returns the cached report and its files, if the submission was graded before and nothing has
+/// changed since.
+fn find_cached_report(
+    prepared: &mut Prepared,
+) -> Result<Option<(CachedReport, ReportFiles)>, Error> {
+    let options = prepared.options;
+    if !CacheKey::is_cacheable(options) {
+        return Ok(None);
+    }
+    let folder = default_folder(&prepared.workspace, &prepared.submission);
+    let files = ReportFiles::without_reload(&folder);
+    // The submission is compared first because it changes most often: after an edit, the slower
+    // steps below are skipped.
+    let cached = CachedReport::read(&files).filter(|cached| cached.is_for(&prepared.submission));
+    let Some(cached) = cached else {
+        return Ok(None);
+    };
+    let exam = options.exam.hash(options.handed_out)?;
+    let builder_identity = prepared.builder()?.identity();
+    let key = CacheKey::new(options, &prepared.submission, &exam, &builder_identity);
+    let is_unchanged = key.is_some_and(|key| cached.is_current(&key, &files));
+    Ok(is_unchanged.then_some((cached, files)))
 }
 
 /// Grades a submission, prints its report, and stores the report for the next run.

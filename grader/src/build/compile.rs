@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use judging::content_hash::ContentHash;
 
-use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
+use crate::build::rustc::Rustc;
+use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::handed_out::HandedOut;
 
 /// File name of the crate's root, which contains the given root and a `main` function.
@@ -40,12 +41,8 @@ pub(super) fn compile_starter(
 ) -> Result<PathBuf, String> {
     let starter = handed_out.files.iter();
     let starter: Vec<_> = starter.map(|file| (file.name, file.starter)).collect();
-    match compile(&starter, handed_out, folder, &rustc.for_own_code()) {
-        Ok(CompileOutcome::Done(program)) => Ok(program),
-        Ok(CompileOutcome::Errors(errors)) => Err(errors[0].text().to_owned()),
-        Ok(CompileOutcome::Failed(why)) => Err(why),
-        Err(error) => Err(error.to_string()),
-    }
+    let compiled = compile(&starter, handed_out, folder, &rustc.for_own_code());
+    compiled.map_err(|error| error.to_string())?.into_result()
 }
 
 fn compile_uncached(
@@ -60,12 +57,5 @@ fn compile_uncached(
     }
     let root = handed_out.given[0].text;
     fs::write(folder.join(ROOT), format!("{root}{}", handed_out.entry))?;
-    rustc.compile(&Crate {
-        name: "probe",
-        kind: CrateKind::Program,
-        folder,
-        root: ROOT,
-        links: &[],
-        dependency_folder: None,
-    })
+    rustc.compile(&Crate::new("probe", CrateKind::Program, folder, ROOT))
 }

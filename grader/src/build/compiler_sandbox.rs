@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::build::rustc::{Crate, CrateKind, Rustc};
+use crate::build::dependencies::Dependencies;
+use crate::build::source_crate::{Crate, CrateKind};
 use crate::sandbox::Profile;
 
 /// Paths at which systems keep C compilers, linkers and libraries. Unlike `/usr/local` and
@@ -28,8 +29,7 @@ const SYSTEM_PATHS: [&str; 14] = [
 
 /// Adds arguments with information that the compiler usually reads from `/proc`, which the sandbox
 /// hides.
-pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
-    let sysroot = rustc.toolchain.sysroot();
+pub(super) fn arguments(sysroot: &Path, source: &Crate, command: &mut Command) {
     command
         .env("LD_LIBRARY_PATH", sysroot.join("lib"))
         .arg("--sysroot")
@@ -42,18 +42,18 @@ pub(super) fn arguments(rustc: &Rustc, source: &Crate, command: &mut Command) {
 }
 
 /// Returns whether the compiler may read a program.
-pub(super) fn can_read_program(rustc: &Rustc, program: &Path) -> bool {
+pub(super) fn can_read_program(sysroot: &Path, program: &Path) -> bool {
     let system = SYSTEM_PATHS.iter().map(Path::new);
-    let mut readable = system.chain([rustc.toolchain.sysroot()]);
+    let mut readable = system.chain([sysroot]);
     readable.any(|folder| program.starts_with(folder))
 }
 
 /// Returns the files that the compiler may read and write.
-pub(super) fn profile(rustc: &Rustc, source: &Crate) -> Profile {
+pub(super) fn profile(sysroot: &Path, dependencies: &Dependencies, source: &Crate) -> Profile {
     let links = source.links.iter().map(|(_, library)| *library);
-    let own = [rustc.toolchain.sysroot(), &rustc.dependencies.folder];
+    let own = [sysroot, &dependencies.folder];
     let own = own.into_iter().chain(source.dependency_folder);
-    let own = own.chain(rustc.dependencies.externs.values().map(PathBuf::as_path));
+    let own = own.chain(dependencies.externs.values().map(PathBuf::as_path));
     let system = SYSTEM_PATHS
         .iter()
         .map(Path::new)

@@ -52,16 +52,12 @@ impl Dependencies {
     /// Returns the dependencies from the cache, or builds them.
     pub fn prepare(workspace: &Workspace, toolchain: &Toolchain) -> Result<Self, Error> {
         let key = cache_key(workspace, toolchain)?;
-        let cache = workspace
-            .cache_folder()
-            .join("dependencies")
-            .join(&key[..16]);
-        prepare_once(&cache, || {
+        let cache = cache_folder(workspace).join(&key[..16]);
+        prepare_once(&cache, &EXTERNS, || {
             print_error_line(
                 "Compiling the dependencies of submissions, which takes a few seconds and is done only once.",
             );
-            let libraries = build(&FRAMEWORK_PACKAGES, workspace, toolchain)?;
-            copy(libraries, &EXTERNS, &cache.join("crates"))
+            build(&FRAMEWORK_PACKAGES, workspace, toolchain)
         })
     }
 
@@ -72,19 +68,14 @@ impl Dependencies {
         workspace: &Workspace,
         toolchain: &Toolchain,
     ) -> Result<Self, Error> {
-        let cache = workspace.cache_folder().join("dependencies");
-        let cache = cache.join(format!(
-            "{}-{}",
-            &cache_key(workspace, toolchain)?[..16],
-            names.join("-")
-        ));
-        prepare_once(&cache, || {
+        let key = cache_key(workspace, toolchain)?;
+        let cache = cache_folder(workspace).join(format!("{}-{}", &key[..16], names.join("-")));
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        prepare_once(&cache, &[&EXTERNS[..], &names].concat(), || {
             let mut libraries = build(&FRAMEWORK_PACKAGES, workspace, toolchain)?;
             let packages: Vec<&str> = names.iter().flat_map(|name| ["--package", name]).collect();
             libraries.extend(build(&packages, workspace, toolchain)?);
-            let names = names.iter().map(String::as_str);
-            let externs: Vec<&str> = EXTERNS.into_iter().chain(names).collect();
-            copy(libraries, &externs, &cache.join("crates"))
+            Ok(libraries)
         })
     }
 
@@ -102,22 +93,25 @@ impl Dependencies {
         for file in sources {
             hash.add(&files::read(&file)?);
         }
-        let cache = workspace.cache_folder().join("dependencies");
-        let cache = cache.join(format!("{}-{name}", &hash.hex()[..16]));
-        prepare_once(&cache, || {
+        let cache = cache_folder(workspace).join(format!("{}-{name}", &hash.hex()[..16]));
+        prepare_once(&cache, &[&EXTERNS[..], &[name]].concat(), || {
             let packages = [&FRAMEWORK_PACKAGES[..], &["--package", name]].concat();
-            let libraries = build(&packages, workspace, toolchain)?;
-            let externs: Vec<&str> = EXTERNS.into_iter().chain([name]).collect();
-            copy(libraries, &externs, &cache.join("crates"))
+            build(&packages, workspace, toolchain)
         })
     }
 }
 
+fn cache_folder(workspace: &Workspace) -> PathBuf {
+    workspace.cache_folder().join("dependencies")
+}
+
 /// Returns the dependencies in this folder, or builds them there. Existing files are never built
-/// again, because another process may be reading them.
+/// again, because another process may be reading them. `externs` are the crates that a submission may
+/// import.
 fn prepare_once(
     cache: &Path,
-    make: impl FnOnce() -> Result<Dependencies, Error>,
+    externs: &[&str],
+    build: impl FnOnce() -> Result<Vec<(String, PathBuf)>, Error>,
 ) -> Result<Dependencies, Error> {
     let record = cache.join("dependencies.json");
     if let Some(ready) = read(&record) {
@@ -129,7 +123,7 @@ fn prepare_once(
     if let Some(ready) = read(&record) {
         return Ok(ready);
     }
-    let built = make()?;
+    let built = copy(build()?, externs, &cache.join("crates"))?;
     let text = serde_json::to_vec_pretty(&built).expect("paths are valid UTF-8");
     files::write(&record, text)?;
     Ok(built)
@@ -309,20 +303,17 @@ mod tests {
         let cache = folder.path().join("key");
         let built = AtomicU32::new(0);
         let all_at_once = Barrier::new(8);
-        let make = || {
+        let build = || {
             built.fetch_add(1, Ordering::SeqCst);
-            let rlib = cache.join("libglam.rlib");
+            let rlib = folder.path().join("libglam.rlib");
             files::write(&rlib, "a library")?;
-            Ok(Dependencies {
-                externs: BTreeMap::from([("glam".to_owned(), rlib)]),
-                folder: cache.clone(),
-            })
+            Ok(vec![("glam".to_owned(), rlib)])
         };
         thread::scope(|scope| {
             for _ in 0..8 {
                 scope.spawn(|| {
                     all_at_once.wait();
-                    prepare_once(&cache, make).unwrap();
+                    prepare_once(&cache, &["glam"], build).unwrap();
                 });
             }
         });

@@ -2,13 +2,12 @@
 //! because source code can read the compiler's environment, which therefore has no PATH.
 
 use std::env;
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::build::rustc::option_with_path;
 use crate::system;
 
 /// Path of the linker that is bundled with the toolchain, relative to the sysroot, on the platform
@@ -85,6 +84,13 @@ impl SystemLinker {
         }
         Ok(())
     }
+}
+
+/// Returns an option of the compiler that ends in a path.
+pub(super) fn option_with_path(option: &str, path: &Path) -> OsString {
+    let mut argument = OsString::from(option);
+    argument.push(path);
+    argument
 }
 
 /// Returns the programs with this name in the folders of a search path.

@@ -6,7 +6,6 @@ pub mod build_dir;
 mod compile;
 mod compile_budget;
 mod compiler_sandbox;
-mod control;
 mod dependencies;
 pub mod diagnostics;
 mod linker;
@@ -15,6 +14,7 @@ mod program_cache;
 mod programs;
 mod rustc;
 mod self_test;
+mod source_crate;
 mod substitution;
 mod toolchain;
 mod trial;
@@ -31,7 +31,8 @@ use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::{compile, compile_starter};
 use crate::build::dependencies::Dependencies;
 use crate::build::program_cache::ProgramCache;
-use crate::build::rustc::{CompileOutcome, Rustc};
+use crate::build::rustc::Rustc;
+use crate::build::source_crate::CompileOutcome;
 use crate::build::substitution::{ReferenceParts, Substitution};
 use crate::build::toolchain::Toolchain;
 use crate::error::Error;
@@ -43,7 +44,6 @@ use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
 
 pub use crate::build::blame::NotCompiled;
-pub use crate::build::control::Control;
 pub use crate::build::programs::{Build, SubstitutedProgram};
 pub use crate::build::self_test::SelfTestError;
 pub use crate::build::toolchain::file_fingerprint;
@@ -237,11 +237,8 @@ impl Builder {
             not_compiled,
             interrupt: Interrupt::default(),
             unstartable: Mutex::default(),
-            control: Control {
-                rustc: self.rustc.clone(),
-                folder: build_dir.path().to_owned(),
-            },
-            _build_dir: build_dir,
+            rustc: self.rustc.clone(),
+            build_dir,
         })
     }
 

@@ -9,8 +9,9 @@ use std::time::Duration;
 use crate::build::blame::NotCompiled;
 use crate::build::build_dir::BuildDir;
 use crate::build::compile::compile_starter;
-use crate::build::control::Control;
+use crate::build::rustc::Rustc;
 use crate::build::substitution::Substitution;
+use crate::build::trial;
 use crate::handed_out::HandedOut;
 use crate::probe::{Interrupt, Launcher, START_LIMITS};
 use crate::sandbox::Isolation;
@@ -29,9 +30,10 @@ pub struct Build {
     pub(super) substitutions: Vec<Substitution>,
     /// The programs that cannot be started, although the starter's can.
     pub(super) unstartable: Mutex<BTreeSet<PathBuf>>,
-    pub(super) control: Control,
+    /// The compiler, for programs that show whether the machine is the reason for a failure.
+    pub(super) rustc: Rustc,
     /// The directory that contains the programs. It is removed when this value is dropped.
-    pub(super) _build_dir: BuildDir,
+    pub(super) build_dir: BuildDir,
 }
 
 /// A submission's file compiled with the reference's parts in place of its other files.
@@ -49,19 +51,20 @@ pub enum SubstitutedProgram<'a> {
 impl Build {
     /// Returns the isolation level at which the submission was compiled and will run.
     pub fn isolation(&self) -> Isolation {
-        self.control.rustc.sandbox.level()
+        self.rustc.sandbox.level()
     }
 
-    /// Returns the honest program that shows whether the machine is the reason for a failure.
-    pub fn control(&self) -> &Control {
-        &self.control
+    /// Returns an error unless an honest program can be compiled and run: then the machine is not the
+    /// reason that another program was killed.
+    pub fn check_run(&self) -> io::Result<()> {
+        trial::check_run(&self.rustc, &self.build_dir.path().join("control"))
     }
 
     /// Returns a launcher for one of the programs.
     pub fn launcher(&self, program: &Path) -> Launcher {
         Launcher {
             program: program.to_owned(),
-            sandbox: self.control.rustc.sandbox.clone(),
+            sandbox: self.rustc.sandbox.clone(),
             interrupt: self.interrupt.clone(),
         }
     }
@@ -78,9 +81,8 @@ impl Build {
         let starter = match substitutions.find(is_of) {
             Some(substitution) => substitution.starter_program()?,
             None => {
-                let folder = self.control.folder.join("starter");
-                compile_starter(self.handed_out, &folder, &self.control.rustc)
-                    .map_err(io::Error::other)?
+                let folder = self.build_dir.path().join("starter");
+                compile_starter(self.handed_out, &folder, &self.rustc).map_err(io::Error::other)?
             }
         };
         let started = self.launcher(&starter).start(cpu)?.ask([], START_LIMITS);
@@ -126,7 +128,6 @@ impl Build {
     ) -> Self {
         use crate::build::dependencies::Dependencies;
         use crate::build::linker::SystemLinker;
-        use crate::build::rustc::Rustc;
         use crate::build::toolchain::Toolchain;
         use crate::sandbox::Sandbox;
 
@@ -151,11 +152,8 @@ impl Build {
             interrupt: Interrupt::default(),
             substitutions: Vec::new(),
             unstartable: Mutex::default(),
-            control: Control {
-                rustc,
-                folder: folder.to_owned(),
-            },
-            _build_dir: BuildDir::new_in(folder).unwrap(),
+            rustc,
+            build_dir: BuildDir::new_in(folder).unwrap(),
         }
     }
 }

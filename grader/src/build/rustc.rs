@@ -2,6 +2,7 @@
 //! submission is read, and the modification times of its files do not matter.
 
 use std::ffi::OsString;
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,15 +10,17 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use judging::content_hash::ContentHash;
+use tempfile::TempDir;
 
-use crate::alone::{Attempt, decide};
+use crate::alone::decide;
 use crate::build::compile_budget::{CompileBudget, CompileTime, used_up_message};
 use crate::build::compiler_sandbox;
-use crate::build::control::Control;
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
+use crate::build::linker::option_with_path;
 use crate::build::machine_fault::{KILLED, check_disk, is_killed};
 use crate::build::program_cache::ProgramCache;
+use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::build::toolchain::Toolchain;
 use crate::build::verified_copy::{self, OutputFile};
 use crate::capture::Capture;
@@ -40,71 +43,13 @@ const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again
                             was running, but not when it compiled another program: this code makes \
                             it use too much memory";
 
-/// A crate to compile.
-#[derive(Debug)]
-pub struct Crate<'a> {
-    /// Name of the crate.
-    pub name: &'a str,
-    /// Whether to compile the crate to a program or to a library.
-    pub kind: CrateKind,
-    /// Folder of the sources. The output is also written there.
-    pub folder: &'a Path,
-    /// File of the root module, relative to the folder.
-    pub root: &'a str,
-    /// Names and libraries of the crates that it may import, in addition to those that every
-    /// submission may import.
-    pub links: &'a [(&'a str, &'a Path)],
-    /// Folder with the dependencies of `links`, if they have any besides the dependencies of every
-    /// submission.
-    pub dependency_folder: Option<&'a Path>,
-}
-
-/// The output that a crate is compiled to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CrateKind {
-    /// An executable.
-    Program,
-    /// An `rlib`, and its metadata, which is enough to compile other crates against it.
-    Library,
-}
-
-impl CrateKind {
-    /// Returns the name of the compiler's output file.
-    fn file_name(self, name: &str) -> String {
-        match self {
-            CrateKind::Program => format!("{name}{}", std::env::consts::EXE_SUFFIX),
-            CrateKind::Library => format!("lib{name}.rlib"),
-        }
-    }
-}
-
-/// Result of a compiler call.
-#[derive(Debug)]
-pub enum CompileOutcome {
-    /// The crate was compiled to this program or library.
-    Done(PathBuf),
-    /// The source code has errors.
-    Errors(Vec<Diagnostic>),
-    /// The compiler did not finish, or it failed and no error could be parsed from its messages.
-    Failed(String),
-}
-
-impl CompileOutcome {
-    /// Returns whether the compiler failed, and no error is about the source code.
-    fn is_unexplained(&self) -> bool {
-        match self {
-            CompileOutcome::Done(_) => false,
-            CompileOutcome::Errors(errors) => !errors.iter().any(Diagnostic::is_about_source),
-            CompileOutcome::Failed(_) => true,
-        }
-    }
-}
-
 /// Result of an attempt to compile.
 #[derive(Debug)]
 enum CompileAttempt {
-    /// The compiler came to an end.
-    Ended(CompileOutcome),
+    /// The outcome, for which the machine is not the reason.
+    Certain(CompileOutcome),
+    /// The compiler failed, and no error says why.
+    Unexplained(CompileOutcome),
     /// The system killed the compiler or the linker, and no error names a file of the submission.
     Killed,
 }
@@ -177,19 +122,20 @@ impl Rustc {
         let attempt = match self.budget {
             Some(_) => decide(
                 || self.attempt(source),
-                |outcome| match outcome {
-                    CompileAttempt::Ended(_) => Ok(()),
-                    CompileAttempt::Killed => Control::beside(self, source.folder).check_compiler(),
+                |attempt| !matches!(attempt, CompileAttempt::Certain(_)),
+                |attempt| match attempt {
+                    CompileAttempt::Certain(_) | CompileAttempt::Unexplained(_) => Ok(()),
+                    CompileAttempt::Killed => self.compile_honest(source.folder).map(drop),
                 },
             )?,
-            None => self.attempt(source)?.into_outcome(),
+            None => self.attempt(source)?,
         };
         match attempt {
             CompileAttempt::Killed => match self.budget {
                 Some(_) => Ok(CompileOutcome::Failed(KILLED_ALONE.to_owned())),
                 None => Err(io::Error::other(KILLED)),
             },
-            CompileAttempt::Ended(outcome) => {
+            CompileAttempt::Certain(outcome) | CompileAttempt::Unexplained(outcome) => {
                 if outcome.is_unexplained() {
                     check_disk(source.folder)?;
                 }
@@ -198,8 +144,35 @@ impl Rustc {
         }
     }
 
+    /// Compiles an honest program in a new folder beside `folder`, which shows whether the machine is
+    /// the reason that something fails. Returns the program, and the folder that keeps it.
+    pub(super) fn compile_honest(&self, folder: &Path) -> io::Result<(TempDir, PathBuf)> {
+        const NAME: &str = "control";
+        const SOURCE: &str = include_str!("../../trial/control.rs");
+        let folder = TempDir::new_in(folder.parent().unwrap_or(folder))?;
+        let outcome = self.compile_text(folder.path(), NAME, SOURCE, CrateKind::Program)?;
+        let program = outcome.into_result().map_err(io::Error::other)?;
+        Ok((folder, program))
+    }
+
+    /// Compiles a program or library of the grader's own in a new folder in `work`.
+    pub(super) fn compile_text(
+        &self,
+        work: &Path,
+        name: &str,
+        text: &str,
+        kind: CrateKind,
+    ) -> io::Result<CompileOutcome> {
+        let folder = work.join(name);
+        let root = format!("{name}.rs");
+        fs::create_dir(&folder)?;
+        fs::write(folder.join(&root), text)?;
+        let own = self.for_own_code();
+        own.compile(&Crate::new(name, kind, &folder, &root))
+    }
+
     /// Attempts to compile one crate.
-    fn attempt(&self, source: &Crate) -> io::Result<Attempt<CompileAttempt>> {
+    fn attempt(&self, source: &Crate) -> io::Result<CompileAttempt> {
         let Some(time) = self.time_left() else {
             return Ok(stopped());
         };
@@ -218,18 +191,19 @@ impl Rustc {
             .arg(source.root);
         match source.kind {
             CrateKind::Program => {
-                let is_readable = |program: &Path| {
-                    !self.sandbox.confines() || compiler_sandbox::can_read_program(self, program)
-                };
                 let (linker, sysroot) = (&self.toolchain.linker, self.toolchain.sysroot());
+                let is_readable = |program: &Path| {
+                    !self.sandbox.confines() || compiler_sandbox::can_read_program(sysroot, program)
+                };
                 linker.arguments(sysroot, source.folder, is_readable, &mut command)?;
             }
             CrateKind::Library => {}
         }
         if self.sandbox.confines() {
-            compiler_sandbox::arguments(self, source, &mut command);
+            compiler_sandbox::arguments(self.toolchain.sysroot(), source, &mut command);
         }
-        let profile = compiler_sandbox::profile(self, source);
+        let profile =
+            compiler_sandbox::profile(self.toolchain.sysroot(), &self.dependencies, source);
         let limits = Limits {
             cpu: time.cpu,
             ..LIMITS.within_available_memory(NEEDED_MEMORY)
@@ -271,33 +245,27 @@ impl Rustc {
         messages.wait_for_end(Duration::from_secs(1));
 
         if exit_reason.is_success() {
-            return Ok(Attempt::Certain(CompileAttempt::Ended(
-                match self.output_file(source)? {
-                    OutputFile::Verified(path) => CompileOutcome::Done(path),
-                    OutputFile::TooLarge(bytes) => CompileOutcome::Failed(too_large_message(bytes)),
-                    OutputFile::Missing => CompileOutcome::Failed(failure_message(exit_reason)),
-                },
-            )));
+            return Ok(CompileAttempt::Certain(match self.output_file(source)? {
+                OutputFile::Verified(path) => CompileOutcome::Done(path),
+                OutputFile::TooLarge(bytes) => CompileOutcome::Failed(too_large_message(bytes)),
+                OutputFile::Missing => CompileOutcome::Failed(failure_message(exit_reason)),
+            }));
         }
         let errors = diagnostics::errors(&messages.head());
         if errors.iter().any(Diagnostic::is_about_source) {
-            return Ok(Attempt::Certain(CompileAttempt::Ended(
-                CompileOutcome::Errors(errors),
-            )));
+            return Ok(CompileAttempt::Certain(CompileOutcome::Errors(errors)));
         }
         if is_killed(exit_reason, &errors) {
-            return Ok(Attempt::Doubtful(CompileAttempt::Killed));
+            return Ok(CompileAttempt::Killed);
         }
         if exit_reason.is_time_limit() || self.time_left().is_none() {
             return Ok(stopped());
         }
-        Ok(Attempt::Doubtful(CompileAttempt::Ended(
-            if errors.is_empty() {
-                CompileOutcome::Failed(failure_message(exit_reason))
-            } else {
-                CompileOutcome::Errors(errors)
-            },
-        )))
+        Ok(CompileAttempt::Unexplained(if errors.is_empty() {
+            CompileOutcome::Failed(failure_message(exit_reason))
+        } else {
+            CompileOutcome::Errors(errors)
+        }))
     }
 
     /// Returns the time that is left for compiling, or `None` if it is used up.
@@ -339,17 +307,9 @@ impl Rustc {
     }
 }
 
-/// Returns an option of the compiler that ends in a path.
-pub(super) fn option_with_path(option: &str, path: &Path) -> OsString {
-    let mut argument = OsString::from(option);
-    argument.push(path);
-    argument
-}
-
 /// Returns the result of a call for which no time is left.
-fn stopped() -> Attempt<CompileAttempt> {
-    let outcome = CompileOutcome::Failed(used_up_message());
-    Attempt::Certain(CompileAttempt::Ended(outcome))
+fn stopped() -> CompileAttempt {
+    CompileAttempt::Certain(CompileOutcome::Failed(used_up_message()))
 }
 
 fn too_large_message(bytes: u64) -> String {

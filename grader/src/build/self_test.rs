@@ -3,13 +3,12 @@
 //! counts as unavailable.
 
 use std::io;
-use std::path::Path;
 
 use tempfile::TempDir;
 
 use crate::build::Builder;
 use crate::build::build_dir::BuildDir;
-use crate::build::rustc::{CompileOutcome, CrateKind, Rustc};
+use crate::build::source_crate::{CompileOutcome, CrateKind};
 use crate::build::trial;
 use crate::files::{self, PathError};
 use crate::system;
@@ -54,28 +53,14 @@ impl Builder {
         system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::Setup)?;
         files::write(&key, SECRET)?;
 
-        let program = compile(
-            &self.rustc,
-            work.path(),
-            "attempts",
-            ATTACK_PROGRAM,
-            CrateKind::Program,
-        )?;
-        let program = match program {
-            CompileOutcome::Done(program) => program,
-            CompileOutcome::Errors(errors) => {
-                return Err(SelfTestError::NotCompiled(errors[0].text().to_owned()));
-            }
-            CompileOutcome::Failed(why) => return Err(SelfTestError::NotCompiled(why)),
+        let compile = |name, text: &str, kind| {
+            let compiled = self.rustc.compile_text(work.path(), name, text, kind);
+            compiled.map_err(SelfTestError::Setup)
         };
+        let program = compile("attempts", ATTACK_PROGRAM, CrateKind::Program)?;
+        let program = program.into_result().map_err(SelfTestError::NotCompiled)?;
         let reads = format!("pub const KEY: &str = include_str!({key:?});");
-        match compile(
-            &self.rustc,
-            work.path(),
-            "reads",
-            &reads,
-            CrateKind::Library,
-        )? {
+        match compile("reads", &reads, CrateKind::Library)? {
             CompileOutcome::Errors(errors) if !errors[0].text().contains(SECRET) => {}
             CompileOutcome::Done(_) | CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
                 return Err(SelfTestError::CompilerCanRead);
@@ -92,14 +77,4 @@ impl Builder {
             Some(_) | None => Err(SelfTestError::Incomplete(output)),
         }
     }
-}
-
-fn compile(
-    rustc: &Rustc,
-    work: &Path,
-    name: &str,
-    text: &str,
-    kind: CrateKind,
-) -> Result<CompileOutcome, SelfTestError> {
-    trial::compile(rustc, work, name, text, kind).map_err(SelfTestError::Setup)
 }

@@ -16,7 +16,8 @@ use std::sync::OnceLock;
 use judging::content_hash::ContentHash;
 use tempfile::TempDir;
 
-use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
+use crate::build::rustc::Rustc;
+use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::error::Error;
 use crate::files::{self, AtPath};
 use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
@@ -156,22 +157,12 @@ fn compile_parts(
     for (name, text) in parts.iter().chain([&("parts.rs", root)]) {
         files::write(folder.join(name), text)?;
     }
-    let library = Crate {
-        name: "parts",
-        kind: CrateKind::Library,
-        folder,
-        root: "parts.rs",
-        links: &[],
-        dependency_folder: None,
-    };
-    match rustc.compile(&library).at("compile in", folder)? {
-        CompileOutcome::Done(_) => {}
-        CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
-            return Err(Error::machine(
-                "the reference does not compile: see `cargo check -p reference`",
-            ));
-        }
-    }
+    let library = Crate::new("parts", CrateKind::Library, folder, "parts.rs");
+    let compiled = rustc.compile(&library).at("compile in", folder)?;
+    let message = "the reference does not compile: see `cargo check -p reference`";
+    compiled
+        .into_result()
+        .map_err(|_| Error::machine(message))?;
     // The sources are no longer needed, and they would leave a solution on this machine.
     for (name, _) in parts {
         files::remove_if_exists(folder.join(name))?;
@@ -246,15 +237,12 @@ impl Substitution {
             folder: self.folder.join("starter").join(self.file.name),
             program: OnceLock::new(),
         };
-        let why = match starter.compile_uncached()? {
-            CompileOutcome::Done(program) => return Ok(program),
-            CompileOutcome::Errors(errors) => errors[0].text().to_owned(),
-            CompileOutcome::Failed(why) => why,
-        };
-        Err(io::Error::other(format!(
-            "not even the starter's {} compiles with the reference's parts: {why}",
-            self.file.name
-        )))
+        starter.compile_uncached()?.into_result().map_err(|why| {
+            io::Error::other(format!(
+                "not even the starter's {} compiles with the reference's parts: {why}",
+                self.file.name
+            ))
+        })
     }
 
     fn compile_uncached(&self) -> io::Result<CompileOutcome> {
@@ -267,12 +255,8 @@ impl Substitution {
         fs::write(self.folder.join(AROUND), root)?;
         fs::write(self.folder.join(self.file.name), &self.source)?;
         let submission = self.rustc.compile(&Crate {
-            name: "submission",
-            kind: CrateKind::Library,
-            folder: &self.folder,
-            root: AROUND,
             links: &[("parts", &self.parts.metadata())],
-            dependency_folder: None,
+            ..Crate::new("submission", CrateKind::Library, &self.folder, AROUND)
         })?;
         let submission = match submission {
             CompileOutcome::Done(library) => library,
@@ -288,15 +272,12 @@ impl Substitution {
             fs::write(joined.join(name), text)?;
         }
         self.rustc.compile(&Crate {
-            name: "probe",
-            kind: CrateKind::Program,
-            folder: &joined,
-            root: PROBE,
             links: &[
                 ("submission", &submission),
                 ("parts", &self.parts.library()),
             ],
             dependency_folder: Some(&self.parts.folder),
+            ..Crate::new("probe", CrateKind::Program, &joined, PROBE)
         })
     }
 }

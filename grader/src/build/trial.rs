@@ -1,14 +1,12 @@
-//! Compiles and runs small programs of our own in the way in which submissions are compiled and
-//! run.
+//! Runs small programs of our own in the way in which submissions are run.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::build::rustc::{CompileOutcome, Crate, CrateKind, Rustc};
+use crate::build::rustc::Rustc;
 use crate::capture::Capture;
 use crate::sandbox::{Profile, Sandbox};
 use crate::system::{self, Limits};
@@ -25,26 +23,21 @@ const WALL_LIMIT: Duration = Duration::from_secs(30);
 /// Maximum length of a program's output, in bytes.
 const MAX_OUTPUT_BYTES: usize = 1 << 16;
 
-/// Compiles a program or library in a new folder in `work`.
-pub(super) fn compile(
-    rustc: &Rustc,
-    work: &Path,
-    name: &str,
-    text: &str,
-    kind: CrateKind,
-) -> io::Result<CompileOutcome> {
-    let folder = work.join(name);
-    let root = format!("{name}.rs");
-    fs::create_dir(&folder)?;
-    fs::write(folder.join(&root), text)?;
-    rustc.for_own_code().compile(&Crate {
-        name,
-        kind,
-        folder: &folder,
-        root: &root,
-        links: &[],
-        dependency_folder: None,
-    })
+/// The output of the honest program that [`Rustc::compile_honest`] compiles.
+const HONEST_OUTPUT: &str = "end\n";
+
+/// Returns an error unless an honest program gets to its end, compiled beside `folder`. It uses as much
+/// memory as a program may use without being considered out of memory.
+pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
+    let (_folder, program) = rustc.compile_honest(folder)?;
+    if run(&rustc.sandbox, &program, "")? == HONEST_OUTPUT {
+        return Ok(());
+    }
+    Err(io::Error::other(
+        "the system killed the program (signal 9) although it used little memory, and a small \
+         program of the grader, too: give this machine more memory, or grade fewer submissions \
+         at once",
+    ))
 }
 
 /// Runs a program, and returns what it prints to standard error or, if that is nothing, to standard

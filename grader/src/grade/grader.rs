@@ -91,16 +91,6 @@ impl BuiltSubmission {
 }
 
 impl<'a> Grader<'a> {
-    /// Loads the exam, and prepares the builder.
-    pub fn prepare(options: &'a GradeOptions) -> Result<Self, Error> {
-        let workspace = Workspace::find()?;
-        let file = options.exam.load(options.handed_out)?;
-        // A missing submission is reported before anything is compiled.
-        collect(options, &workspace)?;
-        let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;
-        Grader::new(options, workspace, builder, file)
-    }
-
     /// Loads the exam, prepares the builder and builds the submission. Reading the exam takes a tenth
     /// as long as compiling, and is done in parallel with it.
     pub(super) fn build_prepared(
@@ -134,9 +124,8 @@ impl<'a> Grader<'a> {
         Ok((grader, built))
     }
 
-    /// Prepares a grader without a submission of its own, for callers that grade several
-    /// submissions.
-    pub fn for_many(options: &'a GradeOptions) -> Result<Self, Error> {
+    /// Loads the exam, and prepares the builder.
+    pub fn prepare(options: &'a GradeOptions) -> Result<Self, Error> {
         let file = options.exam.load(options.handed_out)?;
         let workspace = Workspace::find()?;
         let builder = with_requested_level(builder(options, &workspace)?, options.isolation)?;

@@ -23,7 +23,7 @@ use crate::verdict::{file_line, file_message};
 pub use build_report::build_report;
 pub use grader::{BuiltSubmission, Grader};
 pub use prepared::Prepared;
-pub use resolve::{collect, default_folder, source_paths};
+pub use resolve::default_folder;
 
 /// The score of a submission, and the files to which it was written.
 #[derive(Debug)]

@@ -53,7 +53,7 @@ pub(super) fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<B
 }
 
 /// Reads the submission that the options name.
-pub fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
+pub(super) fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
     let path = submission_path(options, workspace);
     Ok(match &options.submission {
         Some(_) => Submission::collect(&path, options.handed_out)?,
@@ -70,7 +70,7 @@ pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> 
 }
 
 /// Returns the paths of the task files of the submission that the options name.
-pub fn source_paths(options: &GradeOptions, workspace: &Workspace) -> SourcePaths {
+pub(super) fn source_paths(options: &GradeOptions, workspace: &Workspace) -> SourcePaths {
     SourcePaths::of(&submission_path(options, workspace), options.handed_out)
 }
 

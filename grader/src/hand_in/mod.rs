@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use crate::build::Builder;
 use crate::error::Error;
 use crate::files;
-use crate::grade::{build_report, collect};
+use crate::grade::{Prepared, build_report};
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::report::atomic_write;
@@ -44,10 +44,9 @@ impl HandIn {
     /// Makes the archive of a student's own work or of another folder, reads it back, and compiles
     /// what is in it.
     pub fn make(arguments: HandInArguments, handed_out: &'static HandedOut) -> Result<Self, Error> {
-        let workspace = Workspace::find()?;
         let folder = arguments.folder;
         if let Some(folder) = &folder
-            && workspace.resolve(folder).is_file()
+            && Workspace::find()?.resolve(folder).is_file()
         {
             return Err(Error::User(format!(
                 "{} is a file: name the folder with the task files, such as `student`",
@@ -59,7 +58,11 @@ impl HandIn {
             submission: folder,
             ..GradeOptions::default()
         };
-        let original = collect(&options, &workspace)?;
+        let Prepared {
+            workspace,
+            submission: original,
+            ..
+        } = Prepared::new(&options)?;
         let archive = match arguments.out {
             Some(path) => path,
             None => workspace.root().join(ARCHIVE),

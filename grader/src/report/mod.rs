@@ -3,6 +3,5 @@
 pub mod atomic_write;
 mod failing_items;
 pub mod html;
-pub mod json;
 pub mod next_step;
 pub mod text;

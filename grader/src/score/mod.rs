@@ -357,6 +357,12 @@ impl Score {
         self.tasks.iter().flat_map(|task| &task.items)
     }
 
+    /// Returns the text of the score file.
+    pub fn to_json(&self) -> String {
+        let text = serde_json::to_string_pretty(self);
+        text.expect("all map keys of a score are strings") + "\n"
+    }
+
     /// Replaces the score of the item with the same id.
     pub fn record(&mut self, line: ItemScore) {
         let mut items = self.tasks.iter_mut().flat_map(|task| &mut task.items);

@@ -135,10 +135,7 @@ fn not_run_message(why: &NotRun) -> String {
 
 fn not_compiled_message(file: &str, why: &NotCompiled) -> String {
     match why {
-        NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
-        NotCompiled::MissingDeclaration(part) => {
-            format!("{file} has no `{part}`, which other files use")
-        }
+        NotCompiled::Unreadable(_) | NotCompiled::MissingDeclaration(_) => file_message(file, why),
         NotCompiled::Error { .. } => format!("{file} does not compile"),
         NotCompiled::Compiler(_) => "the submission does not compile".to_owned(),
     }

@@ -15,7 +15,7 @@ use judging::exam::Exam;
 
 use crate::desktop;
 use crate::error::Error;
-use crate::grade::{BuiltSubmission, Grader};
+use crate::grade::{BuiltSubmission, Grader, Prepared};
 use crate::handed_out::HandedOut;
 use crate::options::GradeOptions;
 use crate::report::html::Reload;
@@ -28,10 +28,11 @@ use crate::watch::screen::{Phase, Screen};
 /// Grades until the process is stopped or an error occurs. With `open`, opens the report's page in a
 /// browser once.
 pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
+    // A missing submission is reported before anything is compiled.
+    let mut submission = Prepared::new(options)?.submission;
     let grader = Grader::prepare(options)?;
     let watcher = SaveWatcher::new(|| grader.collect().ok());
     let screen = Screen::open(options, grader.source_paths());
-    let mut submission = grader.collect()?;
     let mut last: Option<Score> = None;
     let mut page = open.then(|| files(&grader, &submission)).flatten();
     loop {

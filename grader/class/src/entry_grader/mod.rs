@@ -4,7 +4,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use grader::policy::Policy;
 use grader::report::html::Reload;
-use grader::report::json;
 use grader::report_files::ReportFiles;
 use grader::submission::Submission;
 use judging::content_hash::ContentHash;
@@ -109,7 +108,7 @@ impl EntryGrader<'_> {
         let (score, page) = graded.map_err(|error| error.to_string())?;
         let saved = self.store.save_feedback(&entry.id, &page);
         saved.map_err(|error| error.to_string())?;
-        ScoreSummary::parse(&json::to_string(&score)).map_err(|error| error.to_string())
+        ScoreSummary::parse(&score.to_json()).map_err(|error| error.to_string())
     }
 
     fn finish(

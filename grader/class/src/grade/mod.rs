@@ -48,7 +48,7 @@ pub fn grade_class(
     arguments: &ClassArguments,
     options: &GradeOptions,
 ) -> Result<Completion, Error> {
-    let prepare: &PrepareGrader = &|options| Ok(Box::new(Grader::for_many(options)?));
+    let prepare: &PrepareGrader = &|options| Ok(Box::new(Grader::prepare(options)?));
     grade_class_with(arguments, options, prepare)
 }
 

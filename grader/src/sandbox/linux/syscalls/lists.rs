@@ -1,34 +1,7 @@
 //! Lists of allowed system calls, by number. Calls that exist only on x86 are listed separately:
 //! newer architectures have other calls for the same purpose.
 
-#[cfg(target_arch = "x86_64")]
-use libc::{
-    SYS_access, SYS_alarm, SYS_arch_prctl, SYS_chmod, SYS_creat, SYS_dup2, SYS_fork, SYS_getpgrp,
-    SYS_link, SYS_lstat, SYS_mkdir, SYS_open, SYS_pipe, SYS_poll, SYS_readlink, SYS_rename,
-    SYS_renameat, SYS_rmdir, SYS_select, SYS_stat, SYS_symlink, SYS_time, SYS_unlink, SYS_utime,
-    SYS_vfork,
-};
-use libc::{
-    SYS_brk, SYS_chdir, SYS_clock_getres, SYS_clock_gettime, SYS_clock_nanosleep, SYS_clone3,
-    SYS_close, SYS_copy_file_range, SYS_dup, SYS_dup3, SYS_eventfd2, SYS_execve, SYS_execveat,
-    SYS_exit, SYS_exit_group, SYS_faccessat, SYS_faccessat2, SYS_fadvise64, SYS_fallocate,
-    SYS_fchdir, SYS_fchmod, SYS_fchmodat, SYS_fcntl, SYS_fdatasync, SYS_flock, SYS_fstat,
-    SYS_fstatfs, SYS_fsync, SYS_ftruncate, SYS_futex, SYS_getcpu, SYS_getcwd, SYS_getdents64,
-    SYS_getegid, SYS_geteuid, SYS_getgid, SYS_getgroups, SYS_getpgid, SYS_getpid, SYS_getppid,
-    SYS_getpriority, SYS_getrandom, SYS_getrusage, SYS_gettid, SYS_gettimeofday, SYS_getuid,
-    SYS_ioctl, SYS_linkat, SYS_lseek, SYS_madvise, SYS_membarrier, SYS_mincore, SYS_mkdirat,
-    SYS_mlock, SYS_mmap, SYS_mprotect, SYS_mremap, SYS_msync, SYS_munlock, SYS_munmap,
-    SYS_nanosleep, SYS_newfstatat, SYS_openat, SYS_pidfd_open, SYS_pipe2, SYS_ppoll, SYS_prctl,
-    SYS_pread64, SYS_preadv, SYS_prlimit64, SYS_pselect6, SYS_pwrite64, SYS_pwritev, SYS_read,
-    SYS_readlinkat, SYS_readv, SYS_recvfrom, SYS_recvmsg, SYS_renameat2, SYS_restart_syscall,
-    SYS_rseq, SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_rt_sigsuspend,
-    SYS_rt_sigtimedwait, SYS_sched_getaffinity, SYS_sched_getparam, SYS_sched_getscheduler,
-    SYS_sched_setaffinity, SYS_sched_yield, SYS_sendfile, SYS_sendmsg, SYS_sendto,
-    SYS_set_robust_list, SYS_set_tid_address, SYS_setitimer, SYS_setpgid, SYS_sigaltstack,
-    SYS_statfs, SYS_statx, SYS_symlinkat, SYS_sysinfo, SYS_tgkill, SYS_times, SYS_truncate,
-    SYS_umask, SYS_uname, SYS_unlinkat, SYS_utimensat, SYS_wait4, SYS_waitid, SYS_write,
-    SYS_writev, c_long,
-};
+use libc::*;
 
 /// Calls that every program needs to start, compute and exit.
 pub(super) const COMMON: &[c_long] = &[

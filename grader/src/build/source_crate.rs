@@ -1,0 +1,88 @@
+//! A crate that the compiler is called for, and what comes of it.
+
+use std::path::{Path, PathBuf};
+
+use crate::build::diagnostics::Diagnostic;
+
+/// A crate to compile.
+#[derive(Debug)]
+pub struct Crate<'a> {
+    /// Name of the crate.
+    pub name: &'a str,
+    /// Whether to compile the crate to a program or to a library.
+    pub kind: CrateKind,
+    /// Folder of the sources. The output is also written there.
+    pub folder: &'a Path,
+    /// File of the root module, relative to the folder.
+    pub root: &'a str,
+    /// Names and libraries of the crates that it may import, in addition to those that every
+    /// submission may import.
+    pub links: &'a [(&'a str, &'a Path)],
+    /// Folder with the dependencies of `links`, if they have any besides the dependencies of every
+    /// submission.
+    pub dependency_folder: Option<&'a Path>,
+}
+
+impl<'a> Crate<'a> {
+    /// Returns a crate of `kind` that imports only what every submission may import.
+    pub fn new(name: &'a str, kind: CrateKind, folder: &'a Path, root: &'a str) -> Self {
+        Crate {
+            name,
+            kind,
+            folder,
+            root,
+            links: &[],
+            dependency_folder: None,
+        }
+    }
+}
+
+/// The output that a crate is compiled to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CrateKind {
+    /// An executable.
+    Program,
+    /// An `rlib`, and its metadata, which is enough to compile other crates against it.
+    Library,
+}
+
+impl CrateKind {
+    /// Returns the name of the compiler's output file.
+    pub(super) fn file_name(self, name: &str) -> String {
+        match self {
+            CrateKind::Program => format!("{name}{}", std::env::consts::EXE_SUFFIX),
+            CrateKind::Library => format!("lib{name}.rlib"),
+        }
+    }
+}
+
+/// Result of a compiler call.
+#[derive(Debug)]
+pub enum CompileOutcome {
+    /// The crate was compiled to this program or library.
+    Done(PathBuf),
+    /// The source code has errors.
+    Errors(Vec<Diagnostic>),
+    /// The compiler did not finish, or it failed and no error could be parsed from its messages.
+    Failed(String),
+}
+
+impl CompileOutcome {
+    /// Returns the program or library, or else why there is none.
+    pub fn into_result(self) -> Result<PathBuf, String> {
+        match self {
+            CompileOutcome::Done(path) => Ok(path),
+            CompileOutcome::Errors(errors) => Err(errors[0].text().to_owned()),
+            CompileOutcome::Failed(why) => Err(why),
+        }
+    }
+
+    /// Returns whether the compiler failed, and no error is about the source code.
+    pub(super) fn is_unexplained(&self) -> bool {
+        match self {
+            CompileOutcome::Done(_) => false,
+            CompileOutcome::Errors(errors) => !errors.iter().any(Diagnostic::is_about_source),
+            CompileOutcome::Failed(_) => true,
+        }
+    }
+}

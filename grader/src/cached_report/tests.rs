@@ -3,7 +3,6 @@
 use tempfile::TempDir;
 
 use super::*;
-use crate::format::{FORMATS, OutputSpec};
 use crate::handed_out::RAYS;
 use crate::options::Dependents;
 use crate::probe::Budget;
@@ -160,36 +159,29 @@ fn every_part_of_a_submission_changes_the_key() {
     }));
 }
 
+/// Returns the default options after a change.
+fn options_with(change: fn(&mut GradeOptions)) -> GradeOptions {
+    let mut options = GradeOptions::default();
+    change(&mut options);
+    options
+}
+
 #[test]
 fn the_options_the_exam_and_the_compiler_change_the_key() {
     let own = own_key();
-    let options = GradeOptions::default;
-    for changed in [
-        GradeOptions {
-            submission: Some("alice.zip".into()),
-            ..options()
-        },
-        GradeOptions {
-            exam: ExamSource::File("final.json".into()),
-            ..options()
-        },
-        GradeOptions {
-            dependents: Dependents::Block,
-            ..options()
-        },
-        GradeOptions {
-            budget: Budget::from_seconds(7),
-            ..options()
-        },
-        GradeOptions {
-            hints: HintDetail::Full,
-            ..options()
-        },
-    ] {
+    let changes: [fn(&mut GradeOptions); 5] = [
+        |options| options.submission = Some("alice.zip".into()),
+        |options| options.exam = ExamSource::File("final.json".into()),
+        |options| options.dependents = Dependents::Block,
+        |options| options.budget = Budget::from_seconds(7),
+        |options| options.hints = HintDetail::Full,
+    ];
+    for changed in changes.map(options_with) {
         assert!(CacheKey::is_cacheable(&changed));
         assert_ne!(key(&changed, &submission()), own, "{changed:?}");
     }
-    let with = |exam, compiler| CacheKey::new(&options(), &submission(), exam, compiler);
+    let options = GradeOptions::default();
+    let with = |exam, compiler| CacheKey::new(&options, &submission(), exam, compiler);
     assert_eq!(with("exam", "compiler").as_ref(), Some(&own));
     assert_ne!(with("other", "compiler").as_ref(), Some(&own));
     assert_ne!(with("exam", "other").as_ref(), Some(&own));
@@ -207,42 +199,17 @@ fn a_key_changes_with_the_environment_even_if_the_submission_is_the_same() {
 
 #[test]
 fn only_all_of_a_students_own_work_in_the_default_folder_is_cached() {
-    let options = GradeOptions::default;
-    assert!(CacheKey::is_cacheable(&options()));
-    let sphere = RAYS.assignment.task_of("sphere.uv").unwrap();
-    for not_cached in [
-        GradeOptions {
-            exam: ExamSource::StandardInput,
-            ..options()
-        },
-        GradeOptions {
-            tasks: TaskSelection::Only(vec![sphere]),
-            ..options()
-        },
-        GradeOptions {
-            policy: Some("policy.toml".into()),
-            ..options()
-        },
-        GradeOptions {
-            gradescope_metadata: Some("submission_metadata.json".into()),
-            ..options()
-        },
-        GradeOptions {
-            isolation: IsolationRequest::Untrusted,
-            ..options()
-        },
-        GradeOptions {
-            out: Some("folder".into()),
-            ..options()
-        },
-        GradeOptions {
-            formats: vec![OutputSpec {
-                format: FORMATS[0],
-                path: None,
-            }],
-            ..options()
-        },
-    ] {
+    assert!(CacheKey::is_cacheable(&GradeOptions::default()));
+    let changes: [fn(&mut GradeOptions); 7] = [
+        |options| options.exam = ExamSource::StandardInput,
+        |options| options.tasks = TaskSelection::Only(Vec::new()),
+        |options| options.policy = Some("policy.toml".into()),
+        |options| options.gradescope_metadata = Some("submission_metadata.json".into()),
+        |options| options.isolation = IsolationRequest::Untrusted,
+        |options| options.out = Some("folder".into()),
+        |options| options.formats = vec!["text".parse().unwrap()],
+    ];
+    for not_cached in changes.map(options_with) {
         assert!(!CacheKey::is_cacheable(&not_cached), "{not_cached:?}");
         let key = CacheKey::new(&not_cached, &submission(), "exam", "compiler");
         assert_eq!(key, None, "{not_cached:?}");

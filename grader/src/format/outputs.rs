@@ -297,6 +297,7 @@ mod tests {
             "--format needy needs the environment variable NO_TEST_SETS_THIS, which is not set: \
              grade on the platform's runner, or set CARGO_MANIFEST_DIR, NO_TEST_SETS_THIS"
         );
+        assert_eq!(error.exit_code(), 2);
         let keys: Vec<&str> = known.into_keys().collect();
         assert_eq!(keys, ["CARGO_MANIFEST_DIR"]);
     }

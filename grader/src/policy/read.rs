@@ -201,6 +201,11 @@ mod tests {
             "[late]\ndue = 2026-11-20T23:59:59Z\n[late.extensions]\n'ann@x' = 2025-11-25T23:59:59Z",
             "[late]\ntimezone = 'Europe/Atlantis'",
             "late",
+            "[late",
+            "[points]\n\nrounding = 'upwards'",
+            "[late]\nfree_days = -1",
+            "[late]\ndue = 2026-11-20",
+            "[visibility.items]\nbuild = 'secret'",
         ];
         let first_lines = texts.map(|text| {
             let error = error(text);

@@ -299,24 +299,36 @@ fn protocol_fault(error: WireError) -> Fault {
 
 #[cfg(all(test, unix))]
 mod tests {
+    use std::os::unix::fs::PermissionsExt;
+
+    use tempfile::TempDir;
+
     use super::*;
 
-    #[test]
-    fn kills_a_program_that_closes_its_pipe_and_keeps_running() {
-        use std::os::unix::fs::PermissionsExt;
-
-        // Answers the first question by echoing its length and nonce with the kind `Done` (5).
-        let script = "#!/bin/sh\nhead -c 12\nprintf '\\005'\nexec 1>&-\nexec sleep 600\n";
-        let folder = tempfile::TempDir::new().unwrap();
-        let program = folder.path().join("program");
-        std::fs::write(&program, script).unwrap();
-        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
-        let launcher = Launcher {
+    fn launcher(program: PathBuf) -> Launcher {
+        Launcher {
             program,
             sandbox: Sandbox::none(),
             interrupt: Interrupt::default(),
-        };
-        let mut probe = launcher.start(START_LIMITS.cpu).unwrap();
+        }
+    }
+
+    /// Starts a program that answers the first question by echoing its length and nonce with the kind
+    /// `Done` (5), and then goes on with these commands.
+    fn start_script(commands: &str) -> (TempDir, Launcher, Probe) {
+        let folder = TempDir::new().unwrap();
+        let program = folder.path().join("program");
+        let script = format!("#!/bin/sh\nhead -c 12\nprintf '\\005'\n{commands}\n");
+        std::fs::write(&program, script).unwrap();
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+        let launcher = launcher(program);
+        let probe = launcher.start(START_LIMITS.cpu).unwrap();
+        (folder, launcher, probe)
+    }
+
+    #[test]
+    fn kills_a_program_that_closes_its_pipe_and_keeps_running() {
+        let (_folder, _, mut probe) = start_script("exec 1>&-\nexec sleep 600");
         let started_at = Instant::now();
         let fault = probe.ask([], START_LIMITS).unwrap_err();
         assert!(
@@ -330,20 +342,7 @@ mod tests {
 
     #[test]
     fn an_interrupt_ends_a_program_that_answers_nothing() {
-        use std::os::unix::fs::PermissionsExt;
-
-        // Answers the first question, and then hangs without using time.
-        let script = "#!/bin/sh\nhead -c 12\nprintf '\\005'\nexec sleep 600\n";
-        let folder = tempfile::TempDir::new().unwrap();
-        let program = folder.path().join("program");
-        std::fs::write(&program, script).unwrap();
-        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
-        let launcher = Launcher {
-            program,
-            sandbox: Sandbox::none(),
-            interrupt: Interrupt::default(),
-        };
-        let mut probe = launcher.start(START_LIMITS.cpu).unwrap();
+        let (_folder, launcher, mut probe) = start_script("exec sleep 600");
         launcher.interrupt.request();
         let fault = probe.ask([], START_LIMITS).unwrap_err();
         assert_eq!(fault, Fault::TimedOut(TimeLimit::Wall));
@@ -352,12 +351,9 @@ mod tests {
 
     #[test]
     fn a_program_that_fails_to_start_answers_nothing() {
-        let launcher = Launcher {
-            program: "/usr/bin/false".into(),
-            sandbox: Sandbox::none(),
-            interrupt: Interrupt::default(),
-        };
-        let mut probe = launcher.start(Duration::from_secs(1)).unwrap();
+        let mut probe = launcher("/usr/bin/false".into())
+            .start(Duration::from_secs(1))
+            .unwrap();
         let answered = probe.ask([], START_LIMITS);
         assert_eq!(answered, Err(Fault::Crashed(Crash::NotStarted)));
     }

@@ -1,9 +1,61 @@
 //! Tests of collecting a submission.
 
 use std::fs;
+use std::io::{Cursor, Write};
+
+use tempfile::TempDir;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
 
 use super::*;
 use crate::handed_out::RAYS;
+
+/// Files, each with its path and its contents.
+pub(super) type Files<'a> = &'a [(&'a str, &'a [u8])];
+
+/// Returns a folder with these files.
+pub(super) fn folder(files: Files) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, bytes) in files {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+    folder
+}
+
+/// Returns a tar with these files.
+pub(super) fn tar(files: Files) -> Vec<u8> {
+    let mut builder = tar::Builder::new(Vec::new());
+    for (path, bytes) in files {
+        let mut header = tar::Header::new_gnu();
+        header.set_size(bytes.len() as u64);
+        header.set_mode(0o644);
+        builder.append_data(&mut header, path, *bytes).unwrap();
+    }
+    builder.into_inner().unwrap()
+}
+
+/// Returns a zip with these files.
+pub(super) fn zip(files: Files, method: CompressionMethod) -> Vec<u8> {
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default().compression_method(method);
+    for (path, bytes) in files {
+        writer.start_file(*path, options).unwrap();
+        writer.write_all(bytes).unwrap();
+    }
+    writer.finish().unwrap().into_inner()
+}
+
+/// Returns what was found of a task file.
+pub(super) fn text<'a>(
+    submission: &'a Submission,
+    name: &str,
+) -> &'a Result<String, TaskFileError> {
+    let mut files = submission.files.iter();
+    let (_, text) = files.find(|(file, _)| file.name == name).unwrap();
+    text
+}
 
 fn write_files(folder: &Path, text: &str) {
     fs::create_dir_all(folder).unwrap();
@@ -55,7 +107,7 @@ fn folders_without_end_are_refused() {
 }
 
 /// Returns the files of a submission that have a text.
-fn texts(submission: &Submission) -> Vec<(&str, &str)> {
+pub(super) fn texts(submission: &Submission) -> Vec<(&str, &str)> {
     let files = submission.files.iter();
     let texts = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
     texts.collect()

@@ -5,17 +5,34 @@ use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
 use crate::harness::{
-    BUILD, FULL_POINTS, SPHERE, Submission, full_points_except, points_of_other_tasks,
+    BUILD, FULL_POINTS, GradeRun, SPHERE, Submission, full_points_except, points_of_other_tasks,
 };
 
+/// Asserts that a submission's spheres do not compile, that this costs no other task's points, and that
+/// the report is as in the snapshot. One item of `traverse` needs spheres.
+fn assert_costs_spheres_only(name: &str, graded: &GradeRun) {
+    assert_eq!(graded.verdicts("sphere"), ["not_compiled"], "{name}");
+    assert_eq!(
+        graded.points()[..5],
+        full_points_except(&[SPHERE])[..5],
+        "{name}"
+    );
+    assert_snapshot!(name.to_owned(), graded.report());
+}
+
 #[test]
-fn a_missing_file_costs_its_own_task() {
-    let graded = Submission::reference("missing")
-        .without("sphere.rs")
-        .grade();
-    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
-    assert_snapshot!(graded.report());
+fn a_file_that_is_not_compiled_costs_its_own_task() {
+    let missing = Submission::reference("missing").without("sphere.rs");
+    assert_costs_spheres_only("missing", &missing.grade());
+    let not_text = Submission::reference("not-text").with("sphere.rs", b"struct \xff");
+    assert_costs_spheres_only("not-text", &not_text.grade());
+    let graded = Submission::not_compiling().grade();
+    assert_costs_spheres_only("not-compiling", &graded);
+    // This line is printed early, before the other files are compiled without `sphere.rs`, because
+    // that compilation takes four times as long.
+    let line =
+        "sphere.rs:71: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
+    assert!(graded.error().ends_with(line), "{}", graded.error());
 }
 
 #[test]
@@ -37,28 +54,6 @@ fn an_empty_file_costs_its_own_task_even_if_other_files_use_it() {
     assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
     assert_eq!(graded.points()[..3], FULL_POINTS[..3]);
     assert_snapshot!(graded.report());
-}
-
-#[test]
-fn a_file_that_is_not_text_costs_its_own_task() {
-    let graded = Submission::reference("not-text")
-        .with("sphere.rs", b"struct \xff")
-        .grade();
-    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
-    assert_snapshot!(graded.report());
-}
-
-#[test]
-fn a_file_that_does_not_compile_costs_its_own_task() {
-    let graded = Submission::not_compiling().grade();
-    assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
-    assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
-    assert_snapshot!(graded.report());
-    // This line is printed early, before the other files are compiled without `sphere.rs`, because
-    // that compilation takes four times as long.
-    let line =
-        "sphere.rs:71: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
-    assert!(graded.error().ends_with(line), "{}", graded.error());
 }
 
 #[test]

@@ -60,20 +60,18 @@ fn help(flag: &str) -> String {
 #[test]
 fn a_path_without_a_submission_is_a_usage_error() {
     let empty = tempfile::TempDir::new().unwrap();
-    let (code, error) = exit_code_and_error(&[empty.path().to_str().unwrap()]);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("has none of camera.rs, triangle.rs"),
-        "{error}"
-    );
-
-    let (code, error) = exit_code_and_error(&["nowhere"]);
-    assert_eq!(code, 2);
-    assert!(error.contains("there is no "), "{error}");
-
-    let (code, error) = exit_code_and_error(&["Cargo.toml"]);
-    assert_eq!(code, 2);
-    assert!(error.contains("is neither a folder nor a .zip"), "{error}");
+    for (path, why) in [
+        (
+            empty.path().to_str().unwrap(),
+            "has none of camera.rs, triangle.rs",
+        ),
+        ("nowhere", "there is no "),
+        ("Cargo.toml", "is neither a folder nor a .zip"),
+    ] {
+        let (code, error) = exit_code_and_error(&[path]);
+        assert_eq!(code, 2);
+        assert!(error.contains(why), "{error}");
+    }
 }
 
 #[test]
@@ -105,16 +103,6 @@ fn grades_an_archive_like_the_folder_in_it() {
     for part in ["submission", "tasks", "build", "points"] {
         assert_eq!(score[part], folder[part], "{part}");
     }
-}
-
-#[test]
-fn an_unknown_task_lists_the_known_ones() {
-    let (code, error) = exit_code_and_error(&["--task", "box"]);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("camera, triangle, sphere, bbox, build, traverse"),
-        "{error}"
-    );
 }
 
 #[test]
@@ -195,86 +183,86 @@ fn replays_one_question() {
 }
 
 #[test]
-fn replays_the_first_wrong_question_of_an_item() {
-    let submission = Submission::reference("half-distance").with_replaced(
-        "sphere.rs",
-        "distance: t,",
-        "distance: if ray.origin.x > 0.0 { t / 2.0 } else { t },",
-    );
-    let replay = replay(&submission, "sphere.from_inside");
-    let verdict = replay.lines().find(|line| line.starts_with("verdict"));
-    let verdict = verdict.unwrap_or_else(|| panic!("there is no verdict: {replay}"));
-    assert!(
-        verdict.starts_with("verdict  wrong: distance; the error is"),
-        "{verdict}"
-    );
-    let replay = self::replay(&submission, "camera.corners");
-    assert!(
-        replay.starts_with("every answer to camera.corners is right"),
-        "{replay}"
-    );
-}
-
-#[test]
-fn replay_does_not_run_the_stub_in_place_of_a_file_that_does_not_compile() {
-    let broken = |file| {
-        let submission = Submission::reference("broken");
-        submission.with_replaced(file, "use protocol::", "use protocols::")
-    };
-    let text = replay(&broken("sphere.rs"), "sphere.near_side");
-    assert!(text.contains("protocols"), "{text}");
-    let end = "sphere.near_side needs this file: correct it, and run the same command again\n";
-    assert!(text.ends_with(end), "{text}");
-    // Another task's file does not matter.
-    let text = replay(&broken("camera.rs"), "sphere.near_side");
-    assert!(
-        text.contains("every answer to sphere.near_side is right"),
-        "{text}"
-    );
-}
-
-#[test]
-fn replay_of_a_tree_says_first_what_is_wrong_and_shows_its_first_nodes() {
-    let submission = Submission::reference("costly").with_replaced(
-        "bvh.rs",
-        "cost < best.cost",
-        "cost > best.cost",
-    );
-    let text = replay(&submission, "build.cost_town");
-    let mut lines = text.lines().skip(1);
-    let verdict = lines.next().unwrap_or_default();
-    assert!(
-        verdict.starts_with("verdict  wrong: SAH cost: "),
-        "{verdict}"
-    );
-    assert!(
-        verdict.contains(" times that of the best split at every node; wanted: at most "),
-        "{verdict}"
-    );
-    assert!(
-        text.contains("\n  39: ") && !text.contains("\n  40: "),
-        "{text}"
-    );
-    assert!(text.contains(" more nodes\n"), "{text}");
-}
-
-#[test]
-fn replay_tells_an_answer_that_depends_on_earlier_calls() {
-    let submission = Submission::reference("counting").with_replaced(
-        "sphere.rs",
-        "distance: t,",
-        "distance: {
+fn replay_says_what_is_wrong_with_an_answer() {
+    let counting = "distance: {
                 use std::sync::atomic::{AtomicU32, Ordering};
                 static CALLS: AtomicU32 = AtomicU32::new(0);
                 t + CALLS.fetch_add(1, Ordering::Relaxed) as f32
-            },",
-    );
-    let replay = replay(&submission, "sphere.from_inside");
-    assert!(
-        replay.contains("verdict  right when asked alone, but not together"),
-        "{replay}"
-    );
-    assert!(replay.contains("distance; the error is"), "{replay}");
+            },";
+    for (file, from, to, item, texts) in [
+        (
+            "sphere.rs",
+            "distance: t,",
+            "distance: if ray.origin.x > 0.0 { t / 2.0 } else { t },",
+            "sphere.from_inside",
+            &["\nverdict  wrong: distance; the error is"][..],
+        ),
+        (
+            "sphere.rs",
+            "distance: t,",
+            "distance: t,",
+            "camera.corners",
+            &["every answer to camera.corners is right"],
+        ),
+        (
+            "sphere.rs",
+            "distance: t,",
+            counting,
+            "sphere.from_inside",
+            &[
+                "verdict  right when asked alone, but not together",
+                "distance; the error is",
+            ],
+        ),
+        (
+            "bvh.rs",
+            "cost < best.cost",
+            "cost > best.cost",
+            "build.cost_town",
+            &[
+                "\nverdict  wrong: SAH cost: ",
+                " times that of the best split at every node; wanted: at most ",
+                "\n  39: ",
+                " more nodes\n",
+            ],
+        ),
+        // One primitive more than a leaf may hold.
+        (
+            "bvh.rs",
+            "return items.len() / 2; // All",
+            "return 0; // All",
+            "build.coincident",
+            &["\nsmallest overflows even with 2 of them: triangle ("],
+        ),
+        (
+            "sphere.rs",
+            "use protocol::",
+            "use protocols::",
+            "sphere.near_side",
+            &[
+                "protocols",
+                "sphere.near_side needs this file: correct it, and run the same command again\n",
+            ],
+        ),
+        // Another task's file does not matter.
+        (
+            "camera.rs",
+            "use protocol::",
+            "use protocols::",
+            "sphere.near_side",
+            &["every answer to sphere.near_side is right"],
+        ),
+    ] {
+        let submission = Submission::reference("replayed").with_replaced(file, from, to);
+        let text = replay(&submission, item);
+        for expected in texts {
+            assert!(text.contains(expected), "{expected}: {text}");
+        }
+        assert!(
+            !text.contains("\n  40: "),
+            "a tree is cut after 40 nodes: {text}"
+        );
+    }
 }
 
 /// A question that ends the program takes the answers of the others with it, which are not to blame.
@@ -300,22 +288,6 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     assert!(!text.contains("keeps something"), "{text}");
 }
 
-#[test]
-fn replay_names_the_fewest_primitives_that_overflow_the_stack() {
-    let submission = Submission::reference("endless").with_replaced(
-        "bvh.rs",
-        "return items.len() / 2; // All",
-        "return 0; // All",
-    );
-    let replay = replay(&submission, "build.coincident");
-    let smallest = replay.lines().find(|line| line.starts_with("smallest"));
-    let smallest = smallest.unwrap_or_else(|| panic!("nothing was left out: {replay}"));
-    // One primitive more than a leaf may hold.
-    let few = "smallest overflows even with 2 of them: triangle (";
-    assert!(smallest.starts_with(few), "{replay}");
-    assert_eq!(smallest.matches("; triangle (").count(), 1, "{replay}");
-}
-
 fn replay(submission: &Submission, question: &str) -> String {
     let output = grader()
         .arg(submission.path())
@@ -326,37 +298,40 @@ fn replay(submission: &Submission, question: &str) -> String {
 }
 
 #[test]
-fn a_name_without_its_task_suggests_the_items_of_all_tasks() {
-    let error = |name: &str| exit_code_and_error(&["--replay", name]).1;
-    let unnamed = error("from_inside");
-    assert!(
-        unnamed.contains("(did you mean sphere.from_inside or bbox.from_inside?)"),
-        "{unnamed}"
-    );
-    let misspelt = error("sphere.from_insde");
-    assert!(
-        misspelt.contains("(did you mean sphere.from_inside?); the items of this task"),
-        "{misspelt}"
-    );
-}
-
-#[test]
-fn an_unknown_question_lists_the_known_ones() {
-    let (code, error) = exit_code_and_error(&["--replay", "sphere.nothing#1"]);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("the items of this task are: sphere."),
-        "{error}"
-    );
-    let (code, error) = exit_code_and_error(&["--replay", "spere.uv"]);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("(did you mean sphere.uv?); the items are: camera."),
-        "{error}"
-    );
-    let (code, error) = exit_code_and_error(&["--replay", "sphere#"]);
-    assert_eq!(code, 2);
-    assert!(error.contains("such as sphere.from_inside#7"), "{error}");
+fn a_name_that_is_unknown_leads_to_the_known_ones() {
+    for (option, name, why) in [
+        (
+            "--task",
+            "box",
+            "camera, triangle, sphere, bbox, build, traverse",
+        ),
+        (
+            "--format",
+            "gradescop",
+            "the formats are json, text, html, gradescope,",
+        ),
+        (
+            "--replay",
+            "from_inside",
+            "(did you mean sphere.from_inside or bbox.from_inside?)",
+        ),
+        (
+            "--replay",
+            "sphere.from_insde",
+            "(did you mean sphere.from_inside?); the items of this task are: sphere.",
+        ),
+        (
+            "--replay",
+            "spere.uv",
+            "(did you mean sphere.uv?); the items are: camera.",
+        ),
+        ("--replay", "sphere#", "such as sphere.from_inside#7"),
+        ("--replay", "sphere.uv#99999", "so there is no number 99999"),
+    ] {
+        let (code, error) = exit_code_and_error(&[option, name]);
+        assert_eq!(code, 2, "{name}: {error}");
+        assert!(error.contains(why), "{name}: {error}");
+    }
 }
 
 /// Runs on Linux only, since other systems always have a desktop.

@@ -45,11 +45,6 @@ fn a_known_mistake_gets_a_nudge() {
 }
 
 #[test]
-fn the_hints_option_says_more() {
-    assert_snapshot!(far_first().grade_with(&["--hints"]).report());
-}
-
-#[test]
 fn an_unknown_mistake_gets_no_hint() {
     let graded = Submission::reference("strange")
         .with_replaced("sphere.rs", "distance: t,", "distance: t + t.sin(),")

@@ -9,16 +9,12 @@ mod cases;
 mod command_line;
 mod dependencies;
 mod faults;
-mod file_access;
-mod file_errors;
 mod formats;
 mod hand_in;
 mod harness;
 mod hints;
 #[cfg(target_os = "linux")]
 mod isolation;
-mod language;
-mod layers;
 #[cfg(target_os = "linux")]
 mod next_steps;
 mod ordinary_user;
@@ -28,6 +24,7 @@ mod reset;
 #[cfg(unix)]
 mod runner_commands;
 mod scores;
+mod sources;
 mod substitution;
 mod watch;
 #[cfg(unix)]

@@ -295,4 +295,8 @@ fn an_unfinished_grade_is_announced() {
             "{id}"
         );
     }
+    for id in ["html", "junit", "check50", "classroom50"] {
+        let label = Verdict::Pending.label();
+        assert!(rendered(id, &unfinished).contains(label), "{id}");
+    }
 }

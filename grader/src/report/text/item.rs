@@ -138,7 +138,23 @@ pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -
 
 #[cfg(test)]
 mod tests {
-    use super::wrap;
+    use super::*;
+
+    #[test]
+    fn a_hint_is_as_detailed_as_requested() {
+        let hint = |name: &str| Hint {
+            nudge: format!("Is it {name}?"),
+            hint: format!("It is {name}."),
+        };
+        let hints = [hint("a"), hint("b")];
+        let text = |detail| hint_text(&hints, detail, &["sphere.uv"]).unwrap();
+        let more = "\nThe same mistake explains 1 more item: sphere.uv";
+        let nudges = "Is it a? Or: Is it b? (run with --hints for more)";
+        assert_eq!(text(HintDetail::Nudge), format!("{nudges}{more}"));
+        let full = "It is a. Or: It is b.";
+        assert_eq!(text(HintDetail::Full), format!("{full}{more}"));
+        assert_eq!(hint_text(&[], HintDetail::Full, &[]), None);
+    }
 
     #[test]
     fn wraps_between_words() {

@@ -1,46 +1,17 @@
 use std::fs;
 use std::io::ErrorKind;
 
-use tempfile::TempDir;
-
 use super::*;
 use crate::handed_out::RAYS;
 use crate::submission::Submission;
-
-/// Returns a folder with these files, each given by its path and its text.
-fn folder(files: &[(&str, &[u8])]) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (path, bytes) in files {
-        let path = folder.path().join(path);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, bytes).unwrap();
-    }
-    folder
-}
+use crate::submission::tests::{Files, folder, tar, text, texts};
 
 /// Returns the folders in which a search has found task files.
-fn found(files: &[(&str, &[u8])]) -> Vec<String> {
+fn found(files: Files) -> Vec<String> {
     let folder = folder(files);
     let search = search(folder.path(), &RAYS).unwrap();
     let candidates = search.candidates.into_iter();
     candidates.map(|candidate| candidate.folder).collect()
-}
-
-/// Returns the texts of the task files that were found.
-fn texts(submission: &Submission) -> Vec<&str> {
-    let files = submission.files.iter();
-    files.filter_map(|(_, text)| text.as_deref().ok()).collect()
-}
-
-fn tar(files: &[(&str, &[u8])]) -> Vec<u8> {
-    let mut builder = tar::Builder::new(Vec::new());
-    for (path, bytes) in files {
-        let mut header = tar::Header::new_gnu();
-        header.set_size(bytes.len() as u64);
-        header.set_mode(0o644);
-        builder.append_data(&mut header, path, *bytes).unwrap();
-    }
-    builder.into_inner().unwrap()
 }
 
 #[test]
@@ -89,12 +60,9 @@ fn a_file_that_is_too_long_costs_only_its_own_points() {
     let long = vec![b' '; 1 + (1 << 20)];
     let folder = folder(&[("bvh.rs", &long), ("sphere.rs", b"new")]);
     let submission = Submission::collect(folder.path(), &RAYS).unwrap();
-    let text = |name: &str| {
-        let mut files = submission.files.iter();
-        files.find(|(file, _)| file.name == name).unwrap().1.clone()
-    };
-    assert_eq!(text("bvh.rs"), Err(TaskFileError::TooLong("bvh.rs")));
-    assert_eq!(text("sphere.rs"), Ok("new".to_owned()));
+    let too_long = Err(TaskFileError::TooLong("bvh.rs"));
+    assert_eq!(*text(&submission, "bvh.rs"), too_long);
+    assert_eq!(texts(&submission), [("sphere.rs", "new")]);
 }
 
 #[test]
@@ -124,7 +92,7 @@ fn archives_in_a_platforms_folder_are_read_like_folders() {
         ("old.zip/readme", b"a folder"),
     ]);
     let submission = Submission::collect(folder.path(), &RAYS).unwrap();
-    assert_eq!(texts(&submission), ["new"]);
+    assert_eq!(texts(&submission), [("bvh.rs", "new")]);
 }
 
 #[test]
@@ -132,7 +100,7 @@ fn archives_among_single_files_are_read_like_folders() {
     let folder = folder(&[("17.bin", &tar(&[("src/bvh.rs", b"new")]))]);
     let files = [("work.tar".to_owned(), folder.path().join("17.bin"))];
     let submission = Submission::from_files("ann", &files, &RAYS).unwrap();
-    assert_eq!(texts(&submission), ["new"]);
+    assert_eq!(texts(&submission), [("bvh.rs", "new")]);
 }
 
 #[test]
@@ -157,7 +125,7 @@ fn archives_behind_links_are_not_read() {
     let link = folder.path().join("work.tar");
     system::symlink(&elsewhere.path().join("work.tar"), &link).unwrap();
     let submission = Submission::collect(folder.path(), &RAYS).unwrap();
-    assert_eq!(texts(&submission), ["new"]);
+    assert_eq!(texts(&submission), [("sphere.rs", "new")]);
 }
 
 #[test]

@@ -7,7 +7,6 @@ mod golden;
 mod leaks;
 pub mod models;
 mod numbers;
-mod unfinished;
 
 use std::collections::BTreeMap;
 use std::fs;

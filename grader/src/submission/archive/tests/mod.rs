@@ -3,29 +3,20 @@
 mod rejected;
 
 use std::io::{Cursor, Write};
-use std::path::PathBuf;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use tar::{Builder, EntryType, Header};
-use tempfile::TempDir;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::*;
 use crate::handed_out::RAYS;
+use crate::submission::tests::{self, Files, folder, tar, text};
 use crate::submission::{Limit, Submission, SubmissionError, TaskFileError};
 
-type Files<'a> = &'a [(&'a str, &'a [u8])];
-
 fn zip(files: Files) -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
-    for (path, bytes) in files {
-        writer.start_file(*path, options).unwrap();
-        writer.write_all(bytes).unwrap();
-    }
-    writer.finish().unwrap().into_inner()
+    tests::zip(files, CompressionMethod::Deflated)
 }
 
 /// Returns a tar archive with one member, whose path is written unchanged. The `tar` crate's own
@@ -45,40 +36,15 @@ fn tar_with(path: &str, kind: EntryType, bytes: &[u8]) -> Vec<u8> {
     builder.into_inner().unwrap()
 }
 
-fn tar(files: Files) -> Vec<u8> {
-    let mut builder = Builder::new(Vec::new());
-    for (path, bytes) in files {
-        let mut header = Header::new_gnu();
-        header.set_size(bytes.len() as u64);
-        header.set_mode(0o644);
-        builder.append_data(&mut header, path, *bytes).unwrap();
-    }
-    builder.into_inner().unwrap()
-}
-
 fn gzip(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
     encoder.write_all(bytes).unwrap();
     encoder.finish().unwrap()
 }
 
-struct TempArchive {
-    _folder: TempDir,
-    path: PathBuf,
-}
-
-fn write_archive(name: &str, bytes: &[u8]) -> TempArchive {
-    let folder = TempDir::new().unwrap();
-    let path = folder.path().join(name);
-    std::fs::write(&path, bytes).unwrap();
-    TempArchive {
-        _folder: folder,
-        path,
-    }
-}
-
 fn collect(name: &str, bytes: &[u8]) -> Result<Submission, SubmissionError> {
-    Submission::collect(&write_archive(name, bytes).path, &RAYS)
+    let folder = folder(&[(name, bytes)]);
+    Submission::collect(&folder.path().join(name), &RAYS)
 }
 
 fn collect_error(bytes: &[u8]) -> ArchiveError {
@@ -88,10 +54,11 @@ fn collect_error(bytes: &[u8]) -> ArchiveError {
     }
 }
 
-fn text<'a>(submission: &'a Submission, name: &str) -> &'a Result<String, TaskFileError> {
-    let mut files = submission.files.iter();
-    let (_, text) = files.find(|(file, _)| file.name == name).unwrap();
-    text
+/// Returns the listing of an archive of a class.
+fn listing(bytes: &[u8]) -> Listing {
+    let folder = folder(&[("a.tar", bytes)]);
+    let archive = Archive::open(&folder.path().join("a.tar"), ArchiveLimits::class());
+    archive.unwrap().listing().unwrap()
 }
 
 const FILES: Files = &[
@@ -172,11 +139,7 @@ fn paths_are_relative_and_without_dots() {
 #[test]
 fn lists_folders_and_only_regular_files() {
     let listing = |bytes: &[u8]| {
-        let archive = write_archive("a.tar", bytes);
-        let listing = Archive::open(&archive.path, ArchiveLimits::class())
-            .unwrap()
-            .listing()
-            .unwrap();
+        let listing = listing(bytes);
         let paths: Vec<String> = listing
             .members
             .into_iter()
@@ -207,12 +170,8 @@ fn lists_folders_and_only_regular_files() {
 fn a_file_as_long_as_the_limit_is_read_in_full() {
     const LIMIT: usize = 1 << 20;
     // A file that cannot be compressed takes more bytes in the archive than by itself.
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
     let long = vec![b' '; LIMIT];
-    writer.start_file("bvh.rs", options).unwrap();
-    writer.write_all(&long).unwrap();
-    let stored = writer.finish().unwrap().into_inner();
+    let stored = tests::zip(&[("bvh.rs", &long)], CompressionMethod::Stored);
     for bytes in [stored, tar(&[("bvh.rs", &long)])] {
         let submission = collect("a", &bytes).unwrap();
         assert_eq!(
@@ -247,9 +206,8 @@ fn only_rust_files_in_folders_that_are_handed_in_count() {
 #[test]
 fn the_folders_in_an_archive_are_named_with_it() {
     let inner = zip(&[("old/bvh.rs", b"2")]);
-    let folder = TempDir::new().unwrap();
     let archive = tar(&[("bvh.rs", b"1"), ("more/inner.zip", &inner)]);
-    std::fs::write(folder.path().join("a.tar"), archive).unwrap();
+    let folder = folder(&[("a.tar", &archive)]);
     let error = Submission::collect(folder.path(), &RAYS).unwrap_err();
     let SubmissionError::Ambiguous { copies, .. } = error else {
         panic!("{error}");
@@ -275,8 +233,7 @@ fn archives_in_archives_are_opened_down_to_a_level() {
 #[test]
 fn archives_share_one_budget() {
     let too_many = |archives: usize, archive: &[u8]| {
-        let folder = TempDir::new().unwrap();
-        std::fs::write(folder.path().join("bvh.rs"), "tree").unwrap();
+        let folder = folder(&[("bvh.rs", b"tree")]);
         for number in 0..archives {
             std::fs::write(folder.path().join(format!("{number}.zip")), archive).unwrap();
         }

@@ -72,16 +72,8 @@ fn rejects_links_and_devices_except_under_target() {
         let why = ArchiveError::NotRegular("bvh.rs".to_owned());
         assert_eq!(collect_error(&tar_with("bvh.rs", kind, b"")), why);
     }
-    let built = write_archive(
-        "a.tar",
-        &tar_with("hw/target/debug/hw", EntryType::Link, b""),
-    );
-    assert_eq!(
-        Archive::open(&built.path, ArchiveLimits::class())
-            .unwrap()
-            .members(),
-        Ok(Vec::new())
-    );
+    let built = listing(&tar_with("hw/target/debug/hw", EntryType::Link, b""));
+    assert!(built.members.is_empty() && built.errors.is_empty());
 
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default();
@@ -100,14 +92,6 @@ fn reports_what_is_wrong_with_an_unusable_archive() {
     assert_eq!(collect_error(b""), ArchiveError::Empty);
     assert_eq!(collect_error(&zip(&[])), ArchiveError::Empty);
     assert_eq!(collect_error(&[0; 1024]), ArchiveError::Empty);
-    assert_eq!(
-        collect_error(b"Rar!\x1a\x07\x01\x00"),
-        ArchiveError::UnsupportedKind(".rar")
-    );
-    assert_eq!(
-        collect_error(b"7z\xbc\xaf\x27\x1c\x00\x04"),
-        ArchiveError::UnsupportedKind(".7z")
-    );
     assert_eq!(collect_error(b"%PDF-1.7"), ArchiveError::NotAnArchive);
     assert_eq!(
         collect_error(&gzip(b"pub struct Sphere")),

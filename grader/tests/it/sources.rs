@@ -1,0 +1,329 @@
+//! Rules for the sources themselves: phrases, layers, and what only one module may do.
+
+use std::fs;
+use std::path::Path;
+
+use crate::harness::workspace;
+
+/// A file, by its path below the workspace with `/`, and its text.
+type Source = (String, String);
+
+/// Paths that are not read: generated files, files by others, and this file, which quotes what it looks
+/// for.
+const SKIPPED: [&str; 9] = [
+    "target",
+    ".git",
+    "grader/fuzz/corpus",
+    "grader/fuzz/target",
+    "grader/tests/browser/axe",
+    "grader/tests/it/sources.rs",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "Cargo.lock",
+];
+
+/// Returns the files below a path whose extension is one of these.
+fn files(path: &str, extensions: &[&str]) -> Vec<Source> {
+    let absolute = workspace().join(path);
+    if SKIPPED.contains(&path) {
+        return Vec::new();
+    }
+    if absolute.is_dir() && !absolute.is_symlink() {
+        let entries = fs::read_dir(&absolute).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
+        let below = names.map(|name| format!("{path}/{name}"));
+        let mut below: Vec<String> = below
+            .map(|path| path.trim_matches('/').to_owned())
+            .collect();
+        below.sort();
+        return below
+            .iter()
+            .flat_map(|path| files(path, extensions))
+            .collect();
+    }
+    let extension = Path::new(path).extension().unwrap_or_default();
+    let is_read = extensions.iter().any(|known| extension == *known);
+    let text = is_read
+        .then(|| fs::read_to_string(&absolute).ok())
+        .flatten();
+    text.map(|text| (path.to_owned(), text))
+        .into_iter()
+        .collect()
+}
+
+/// Returns the Rust files below these folders.
+fn sources(folders: &[&str]) -> Vec<Source> {
+    folders
+        .iter()
+        .flat_map(|folder| files(folder, &["rs"]))
+        .collect()
+}
+
+/// Returns the places of the lines of code that match, before the tests of each file.
+fn lines_with(sources: &[Source], is_found: impl Fn(&str) -> bool) -> Vec<String> {
+    let found = sources.iter().flat_map(|(path, text)| {
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let is_test = path.ends_with("tests.rs") || path.contains("/tests/");
+        let lines = (1..).zip(code.lines()).filter(|_| !is_test);
+        let code = lines.filter(|(_, line)| !line.trim_start().starts_with("//"));
+        let found = code.filter(|(_, line)| is_found(line));
+        found
+            .map(move |(number, _)| format!("{path}:{number}"))
+            .collect::<Vec<_>>()
+    });
+    found.collect()
+}
+
+fn contains_any(line: &str, words: &[&str]) -> bool {
+    words.iter().any(|word| line.contains(word))
+}
+
+/// The folders whose files are used through the seam `grader::disk`, so that tests can make every
+/// operation fail.
+const THROUGH_THE_SEAM: [&str; 6] = [
+    "grader/class/src",
+    "grader/src/format",
+    "grader/src/policy",
+    "grader/src/report",
+    "grader/src/submission",
+    "grader/src/grade",
+];
+/// The files in them that do not use it, with the reasons.
+const BESIDE_THE_SEAM: [&str; 6] = [
+    // lists with `disk::before`, and asks for the kind of each entry
+    "grader/class/src/listing.rs",
+    // ask only whether the input is a file or a folder, and how large
+    "grader/class/src/input.rs",
+    "grader/class/src/unpack.rs",
+    // asks only whether a new folder is empty
+    "grader/class/src/similarity.rs",
+    // asks before each of the operations of which a write consists
+    "grader/src/report/atomic_write.rs",
+    // opens archives after asking, and the same file again to read it
+    "grader/src/submission/archive/mod.rs",
+];
+
+fn is_call_of_std_fs(line: &str) -> bool {
+    let calls = ["fs::", "File::open", "File::create", "OpenOptions"];
+    contains_any(line, &calls) && !line.trim_start().starts_with("use ")
+}
+
+#[test]
+fn files_are_used_through_the_seam() {
+    let mut sources = sources(&THROUGH_THE_SEAM);
+    let all = sources.len();
+    sources.retain(|(path, _)| !BESIDE_THE_SEAM.contains(&path.as_str()));
+    assert_eq!(
+        sources.len() + BESIDE_THE_SEAM.len(),
+        all,
+        "each exception exists"
+    );
+    let found = lines_with(&sources, is_call_of_std_fs);
+    assert_eq!(found, [""; 0], "use grader::files instead");
+}
+
+/// A jump of the wall clock cannot change a grade, because nothing reads it. The only exception compares
+/// modification times of the compiler's files.
+#[test]
+fn nothing_that_decides_points_reads_the_clock() {
+    let clocks = [
+        "SystemTime",
+        "UNIX_EPOCH",
+        "Timestamp::now",
+        "Zoned::now",
+        ".modified()",
+    ];
+    let sources = sources(&["grader/src", "grader/class/src", "grader/judging/src"]);
+    let found = lines_with(&sources, |line| contains_any(line, &clocks));
+    let exception = "grader/src/build/toolchain.rs:";
+    assert!(
+        found.iter().all(|place| place.starts_with(exception)),
+        "{found:?}"
+    );
+    assert!(!found.is_empty(), "the search finds the exception");
+}
+
+/// Returns whether a line declares a field for the system's error, or a variant with fields for a path
+/// and the system's message.
+fn is_error_of_the_system(line: &str) -> bool {
+    let field = line.trim().trim_start_matches("pub ").trim_end_matches(',');
+    ["Io {", "source: io::Error", "source: std::io::Error"].contains(&field)
+}
+
+#[test]
+fn only_one_type_adds_a_path_to_the_error_of_the_system() {
+    let folders = [
+        "grader/src",
+        "grader/class/src",
+        "grader/view/src",
+        "reference/author/src",
+    ];
+    let found = lines_with(&sources(&folders), is_error_of_the_system);
+    assert_eq!(
+        found.len(),
+        1,
+        "use grader::files::PathError instead: {found:?}"
+    );
+    assert!(found[0].ends_with(|c: char| c.is_ascii_digit()) && found[0].contains("/files.rs:"));
+}
+
+#[test]
+fn all_programs_print_in_one_place() {
+    let folders = [
+        "grader/src",
+        "grader/class/src",
+        "grader/view/src",
+        "grader/judging/src",
+    ];
+    let mut sources = sources(&folders);
+    // The sandbox prints no text of students.
+    sources.retain(|(path, _)| {
+        !path.ends_with("/printing.rs") && !path.starts_with("grader/src/sandbox/")
+    });
+    let prints = ["print!(", "println!(", "dbg!(", ".exit()"];
+    let found = lines_with(&sources, |line| contains_any(line, &prints));
+    assert_eq!(found, [""; 0], "use grader::printing");
+}
+
+#[test]
+fn the_search_finds_lines_of_code_only() {
+    let text =
+        "use std::fs;\nlet text = fs::read(path);\n// fs::\nFile::open(x)\n#[cfg(test)]\nfs::a()";
+    let sources = [("a.rs".to_owned(), text.to_owned())];
+    assert_eq!(
+        lines_with(&sources, is_call_of_std_fs),
+        ["a.rs:2", "a.rs:4"]
+    );
+    let sources = [(
+        "b.rs".to_owned(),
+        "Io {\n  pub source: io::Error,".to_owned(),
+    )];
+    assert_eq!(
+        lines_with(&sources, is_error_of_the_system),
+        ["b.rs:1", "b.rs:2"]
+    );
+}
+
+/// Returns the names that stand in backticks in the table of layers.
+fn modules_in_order(text: &str) -> Vec<&str> {
+    let rows = text.lines().filter(|line| line.starts_with("//! | "));
+    let names = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
+    names.map(|name| name.trim_start_matches("mod@")).collect()
+}
+
+/// The modules use each other only in the order of the table in `src/lib.rs`.
+#[test]
+fn modules_use_only_those_below_them() {
+    let text = fs::read_to_string(workspace().join("grader/src/lib.rs")).unwrap();
+    let modules = modules_in_order(&text);
+    for line in text.lines().filter(|line| line.contains("mod ")) {
+        let name = line.trim_end_matches(';').rsplit(' ').next().unwrap();
+        assert!(
+            modules.contains(&name) || line.starts_with("//"),
+            "{name} is in no layer"
+        );
+    }
+    for (index, module) in modules.iter().enumerate() {
+        let path = format!("grader/src/{module}");
+        let sources = sources(&[&path, &format!("{path}.rs")]);
+        for above in &modules[..index] {
+            let uses = [":", ";", ","].map(|end| format!("crate::{above}{end}"));
+            let uses = uses.each_ref().map(String::as_str);
+            let found = lines_with(&sources, |line| contains_any(line, &uses));
+            assert_eq!(found, [""; 0], "{module} uses {above}, which is above it");
+        }
+    }
+}
+
+/// Phrases that are always wrong here (see "Language" in `.github/CONTRIBUTING.md`), each as a list of
+/// words, with the text to write instead. The other rules of that section are left to reviewers.
+const PHRASES: [(&[&str], &str); 9] = [
+    (&["can", "not"], "cannot"),
+    (&["whoever"], "the person meant, such as \"the caller\""),
+    (&["mend"], "fix"),
+    (&["mends"], "fixes"),
+    (&["mended"], "fixed"),
+    (&["mending"], "fixing"),
+    (&["begun"], "started"),
+    (&["orphan"], "unreferenced primitive"),
+    (&["orphans"], "unreferenced primitives"),
+];
+
+/// Beginnings of doc comments that do not say what the item is or does.
+const FIRST_WORDS: [&str; 5] = ["What ", "Which.", "Where.", "Whoever ", "Said of "];
+
+/// Extensions of files that people read.
+const ENDINGS: [&str; 10] = [
+    "rs", "md", "toml", "yml", "yaml", "html", "css", "js", "snap", "sh",
+];
+
+/// Returns the words of a text in lower case, each with its 1-based line number. The words of all
+/// lines are in one list, so that a phrase such as "can not" is also found across a line break. In
+/// Markdown, text in double quotes is skipped, because it is a quotation.
+fn words(text: &str, is_markdown: bool) -> Vec<(usize, String)> {
+    let mut words = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        let is_quoted = |part: &usize| is_markdown && part % 2 == 1;
+        let parts = line.split('"').enumerate();
+        for (_, part) in parts.filter(|(part, _)| !is_quoted(part)) {
+            let found = part.split(|c: char| !c.is_alphabetic());
+            let found = found.filter(|word| !word.is_empty());
+            words.extend(found.map(|word| (number + 1, word.to_lowercase())));
+        }
+    }
+    words
+}
+
+/// Returns a message for each phrase to avoid, and for each doc comment that begins with a wrong
+/// word.
+fn complaints(name: &str, text: &str) -> Vec<String> {
+    let mut complaints = Vec::new();
+    let words = words(text, name.ends_with(".md"));
+    for (phrase, instead) in PHRASES {
+        for found in words.windows(phrase.len()) {
+            if found.iter().map(|(_, word)| word).eq(phrase) {
+                let (line, phrase) = (found[0].0, phrase.join(" "));
+                complaints.push(format!("{name}:{line}: \"{phrase}\": write {instead}"));
+            }
+        }
+    }
+    let mut is_inside = false;
+    for (number, line) in text.lines().enumerate() {
+        let line = line.trim_start();
+        let doc = line.strip_prefix("///").or(line.strip_prefix("//!"));
+        let first = doc.map(str::trim_start).filter(|_| !is_inside);
+        is_inside = doc.is_some();
+        let wrong = first.and_then(|text| FIRST_WORDS.iter().find(|word| text.starts_with(**word)));
+        if let Some(word) = wrong {
+            complaints.push(format!(
+                "{name}:{}: a doc comment begins with \"{}\": say what the item is or does",
+                number + 1,
+                word.trim_end()
+            ));
+        }
+    }
+    complaints
+}
+
+#[test]
+fn no_text_has_a_phrase_that_is_always_wrong() {
+    let files = files("", &ENDINGS);
+    assert!(files.len() > 500, "{} files", files.len());
+    let complaints = files.iter().flat_map(|(name, text)| complaints(name, text));
+    let complaints: Vec<String> = complaints.collect();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+#[test]
+fn finds_phrases_over_line_ends_and_wrong_first_words() {
+    let text = "/// What it is.\n/// It can\n/// not be.\nfn mended() {}\n/// Reads it.\n/// What follows.\n";
+    assert_eq!(
+        complaints("a.rs", text),
+        [
+            "a.rs:2: \"can not\": write cannot",
+            "a.rs:4: \"mended\": write fixed",
+            "a.rs:1: a doc comment begins with \"What\": say what the item is or does",
+        ]
+    );
+    assert_eq!(complaints("a.md", "Not \"whoever\" but a name."), [""; 0]);
+}

@@ -35,6 +35,14 @@ pub fn print_commands(commands: &str) {
     anstream::print!("{commands}");
 }
 
+/// Returns a number of things, such as `1 file` or `3 files`.
+pub fn counted(count: usize, thing: &str) -> String {
+    match count {
+        1 => format!("1 {thing}"),
+        count => format!("{count} {thing}s"),
+    }
+}
+
 /// Prints the help that the command line asks for, or the error in it, and exits.
 #[expect(clippy::exit, reason = "clap exits in the same way")]
 pub fn exit_with(error: &clap::Error) -> ! {

@@ -72,13 +72,7 @@ impl Builder {
         let folder = workspace.cache_folder().join("work");
         remove_abandoned(&folder);
         Builder {
-            rustc: Rustc {
-                toolchain,
-                dependencies,
-                cache: None,
-                sandbox: Sandbox::none(),
-                budget: None,
-            },
+            rustc: Rustc::new(toolchain, dependencies),
             reference_parts: Vec::new(),
             folder,
         }
@@ -281,3 +275,6 @@ fn with_starter_files<'a>(
     };
     submission.files.iter().map(text).collect()
 }
+
+#[cfg(test)]
+mod tests;

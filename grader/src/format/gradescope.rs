@@ -4,7 +4,7 @@
 //! Gradescope applies a test's `visibility` itself, and hides the total while a test is hidden.
 //! Therefore, this format also lists hidden items one by one.
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::format::FormatSpec;
 use crate::format::item_text::{build_report, headline, item_text};
@@ -120,28 +120,23 @@ fn test(
     max_chars: usize,
 ) -> Value {
     let item = &entry.item;
-    let mut test = Map::new();
-    test.insert("name".into(), item.title.clone().into());
-    test.insert("name_format".into(), "text".into());
-    test.insert("number".into(), number.into());
-    test.insert("score".into(), item.points.into());
-    test.insert("max_score".into(), item.max_points.into());
-    if let Some(status) = status(&item.verdict) {
-        test.insert("status".into(), status.into());
-    }
-    test.insert(
-        "output".into(),
-        truncate(&item_text(view, item, context), max_chars).into(),
-    );
-    test.insert("output_format".into(), "text".into());
-    test.insert("tags".into(), json!([entry.task]));
-    test.insert("visibility".into(), visibility(entry.visibility).into());
     let verdict = serde_json::to_value(&item.verdict).expect("a verdict is text");
-    test.insert(
-        "extra_data".into(),
-        json!({ "id": item.id, "verdict": verdict["verdict"] }),
-    );
-    Value::Object(test)
+    let mut test = json!({
+        "name": item.title,
+        "name_format": "text",
+        "number": number,
+        "score": item.points,
+        "max_score": item.max_points,
+        "output": truncate(&item_text(view, item, context), max_chars),
+        "output_format": "text",
+        "tags": [entry.task],
+        "visibility": visibility(entry.visibility),
+        "extra_data": { "id": item.id, "verdict": verdict["verdict"] },
+    });
+    if let Some(status) = status(&item.verdict) {
+        test["status"] = status.into();
+    }
+    test
 }
 
 /// Returns Gradescope's status, or `None` for an item that is not graded yet.

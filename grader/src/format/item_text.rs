@@ -1,36 +1,20 @@
 //! Plain text about an item, for platforms that show only text.
 
-use judging::section::Section;
-
 use crate::exam_source::PRACTICE_ID;
 use crate::format::{FormatContext, StudentView};
-use crate::report::text::HintDetail;
+use crate::report::text::joined_hints;
 use crate::score::{Hint, ItemScore, Verdict};
 
 /// Returns the rows of an item, such as `what: …` and `asked: …`, one per line. The text is empty
 /// if there is nothing to report.
 pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) -> String {
-    let evidence = item.evidence.as_ref();
     let is_passed = item.verdict == Verdict::Pass;
     let can_rerun = view.visible.exam.id == PRACTICE_ID && !is_passed && !item.message.is_empty();
-    let rows = [
-        ("what", Some(item_message(item))),
-        ("asked", evidence.map(|evidence| evidence.asked.clone())),
-        ("got", evidence.map(|evidence| evidence.got.clone())),
-        ("wanted", evidence.map(|evidence| evidence.wanted.clone())),
-        ("look", item.where_to_look().cloned()),
-        ("hint", hint_text(&item.hints, context)),
-        ("read", item.section.as_ref().map(Section::location)),
-        (
-            "again",
-            can_rerun.then(|| item.rerun_command(&view.visible.rerun_command)),
-        ),
-    ];
-    let rows = rows.into_iter().filter_map(|(label, text)| {
-        let text = text.filter(|text| !text.is_empty())?;
-        Some(format!("{label}: {text}"))
-    });
-    rows.collect::<Vec<_>>().join("\n")
+    let again = can_rerun.then(|| ("again", item.rerun_command(&view.visible.rerun_command)));
+    let rows = item.rows(item_message(item), hint_text(&item.hints, context));
+    let rows = rows.into_iter().chain(again);
+    let lines = rows.map(|(label, text)| format!("{label}: {text}"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Returns what happened, in one sentence. The text is empty if the item has no message or if the
@@ -44,15 +28,7 @@ pub fn item_message(item: &ItemScore) -> String {
 }
 
 fn hint_text(hints: &[Hint], context: &FormatContext) -> Option<String> {
-    let text = |hint: &Hint| {
-        if context.hints == HintDetail::Full {
-            hint.hint.clone()
-        } else {
-            hint.nudge.clone()
-        }
-    };
-    let all: Vec<String> = hints.iter().map(text).collect();
-    (!all.is_empty()).then(|| all.join(" Or: "))
+    (!hints.is_empty()).then(|| joined_hints(hints, context.hints))
 }
 
 /// Returns the compiler's messages and the grader's notes about the files.
@@ -84,6 +60,7 @@ pub fn headline_with_counted(view: &StudentView) -> String {
 mod tests {
     use super::*;
     use crate::format::tests::sample;
+    use crate::report::text::HintDetail;
 
     /// Returns the text about the item with this id.
     fn text(view: &StudentView, id: &str) -> String {

@@ -23,11 +23,12 @@ const DECLARATION: PreEscaped<&str> = PreEscaped("<?xml version=\"1.0\" encoding
 /// Renders the XML file.
 fn render(view: &StudentView, context: &FormatContext) -> String {
     let score = &view.visible;
-    let all: Counts = score.items().collect();
+    let all = || score.items();
     let report = html! {
         (DECLARATION)
-        testsuites name={ "pathtracing, " (score.exam.id) " exam" } tests=(all.tests)
-            skipped=(all.skipped) failures=(all.failures) errors=(all.errors) {
+        testsuites name={ "pathtracing, " (score.exam.id) " exam" } tests=(all().count())
+            skipped=(count(all(), Status::Skipped)) failures=(count(all(), Status::Failed))
+            errors=(count(all(), Status::Error)) {
             @for task in &score.tasks {
                 (suite(view, task, context))
             }
@@ -38,10 +39,11 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
 }
 
 fn suite(view: &StudentView, task: &TaskScore, context: &FormatContext) -> Markup {
-    let own: Counts = task.items.iter().collect();
+    let own = || task.items.iter();
     html! {
-        testsuite name=(task.id.id()) tests=(own.tests)
-            skipped=(own.skipped) errors=(own.errors) failures=(own.failures) {
+        testsuite name=(task.id.id()) tests=(task.items.len())
+            skipped=(count(own(), Status::Skipped)) errors=(count(own(), Status::Error))
+            failures=(count(own(), Status::Failed)) {
             properties {
                 (property("title", &task.title))
                 (property("complete", &view.visible.complete.to_string()))
@@ -88,7 +90,14 @@ fn status_element(view: &StudentView, item: &ItemScore, context: &FormatContext)
     }
 }
 
+/// Returns the number of items with this result.
+fn count<'a>(items: impl Iterator<Item = &'a ItemScore>, status: Status) -> usize {
+    let has_status = |item: &&ItemScore| Status::from_verdict(&item.verdict) == status;
+    items.filter(has_status).count()
+}
+
 /// The result of a test case in JUnit.
+#[derive(PartialEq, Eq)]
 enum Status {
     Passed,
     Failed,
@@ -106,31 +115,6 @@ impl Status {
             VerdictKind::NoAnswer | VerdictKind::NotCompiled => Status::Error,
             VerdictKind::Blocked | VerdictKind::Pending => Status::Skipped,
         }
-    }
-}
-
-/// The number of test cases with each result.
-#[derive(Default)]
-struct Counts {
-    tests: usize,
-    failures: usize,
-    errors: usize,
-    skipped: usize,
-}
-
-impl<'a> FromIterator<&'a ItemScore> for Counts {
-    fn from_iter<I: IntoIterator<Item = &'a ItemScore>>(items: I) -> Self {
-        let mut counts = Counts::default();
-        for item in items {
-            counts.tests += 1;
-            match Status::from_verdict(&item.verdict) {
-                Status::Passed => {}
-                Status::Failed => counts.failures += 1,
-                Status::Error => counts.errors += 1,
-                Status::Skipped => counts.skipped += 1,
-            }
-        }
-        counts
     }
 }
 

@@ -6,6 +6,7 @@ use judging::sanitize::sanitize_line;
 
 use super::HandIn;
 use crate::handed_out::{HandedOut, TaskFile, without_comments};
+use crate::printing::counted;
 use crate::submission::TaskFileError;
 use crate::workspace::display_path;
 
@@ -20,10 +21,7 @@ impl fmt::Display for HandIn {
             .files
             .iter()
             .filter(|(_, text)| text.is_ok());
-        let count = match count.count() {
-            1 => "1 file".to_owned(),
-            count => format!("{count} files"),
-        };
+        let count = counted(count.count(), "file");
         writeln!(f, "\n  {archive}: {count}\n")?;
         for (file, text) in &self.original.files {
             writeln!(f, "  {:14}{}", file.name, self.state(file, text))?;
@@ -65,9 +63,8 @@ impl HandIn {
             return "as handed out".to_owned();
         }
         let lines = match file.own_lines(text).lines().count() {
-            1 => "1 line of your own".to_owned(),
             0 => "no lines of your own, but some were removed".to_owned(),
-            count => format!("{count} lines of your own"),
+            count => format!("{} of your own", counted(count, "line")),
         };
         match line_with_todo(text) {
             Some(line) => format!("{lines}; still contains `todo!` (line {line})"),

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::policy::PercentBase;
+use crate::printing::counted;
 
 /// The final points of a submission, and the facts that explain them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,12 +61,11 @@ impl CountedPoints {
         let Self {
             earned, earned_of, ..
         } = self;
-        let manual = match (self.manual, self.manual.unsigned_abs()) {
-            (0, _) => String::new(),
-            (1.., 1) => ", 1 point added by hand".to_owned(),
-            (1.., points) => format!(", {points} points added by hand"),
-            (_, 1) => ", 1 point taken off by hand".to_owned(),
-            (_, points) => format!(", {points} points taken off by hand"),
+        let manual_points = counted(self.manual.unsigned_abs() as usize, "point");
+        let manual = match self.manual {
+            0 => String::new(),
+            1.. => format!(", {manual_points} added by hand"),
+            _ => format!(", {manual_points} taken off by hand"),
         };
         let lateness = self.lateness().map(|text| format!(", {text}"));
         format!(
@@ -105,14 +105,14 @@ impl CountedPoints {
 
     /// Returns the number of late days and their consequence, or `None` if there are none.
     fn lateness(&self) -> Option<String> {
-        let days = match self.late_days {
-            0 => return None,
-            1 => "handed in 1 day late".to_owned(),
-            days => format!("handed in {days} days late"),
-        };
+        if self.late_days == 0 {
+            return None;
+        }
+        let days = |days: u32| counted(days as usize, "day");
+        let late = format!("handed in {} late", days(self.late_days));
         Some(match self.deduction {
-            Deduction::None => format!("{days}, which costs nothing"),
-            Deduction::FreeDays => format!("{days}, which is within the free days"),
+            Deduction::None => format!("{late}, which costs nothing"),
+            Deduction::FreeDays => format!("{late}, which is within the free days"),
             Deduction::Percent {
                 percent,
                 of,
@@ -122,25 +122,20 @@ impl CountedPoints {
                     PercentBase::Earned => "the points earned",
                     PercentBase::Possible => "all points",
                 };
-                let free = match free_days {
-                    0 => String::new(),
-                    1 => "; after 1 free day".to_owned(),
-                    days => format!("; after {days} free days"),
+                let after = match free_days {
+                    0 => ", so".to_owned(),
+                    days => format!("; after {},", counted(days as usize, "free day")),
                 };
-                let joint = if free.is_empty() { ", so" } else { "," };
-                format!("{days}{free}{joint} {percent} % of {base} are deducted")
+                format!("{late}{after} {percent} % of {base} are deducted")
             }
             Deduction::Limit(percent) => {
-                format!("{days}, and late work counts for at most {percent} % of all points")
+                format!("{late}, and late work counts for at most {percent} % of all points")
             }
             Deduction::Closed { after_days: 0 } => {
-                format!("{days}, and late work counts for nothing")
-            }
-            Deduction::Closed { after_days: 1 } => {
-                format!("{days}, and nothing counts after 1 day")
+                format!("{late}, and late work counts for nothing")
             }
             Deduction::Closed { after_days } => {
-                format!("{days}, and nothing counts after {after_days} days")
+                format!("{late}, and nothing counts after {}", days(after_days))
             }
         })
     }

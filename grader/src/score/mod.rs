@@ -336,6 +336,25 @@ impl ItemScore {
         self.clue.as_ref().or(self.look.as_ref())
     }
 
+    /// Returns the rows with which reports in text describe the item: a label, and a text unless there
+    /// is none. The wording of the message and of the hints is the report's.
+    pub fn rows(&self, what: String, hint: Option<String>) -> Vec<(&'static str, String)> {
+        let evidence = |text: fn(&Evidence) -> &String| self.evidence.as_ref().map(text).cloned();
+        let rows = [
+            ("what", Some(what)),
+            ("asked", evidence(|evidence| &evidence.asked)),
+            ("got", evidence(|evidence| &evidence.got)),
+            ("wanted", evidence(|evidence| &evidence.wanted)),
+            ("look", self.where_to_look().cloned()),
+            ("hint", hint),
+            ("read", self.section.as_ref().map(Section::location)),
+        ];
+        let rows = rows
+            .into_iter()
+            .filter_map(|(label, text)| Some((label, text?)));
+        rows.filter(|(_, text)| !text.is_empty()).collect()
+    }
+
     /// Returns the command that runs the item again: only the question of its evidence or, if there
     /// is no evidence, the whole task.
     pub fn rerun_command(&self, command: &RerunCommand) -> String {

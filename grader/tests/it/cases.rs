@@ -45,6 +45,12 @@ impl Submission {
         )
     }
 
+    /// Takes the far root of a sphere first, which is a known mistake.
+    pub fn far_first(name: &str) -> Self {
+        let submission = Submission::reference(name);
+        submission.with_replaced("sphere.rs", "[near, far]", "[far, near]")
+    }
+
     /// Returns NaN as the distance of a sphere's hit.
     pub fn not_a_number() -> Self {
         Submission::reference("not_a_number").with_replaced(

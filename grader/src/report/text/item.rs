@@ -3,9 +3,9 @@
 use std::fmt::{self, Write};
 
 use judging::sanitize::{sanitize, sanitize_line};
-use judging::section::Section;
 
 use super::{FAINT, HintDetail, STRONG, WIDTH, points_style};
+use crate::printing::counted;
 use crate::score::{Hint, ItemScore, TaskScore};
 
 /// Writes an item and the ids of other items with the same hint.
@@ -27,51 +27,36 @@ pub(super) fn write_item(
         writeln!(out, "    {line}")?;
     }
     let hint = hint_text(&item.hints, hints, same_hint);
-    let section = item.section.as_ref().map(Section::location);
-    let rows = [
-        ("what", Some(&item.message)),
-        (
-            "asked",
-            item.evidence.as_ref().map(|evidence| &evidence.asked),
-        ),
-        ("got", item.evidence.as_ref().map(|evidence| &evidence.got)),
-        (
-            "wanted",
-            item.evidence.as_ref().map(|evidence| &evidence.wanted),
-        ),
-        ("look", item.where_to_look()),
-        ("hint", hint.as_ref()),
-        ("read", section.as_ref()),
-    ];
-    for (label, text) in rows {
-        if let Some(text) = text.filter(|text| !text.is_empty()) {
-            write_row(out, label, text)?;
-        }
-    }
-    Ok(())
+    let mut rows = item.rows(item.message.clone(), hint).into_iter();
+    rows.try_for_each(|(label, text)| write_row(out, label, &text))
+}
+
+/// Joins the hints of an item in the requested detail.
+pub fn joined_hints(hints: &[Hint], detail: HintDetail) -> String {
+    let texts = hints.iter().map(|hint| match detail {
+        HintDetail::Nudge => hint.nudge.as_str(),
+        HintDetail::Full => hint.hint.as_str(),
+    });
+    texts.collect::<Vec<_>>().join(" Or: ")
 }
 
 /// Joins the hints of an item, and names the other items that they explain. Returns `None` if there
 /// are none.
 fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<String> {
-    let text = |hint: &Hint| match detail {
-        HintDetail::Nudge => hint.nudge.clone(),
-        HintDetail::Full => hint.hint.clone(),
-    };
-    let all: Vec<String> = hints.iter().map(text).collect();
     let more = match detail {
         HintDetail::Nudge => " (run with --hints for more)",
         HintDetail::Full => "",
     };
     let explained = match same_hint.len() {
         0 => String::new(),
-        1 => format!("\nThe same mistake explains 1 more item: {}", same_hint[0]),
         count => format!(
-            "\nThe same mistake explains {count} more items: {}",
+            "\nThe same mistake explains {}: {}",
+            counted(count, "more item"),
             same_hint.join(", ")
         ),
     };
-    (!all.is_empty()).then(|| format!("{}{more}{explained}", all.join(" Or: ")))
+    let hint = joined_hints(hints, detail);
+    (!hints.is_empty()).then(|| format!("{hint}{more}{explained}"))
 }
 
 /// Writes a label and its text, wrapped to the width, with later lines indented.
@@ -110,16 +95,12 @@ pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt
 
 /// Writes the number of failing items that are not shown, and `how` to see them.
 pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
-    let items = match count {
-        0 => return Ok(()),
-        1 => "item",
-        _ => "items",
-    };
+    if count == 0 {
+        return Ok(());
+    }
+    let items = counted(count, "more item");
     let how = sanitize_line(how, usize::MAX);
-    writeln!(
-        out,
-        "    {FAINT}and {count} more {items} of this task{how}{FAINT:#}"
-    )
+    writeln!(out, "    {FAINT}and {items} of this task{how}{FAINT:#}")
 }
 
 pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {

@@ -17,6 +17,7 @@ use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 use crate::task_selection::TaskSelection;
 
+pub use item::joined_hints;
 pub use short_table::short_table;
 
 const WIDTH: usize = 80;

@@ -74,6 +74,14 @@ fn an_item_is_run_again_by_its_question_or_with_its_task() {
     assert_eq!(view.as_deref(), Some("cargo view --item sphere.uv#7"));
 }
 
+#[test]
+fn a_score_file_is_json_that_ends_with_a_line_break() {
+    let text = score(&["sphere.uv"]).to_json();
+    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(file["tasks"][0]["items"][0]["id"], "sphere.uv");
+    assert!(text.ends_with("}\n"));
+}
+
 /// Every verdict.
 pub fn verdicts() -> [Verdict; 12] {
     [

@@ -8,7 +8,7 @@ mod kills;
 #[cfg(target_os = "linux")]
 mod memory;
 #[cfg(target_os = "linux")]
-mod processes;
+pub mod processes;
 #[cfg(target_os = "linux")]
 pub mod workspace;
 

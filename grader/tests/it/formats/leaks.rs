@@ -33,16 +33,9 @@ fn secrets(written: &FormatTexts) -> Vec<String> {
     secrets
 }
 
-fn policy(submission: Submission, text: &str) -> (Submission, String) {
-    let submission = submission.with("policy.toml", text);
-    let path = submission.path().join("policy.toml");
-    (submission, path.to_str().unwrap().to_owned())
-}
-
 #[test]
 fn no_format_reveals_a_final_exams_questions_and_answers() {
-    let far = Submission::reference("far").with_replaced("sphere.rs", "[near, far]", "[far, near]");
-    for submission in [far, hostile_submission()] {
+    for submission in [Submission::far_first("far"), hostile_submission()] {
         let written = grade_in_all_formats(&submission, &small_exam("final"), &[]);
         let (read, secrets) = (student_text(&written), secrets(&written));
         assert!(secrets.len() > 2, "there are secrets to look for");
@@ -58,7 +51,7 @@ fn no_format_reveals_a_final_exams_questions_and_answers() {
 
 #[test]
 fn the_search_finds_revealed_text() {
-    let far = Submission::reference("far").with_replaced("sphere.rs", "[near, far]", "[far, near]");
+    let far = Submission::far_first("far");
     let written = grade_in_all_formats(&far, &small_exam("practice"), &[]);
     let read = student_text(&written);
     let secrets = secrets(&written);
@@ -76,12 +69,13 @@ fn the_search_finds_revealed_text() {
 
 #[test]
 fn hidden_items_are_left_out_or_summed_up() {
-    let far = Submission::reference("far").with_replaced("sphere.rs", "[near, far]", "[far, near]");
-    let (far, path) = policy(
-        far,
+    let far = Submission::far_first("far").with(
+        "policy.toml",
         "[visibility.items]\nsphere = 'after_due'\ncamera = 'points'\n'camera.corners' = 'hidden'",
     );
-    let written = grade_in_all_formats(&far, &small_exam("practice"), &["--policy", &path]);
+    let path = far.path().join("policy.toml");
+    let policy = ["--policy", path.to_str().unwrap()];
+    let written = grade_in_all_formats(&far, &small_exam("practice"), &policy);
     let gradescope: Value = serde_json::from_str(&written["gradescope"]).unwrap();
     let shown: Vec<&str> = gradescope["tests"]
         .as_array()
@@ -112,8 +106,7 @@ fn hidden_items_are_left_out_or_summed_up() {
 
 #[test]
 fn annotations_are_on_the_students_own_lines() {
-    let submission =
-        Submission::reference("checkout").with_replaced("sphere.rs", "[near, far]", "[far, near]");
+    let submission = Submission::far_first("checkout");
     let written = grade_in_all_formats(&submission, &small_exam("practice"), &[]);
     let text = fs::read_to_string(submission.path().join("sphere.rs")).unwrap();
     let line = 1 + text

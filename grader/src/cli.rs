@@ -5,17 +5,17 @@ use std::path::PathBuf;
 use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Id, Parser, value_parser};
 
-use crate::exam_source::ExamSource;
+use crate::build::select_isolation::IsolationRequest;
 use crate::format::{FORMATS, OutputSpec};
+use crate::grade::options::{Dependents, GradeOptions};
 use crate::handed_out::{HandedOut, RAYS};
-use crate::options::{Dependents, GradeOptions};
-use crate::printing::exit_with;
+use crate::inputs::exam_source::ExamSource;
+use crate::inputs::question_ref::QuestionRef;
+use crate::inputs::task_selection::{NamedTasks, TaskSelection};
+use crate::machine::printing::exit_with;
 use crate::probe::Budget;
-use crate::question_ref::QuestionRef;
 use crate::report::text::HintDetail;
 use crate::sandbox::Isolation;
-use crate::select_isolation::IsolationRequest;
-use crate::task_selection::{NamedTasks, TaskSelection};
 use crate::terminal::PrintOptions;
 
 /// The heading of the options that students do not need. Only `--help-staff` shows them.

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::files::PathError;
+use crate::machine::files::PathError;
 
 /// An error that ends a command. An error that some caller treats in a way of its own has another
 /// type, which is converted to this one.

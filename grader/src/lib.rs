@@ -9,66 +9,51 @@
 //! | layer | modules |
 //! |---|---|
 //! | commands | [`cli`], [`terminal`], [`replay`], [`watch`], [`doctor`], [`reset`], [`hand_in`] |
-//! | grading | [`grade`], [`cached_report`], [`report_files`], [`options`] |
-//! | exam runs | [`run_exam`], `explain`, [`task_session`], [`kept_state`], [`verdict`] |
-//! | reports | [`mod@format`], [`report`], [`report_answers`], [`drawing`], [`svg`] |
-//! | steps of an exam run | [`item_outcome`], [`clue`], [`select_isolation`], [`build`], [`probe`] |
-//! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`given_files`], [`stage_times`] |
-//! | inputs | [`policy`], [`submission`], [`exam_source`], [`question_ref`], [`task_selection`], [`book`], [`workspace`], [`handed_out`] |
-//! | the machine | `backup`, [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`], [`error`], [`files`], [`disk`], [`system`], [`alone`], [`nearest_name`] |
+//! | grading | [`grade`] |
+//! | exam runs | [`run_exam`], [`verdict`] |
+//! | reports | [`mod@format`], [`report`], [`drawing`], [`svg`] |
+//! | steps of an exam run | [`build`], [`probe`] |
+//! | results | [`score`] |
+//! | inputs | [`policy`], [`submission`], `inputs`, [`workspace`], [`handed_out`] |
+//! | the machine | [`sandbox`], [`error`], `machine` |
+//!
+//! Other packages find some modules of these folders at the top.
 //!
 //! The package [`judging`] is below all of them: exams, their keys, and the comparison of answers
 //! with keys.
 
-pub mod alone;
-mod backup;
-pub mod book;
 pub mod build;
-pub mod bundle_version;
-pub mod cached_report;
-pub mod capture;
 pub mod cli;
-pub mod clue;
-pub mod desktop;
-pub mod disk;
 pub mod doctor;
 pub mod drawing;
 pub mod error;
-pub mod exam_source;
-mod explain;
-pub mod files;
 pub mod format;
-pub mod given_files;
 pub mod grade;
 pub mod hand_in;
 pub mod handed_out;
-pub mod item_outcome;
-pub mod kept_state;
-pub mod nearest_name;
-pub mod options;
+mod inputs;
+mod machine;
 pub mod policy;
-pub mod printing;
 pub mod probe;
-pub mod question_ref;
 pub mod replay;
 pub mod report;
-pub mod report_answers;
-pub mod report_files;
-pub mod rerun_command;
 pub mod reset;
 pub mod run_exam;
 pub mod sandbox;
 pub mod score;
-pub mod select_isolation;
-pub mod source_paths;
-pub mod stage_times;
 pub mod submission;
 pub mod svg;
-pub mod system;
-pub mod task_selection;
-pub mod task_session;
 pub mod terminal;
 pub mod verdict;
 pub mod watch;
 pub mod workspace;
-pub mod zipfile;
+
+pub use build::select_isolation;
+pub use grade::{options, report_files};
+pub use inputs::{exam_source, nearest_name, question_ref, task_selection};
+pub use machine::{capture, desktop, disk, files, printing, system};
+pub use report::answers as report_answers;
+pub use run_exam::task_session;
+pub use score::rerun_command;
+pub use verdict::{clue, item_outcome};
+pub use workspace::given_files;

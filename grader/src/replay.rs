@@ -11,15 +11,15 @@ use judging::sanitize::sanitize;
 use protocol::{Answer, ElementOutcome, Question, Shape};
 
 use crate::build::Builder;
-use crate::clue;
+use crate::build::select_isolation::with_requested_level;
 use crate::error::Error;
 use crate::grade::Prepared;
+use crate::grade::options::GradeOptions;
 use crate::handed_out::HandedOut;
-use crate::nearest_name::suggestion;
-use crate::options::GradeOptions;
+use crate::inputs::nearest_name::suggestion;
+use crate::inputs::question_ref::QuestionRef;
 use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
-use crate::question_ref::QuestionRef;
-use crate::select_isolation::with_requested_level;
+use crate::verdict::clue;
 use crate::verdict::file_message;
 
 /// Maximum length of the printed text that is shown, in characters.

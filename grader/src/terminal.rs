@@ -4,17 +4,17 @@ use std::borrow::Cow;
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
-use crate::book::Book;
-use crate::cached_report::{self, CacheKey, CachedReport};
-use crate::desktop;
 use crate::doctor::diagnose;
 use crate::error::Error;
+use crate::grade::cached_report::{self, CacheKey, CachedReport};
+use crate::grade::options::GradeOptions;
+use crate::grade::report_files::ReportFiles;
 use crate::grade::{GradedSubmission, Prepared, default_folder, grade_prepared};
-use crate::options::GradeOptions;
-use crate::printing::{print, print_commands, print_line};
+use crate::machine::desktop;
+use crate::machine::printing::{print, print_commands, print_line};
 use crate::report::next_step::next_step;
 use crate::report::text::report;
-use crate::report_files::ReportFiles;
+use crate::workspace::book::Book;
 use crate::workspace::{Workspace, display_path};
 
 /// Notice that is printed below a cached report.

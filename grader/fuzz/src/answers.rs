@@ -6,7 +6,6 @@ use std::sync::LazyLock;
 use grader::handed_out::RAYS;
 use grader::item_outcome::ItemOutcome;
 use grader::report::html::{Reload, page};
-use grader::report::json;
 use grader::report::text::{HintDetail, report};
 use grader::report_answers::ReportAnswers;
 use grader::score::Verdict;
@@ -69,7 +68,7 @@ fn grade(item: &Item, answers: Vec<Answer>) {
     score.update_totals();
     score.complete = true;
 
-    let text = json::to_string(&score);
+    let text = score.to_json();
     serde_json::from_str::<serde_json::Value>(&text).expect("the score is JSON");
     let printed = report(&score, &TaskSelection::All, HintDetail::Full);
     assert!(

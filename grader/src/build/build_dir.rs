@@ -7,7 +7,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use crate::files::{self, AtPath, PathError};
+use crate::machine::files::{self, AtPath, PathError};
 
 /// A file that is locked while the directory is in use. The system releases the lock when the
 /// grader ends, even if it is killed.

@@ -19,9 +19,9 @@ use serde_json::Value;
 
 use crate::build::toolchain::Toolchain;
 use crate::error::Error;
-use crate::files::{self, AtPath};
-use crate::printing::print_error_line;
-use crate::system;
+use crate::machine::files::{self, AtPath};
+use crate::machine::printing::print_error_line;
+use crate::machine::system;
 use crate::workspace::Workspace;
 
 /// The crates that a submission may import.

@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::system;
+use crate::machine::system;
 
 /// Path of the linker that is bundled with the toolchain, relative to the sysroot, on the platform
 /// where this linker is the default.

@@ -5,8 +5,8 @@ use std::io;
 use std::path::Path;
 
 use crate::build::diagnostics::Diagnostic;
+use crate::machine::system;
 use crate::sandbox::ExitReason;
-use crate::system;
 
 /// Free disk space below which a failed compile is blamed on the disk, in bytes.
 const MIN_FREE_BYTES: u64 = 64 << 20;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use judging::content_hash::ContentHash;
 
-use crate::files::{self, PathError};
+use crate::machine::files::{self, PathError};
 
 /// A folder of compiled programs.
 #[derive(Clone, Debug)]

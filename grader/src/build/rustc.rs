@@ -12,7 +12,6 @@ use std::time::{Duration, Instant};
 use judging::content_hash::ContentHash;
 use tempfile::TempDir;
 
-use crate::alone::decide;
 use crate::build::compile_budget::{CompileBudget, CompileTime, used_up_message};
 use crate::build::compiler_sandbox;
 use crate::build::dependencies::Dependencies;
@@ -23,9 +22,10 @@ use crate::build::program_cache::ProgramCache;
 use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::build::toolchain::Toolchain;
 use crate::build::verified_copy::{self, OutputFile};
-use crate::capture::Capture;
+use crate::machine::capture::Capture;
+use crate::machine::run_permit::decide;
+use crate::machine::system::{self, Limits};
 use crate::sandbox::{ExitReason, Sandbox};
-use crate::system::{self, Limits};
 
 const LIMITS: Limits = Limits {
     memory: 4 << 30,

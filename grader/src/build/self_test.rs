@@ -10,8 +10,8 @@ use crate::build::Builder;
 use crate::build::build_dir::BuildDir;
 use crate::build::source_crate::{CompileOutcome, CrateKind};
 use crate::build::trial;
-use crate::files::{self, PathError};
-use crate::system;
+use crate::machine::files::{self, PathError};
+use crate::machine::system;
 
 /// Source of a program that attempts what no submission may do.
 const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");

@@ -19,8 +19,8 @@ use tempfile::TempDir;
 use crate::build::rustc::Rustc;
 use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::error::Error;
-use crate::files::{self, AtPath};
 use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
+use crate::machine::files::{self, AtPath};
 use crate::sandbox::Sandbox;
 
 /// The root of the crate around a submission's file.

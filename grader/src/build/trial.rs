@@ -7,9 +7,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::build::rustc::Rustc;
-use crate::capture::Capture;
+use crate::machine::capture::Capture;
+use crate::machine::system::{self, Limits};
 use crate::sandbox::{Profile, Sandbox};
-use crate::system::{self, Limits};
 
 /// The limits of a program.
 const LIMITS: Limits = Limits {

@@ -5,7 +5,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 
-use crate::system;
+use crate::machine::system;
 
 /// Maximum size of a program, in bytes. The reference's program has about 6 MB.
 pub(super) const MAX_BYTES: u64 = 64 << 20;

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use crate::doctor::package_contents::{POLICY, PackageContents, policy_problem, read_package};
-use crate::exam_source::ExamSource;
 use crate::handed_out::HandedOut;
+use crate::inputs::exam_source::ExamSource;
 
 /// The script that classroom50 runs, and the zip that the script unpacks.
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];

@@ -7,8 +7,8 @@ use judging::exam_file::{self, ExamFile};
 use crate::doctor::package_contents::{
     EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
 };
-use crate::exam_source::PRACTICE_ID;
 use crate::handed_out::HandedOut;
+use crate::inputs::exam_source::PRACTICE_ID;
 
 /// The folders from which the grader and the solution are built.
 const REQUIRED_FOLDERS: [&str; 4] = [

@@ -8,10 +8,10 @@ mod package_contents;
 
 use std::fmt;
 
+use crate::build::select_isolation::{MIN_FOR_UNTRUSTED, with_level};
 use crate::build::{Builder, SelfTestError};
 use crate::error::Error;
 use crate::sandbox::Isolation;
-use crate::select_isolation::{MIN_FOR_UNTRUSTED, with_level};
 use crate::workspace::Workspace;
 
 /// The findings of `--doctor`, to be printed.

@@ -9,9 +9,9 @@ use judging::exam::Exam;
 use rawzip::FileReader;
 
 use crate::error::Error;
-use crate::files::AtPath;
+use crate::machine::files::AtPath;
+use crate::machine::zipfile::{Zip, ZipError};
 use crate::policy::Policy;
-use crate::zipfile::{Zip, ZipError};
 
 /// The scripts that Gradescope runs, at the root of the zip.
 pub(super) const SCRIPTS: [&str; 2] = ["setup.sh", "run_autograder"];

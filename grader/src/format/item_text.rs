@@ -1,7 +1,7 @@
 //! Plain text about an item, for platforms that show only text.
 
-use crate::exam_source::PRACTICE_ID;
 use crate::format::{FormatContext, StudentView};
+use crate::inputs::exam_source::PRACTICE_ID;
 use crate::report::text::joined_hints;
 use crate::score::{Hint, ItemScore, Verdict};
 

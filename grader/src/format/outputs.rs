@@ -9,9 +9,9 @@ use judging::assignment::{Task, TaskInfo};
 use judging::sanitize::sanitize_line;
 
 use crate::error::Error;
-use crate::files;
 use crate::format::{FormatContext, FormatSpec, MethodLocation, OutputSpec, StudentView};
 use crate::handed_out::HandedOut;
+use crate::machine::files;
 use crate::report::atomic_write;
 use crate::report::text::HintDetail;
 use crate::submission::Submission;

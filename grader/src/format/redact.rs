@@ -5,7 +5,7 @@ use judging::sanitize::{sanitize, sanitize_line};
 use crate::format::item_view::{ItemView, shows_everything};
 use crate::format::sentence::{Disclosure, Sentence};
 use crate::policy::Visibility;
-use crate::rerun_command::RerunCommand;
+use crate::score::rerun_command::RerunCommand;
 use crate::score::{
     BuildReport, Evidence, FileReport, ItemScore, Score, TaskScore, Timings, Verdict, VerdictKind,
 };

@@ -1,8 +1,8 @@
 //! The terminal report without colours.
 
 use crate::format::{FormatContext, FormatSpec, StudentView};
+use crate::inputs::task_selection::TaskSelection;
 use crate::report::text::report;
-use crate::task_selection::TaskSelection;
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {

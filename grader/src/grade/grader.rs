@@ -15,29 +15,29 @@ use super::print_compile_errors;
 use super::resolve::{
     builder, collect, default_folder, lateness, policy, source_paths, submission_path,
 };
-use crate::book::Book;
+use crate::build::select_isolation::{IsolationRequest, with_requested_level};
 use crate::build::{Build, Builder, NotCompiled};
-use crate::bundle_version::mixed_versions;
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::Outputs;
-use crate::given_files;
+use crate::grade::options::GradeOptions;
+use crate::grade::report_files::ReportFiles;
 use crate::handed_out::HandedOut;
-use crate::options::GradeOptions;
 use crate::policy::{Lateness, Policy};
 use crate::probe::Interrupt;
+use crate::report::answers::ReportAnswers;
 use crate::report::html::Reload;
-use crate::report_answers::ReportAnswers;
-use crate::report_files::ReportFiles;
-use crate::rerun_command::RerunCommand;
 use crate::run_exam::run_exam;
 use crate::sandbox::Isolation;
 use crate::score::Score;
-use crate::select_isolation::{IsolationRequest, with_requested_level};
-use crate::source_paths::SourcePaths;
+use crate::score::rerun_command::RerunCommand;
 use crate::submission::Submission;
 use crate::verdict::pending_score;
 use crate::workspace::Workspace;
+use crate::workspace::book::Book;
+use crate::workspace::bundle_version::mixed_versions;
+use crate::workspace::given_files;
+use crate::workspace::source_paths::SourcePaths;
 
 /// The exam, the builder, the policy and the options, which stay the same for all versions of a
 /// submission.

@@ -1,24 +1,27 @@
 //! Grades a submission, from options to the score.
 
 mod build_report;
+pub(crate) mod cached_report;
 mod grader;
+pub mod options;
 mod prepared;
+pub mod report_files;
 mod resolve;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use crate::build::NotCompiled;
-use crate::cached_report::CacheKey;
 use crate::error::Error;
 use crate::format::StudentView;
-use crate::options::GradeOptions;
-use crate::printing::print_error_line;
+use crate::grade::cached_report::CacheKey;
+use crate::grade::options::GradeOptions;
+use crate::grade::report_files::ReportFiles;
+use crate::machine::printing::print_error_line;
 use crate::report::html::Reload;
-use crate::report_files::ReportFiles;
 use crate::score::Score;
-use crate::source_paths::SourcePaths;
 use crate::verdict::{file_line, file_message};
+use crate::workspace::source_paths::SourcePaths;
 
 pub use build_report::build_report;
 pub use grader::{BuiltSubmission, Grader};

@@ -5,10 +5,10 @@ use std::time::Instant;
 use super::resolve::{builder, collect, source_paths};
 use crate::build::Builder;
 use crate::error::Error;
-use crate::options::GradeOptions;
-use crate::source_paths::SourcePaths;
+use crate::grade::options::GradeOptions;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
+use crate::workspace::source_paths::SourcePaths;
 
 /// A submission, and the workspace and the builder that it is graded with.
 pub struct Prepared<'a> {

@@ -7,11 +7,11 @@ use judging::sanitize::safe_folder_name;
 
 use crate::build::Builder;
 use crate::error::Error;
-use crate::options::{Dependents, GradeOptions};
+use crate::grade::options::{Dependents, GradeOptions};
 use crate::policy::{Lateness, Policy, SubmissionTime};
-use crate::source_paths::SourcePaths;
 use crate::submission::Submission;
 use crate::workspace::Workspace;
+use crate::workspace::source_paths::SourcePaths;
 
 /// Returns the policy that the options name, or the default.
 pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Error> {

@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::backup;
 use crate::error::Error;
-use crate::files;
+use crate::machine::backup;
+use crate::machine::files;
 use crate::submission::Submission;
 
 /// A former archive that was kept.

@@ -9,10 +9,10 @@ use std::path::PathBuf;
 
 use crate::build::Builder;
 use crate::error::Error;
-use crate::files;
+use crate::grade::options::GradeOptions;
 use crate::grade::{Prepared, build_report};
 use crate::handed_out::HandedOut;
-use crate::options::GradeOptions;
+use crate::machine::files;
 use crate::report::atomic_write;
 use crate::score::BuildReport;
 use crate::submission::Submission;

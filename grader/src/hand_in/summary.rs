@@ -6,7 +6,7 @@ use judging::sanitize::sanitize_line;
 
 use super::HandIn;
 use crate::handed_out::{HandedOut, TaskFile, without_comments};
-use crate::printing::counted;
+use crate::machine::printing::counted;
 use crate::submission::TaskFileError;
 use crate::workspace::display_path;
 

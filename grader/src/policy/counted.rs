@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use crate::machine::printing::counted;
 use crate::policy::PercentBase;
-use crate::printing::counted;
 
 /// The final points of a submission, and the facts that explain them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

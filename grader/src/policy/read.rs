@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 use toml::value::Datetime;
 
 use crate::error::Error;
-use crate::files::{self, PathError};
+use crate::machine::files::{self, PathError};
 use crate::policy::Policy;
 use crate::policy::written_time::has_plausible_year;
 

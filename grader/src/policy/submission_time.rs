@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use serde::Deserialize;
 
 use crate::error::Error;
-use crate::files::{self, PathError};
+use crate::machine::files::{self, PathError};
 use crate::policy::written_time::read_time;
 use crate::policy::{Extension, Lateness, Policy};
 

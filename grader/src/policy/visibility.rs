@@ -3,7 +3,7 @@
 use judging::exam_file::ExamName;
 use serde::Deserialize;
 
-use crate::exam_source::PRACTICE_ID;
+use crate::inputs::exam_source::PRACTICE_ID;
 use crate::policy::Policy;
 
 /// The part of an item that students see, from everything to nothing.

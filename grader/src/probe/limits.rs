@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::fault::TimeLimit;
-use crate::system::ProcessTime;
+use crate::machine::system::ProcessTime;
 
 /// The amount of output, in bytes, above which a program prints a lot.
 const MUCH_OUTPUT_BYTES: u64 = 64 << 10;

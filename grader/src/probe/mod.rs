@@ -20,9 +20,9 @@ use std::time::{Duration, Instant};
 use protocol::wire::{Frame, WireError};
 use protocol::{Answer, Question};
 
-use crate::capture::Capture;
+use crate::machine::capture::Capture;
+use crate::machine::system::{self, Limits};
 use crate::sandbox::{ExitReason, Process, Profile, Sandbox};
-use crate::system::{self, Limits};
 
 use limits::Stopwatch;
 use streams::{Batch, Streams};

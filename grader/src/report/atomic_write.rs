@@ -6,9 +6,9 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::disk::{self, Operation};
-use crate::files::{AtPath, PathError};
-use crate::system;
+use crate::machine::disk::{self, Operation};
+use crate::machine::files::{AtPath, PathError};
+use crate::machine::system;
 
 /// Writes a file that everyone with access to its folder can read. Creates the folder if it does
 /// not exist. The contents go to a temporary file in the same folder, which is then renamed.

@@ -3,9 +3,9 @@
 use judging::assignment::Assignment;
 use judging::section::Section;
 
+use crate::inputs::task_selection::TaskSelection;
 use crate::sandbox::Isolation;
 use crate::score::{Score, TaskScore};
-use crate::task_selection::TaskSelection;
 
 /// Returns what to do next if at least one of the selected tasks is complete, with an empty line
 /// after it. The advice is for students who grade their own work with the practice exam; others get

@@ -8,11 +8,11 @@ use std::path::Path;
 
 use judging::assignment::Task;
 
-use crate::backup;
 use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile};
+use crate::inputs::task_selection::NamedTasks;
+use crate::machine::backup;
 use crate::report::atomic_write;
-use crate::task_selection::NamedTasks;
 use crate::workspace::{Workspace, display_path};
 
 use source_folder::SourceFolder;

@@ -5,10 +5,10 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
-use crate::files::AtPath;
 use crate::handed_out::{HandedOut, TaskFile};
+use crate::machine::files::AtPath;
+use crate::machine::system;
 use crate::submission::places;
-use crate::system;
 
 /// A folder with task files.
 pub(super) struct SourceFolder {

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::machine::system::Limits;
 use crate::sandbox::isolation::Isolation;
-use crate::system::Limits;
 
 /// The first argument of a process that is to run as the launcher.
 pub(super) const LAUNCH_FLAG: &str = "--launch-confined";

@@ -1,7 +1,7 @@
 //! Runs untrusted programs under limits, and makes sure that they end.
 //!
 //! Your own work runs at level `none`: in its own process group, with an empty environment, and
-//! with limits on memory and CPU time as far as the [`system`](crate::system) supports them. Other
+//! with limits on memory and CPU time as far as the [`system`](crate::machine::system) supports them. Other
 //! people's code is started by a *launcher*: the grader's own executable, started once more. It
 //! drops its privileges one after the other and then executes the untrusted program. The launcher
 //! works on Linux only; on other systems, `none` is the only level.
@@ -21,7 +21,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-use crate::system::Limits;
+use crate::machine::system::Limits;
 
 use launch_request::{LAUNCH_FLAG, LaunchRequest};
 #[cfg(target_os = "linux")]
@@ -29,7 +29,7 @@ use linux as platform;
 #[cfg(not(target_os = "linux"))]
 use unsupported as platform;
 
-pub use crate::system::ExitReason;
+pub use crate::machine::system::ExitReason;
 pub use isolation::Isolation;
 pub use launch_request::Profile;
 pub use process::Process;

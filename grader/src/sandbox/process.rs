@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use crate::machine::system::{self, ExitReason, Limits, ProcessTime};
 use crate::sandbox::launch_request::READY;
-use crate::system::{self, ExitReason, Limits, ProcessTime};
 
 /// The maximum length of a launcher's error message, in bytes. The rest is not read.
 const MAX_REASON_BYTES: u64 = 4 << 10;

@@ -4,16 +4,19 @@
 //! The same submission, exam and toolchain give the same bytes, except for `timings` and
 //! `isolation`.
 
+pub mod rerun_command;
+pub mod stage_times;
+
 use judging::assignment::Task;
 use judging::exam_file::ExamName;
 use judging::section::Section;
 use serde::Serialize;
 
-use crate::book::Book;
 use crate::handed_out::HandedOut;
-use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
-use crate::stage_times::StageTimes;
+use crate::score::rerun_command::RerunCommand;
+use crate::score::stage_times::StageTimes;
+use crate::workspace::book::Book;
 
 /// Version of the format.
 pub const SCHEMA_VERSION: u32 = 1;

@@ -7,8 +7,8 @@ use super::budget::Limit;
 use super::choice::AmbiguousSource;
 use super::display_name;
 use crate::error::Error;
-use crate::files::PathError;
 use crate::handed_out::HandedOut;
+use crate::machine::files::PathError;
 
 /// The maximum number of names in a message about a submission without task files.
 const MAX_NAMES: usize = 10;

@@ -134,7 +134,7 @@ fn only_the_starters_files_are_as_handed_out() {
 #[test]
 fn a_link_is_named_if_there_is_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
-    crate::system::symlink("elsewhere".as_ref(), &folder.path().join("work")).unwrap();
+    crate::machine::system::symlink("elsewhere".as_ref(), &folder.path().join("work")).unwrap();
     let refused = Submission::collect(folder.path(), &RAYS);
     assert!(matches!(refused, Err(SubmissionError::Link { link, .. }) if link == "work"));
 }
@@ -147,7 +147,7 @@ fn a_link_matters_only_if_files_are_missing_that_it_may_lead_to() {
     fs::create_dir(&source).unwrap();
     fs::write(source.join("bvh.rs"), "new").unwrap();
     let link = |name: &str| {
-        crate::system::symlink("elsewhere".as_ref(), &folder.path().join(name)).unwrap();
+        crate::machine::system::symlink("elsewhere".as_ref(), &folder.path().join(name)).unwrap();
     };
     link("notes");
     let found = Submission::collect(folder.path(), &RAYS).unwrap();

@@ -1,5 +1,9 @@
 //! Turns the outcome of an item into its score. The functions here are pure.
 
+pub mod clue;
+pub(crate) mod explain;
+pub mod item_outcome;
+
 use judging::assignment::Task;
 use judging::describe;
 use judging::exam::{Exam, Item};
@@ -10,17 +14,16 @@ use judging::section::Section;
 use judging::signatures::KnownMistake;
 
 use crate::build::NotCompiled;
-use crate::bundle_version::bundle_version;
-use crate::clue;
 use crate::handed_out::HandedOut;
-use crate::item_outcome::{ItemOutcome, NotRun, worst_failure};
 use crate::probe::{Crash, Fault};
-use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
+use crate::score::rerun_command::RerunCommand;
 use crate::score::{
     BuildReport, CodeLocation, Evidence, Hint, ItemScore, SCHEMA_VERSION, Score, TaskScore,
     Timings, Verdict, VerdictKind,
 };
+use crate::verdict::item_outcome::{ItemOutcome, NotRun, worst_failure};
+use crate::workspace::bundle_version::bundle_version;
 
 /// Maximum length of a student's or the compiler's text in a message, in characters.
 const MAX_TEXT_CHARS: usize = 2_000;

@@ -13,13 +13,13 @@ use std::thread;
 
 use judging::exam::Exam;
 
-use crate::desktop;
 use crate::error::Error;
+use crate::grade::options::GradeOptions;
+use crate::grade::report_files::ReportFiles;
 use crate::grade::{BuiltSubmission, Grader, Prepared};
 use crate::handed_out::HandedOut;
-use crate::options::GradeOptions;
+use crate::machine::desktop;
 use crate::report::html::Reload;
-use crate::report_files::ReportFiles;
 use crate::score::Score;
 use crate::submission::Submission;
 use crate::watch::save_watcher::{POLL_INTERVAL, SaveWatcher};

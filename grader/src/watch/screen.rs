@@ -8,13 +8,13 @@ use std::io;
 use console::{Term, truncate_str};
 use judging::assignment::Task;
 
-use crate::options::GradeOptions;
-use crate::printing::{print, without_commands};
+use crate::grade::options::GradeOptions;
+use crate::machine::printing::{print, without_commands};
 use crate::report::next_step::next_step;
 use crate::report::text::{OldResults, ReportParts, report_parts, short_table};
 use crate::score::{Score, Verdict};
-use crate::source_paths::SourcePaths;
 use crate::watch::layout::{Page, fit};
+use crate::workspace::source_paths::SourcePaths;
 
 /// The current phase of grading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,7 +14,6 @@ use grader::format::{FormatContext, StudentView, html};
 use grader::handed_out::{HandedOut, RAYS};
 use grader::options::GradeOptions;
 use grader::policy::{Lateness, Policy};
-use grader::report::json;
 use grader::report_answers::ReportAnswers;
 use grader::report_files::ReportFiles;
 use grader::score::{Score, Verdict};
@@ -111,7 +110,7 @@ pub fn score(student: &str, version: u32, exam: usize) -> Score {
 
 /// Returns the text of a score file.
 pub fn score_file(student: &str, version: u32, exam: usize) -> String {
-    json::to_string(&score(student, version, exam))
+    score(student, version, exam).to_json()
 }
 
 impl RecordedGrader {

@@ -11,8 +11,8 @@ use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace, Tr
 use roxmltree::Document;
 
 use super::{Drawing, draw};
-use crate::exam_source::ExamSource;
 use crate::handed_out::RAYS;
+use crate::inputs::exam_source::ExamSource;
 
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;

@@ -3,7 +3,7 @@
 
 use judging::sanitize::sanitize;
 
-use crate::printing::without_commands;
+use crate::machine::printing::without_commands;
 
 /// Returns a command with properties. Everything is sanitized and escaped, so that no text can start
 /// another command.

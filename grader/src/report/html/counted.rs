@@ -6,7 +6,7 @@ use std::path::Path;
 use maud::{Markup, PreEscaped, html};
 
 use super::elements::plain_text;
-use crate::files::{self, PathError};
+use crate::machine::files::{self, PathError};
 use crate::report::atomic_write;
 
 /// The marks around the text. No text of a submission can contain them, since `<` is escaped.

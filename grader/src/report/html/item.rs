@@ -7,11 +7,11 @@ use maud::{Markup, PreEscaped, html};
 use super::elements::{command, evidence_table, plain_text};
 use super::pictures;
 use super::prose::prose;
-use crate::book::Book;
 use crate::drawing;
-use crate::report_answers::ReportAnswers;
-use crate::rerun_command::RerunCommand;
+use crate::report::answers::ReportAnswers;
+use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict, VerdictKind};
+use crate::workspace::book::Book;
 
 /// Renders an item that lost points: what happened, where to look, and how to run the item again.
 pub(super) fn failing(

@@ -17,10 +17,10 @@ mod task;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::exam_source::PRACTICE_ID;
-use crate::report_answers::ReportAnswers;
-use crate::rerun_command::RerunCommand;
+use crate::inputs::exam_source::PRACTICE_ID;
+use crate::report::answers::ReportAnswers;
 use crate::score::Score;
+use crate::score::rerun_command::RerunCommand;
 
 use elements::plain_text;
 use judging::exam::Exam;

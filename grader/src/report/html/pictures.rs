@@ -13,8 +13,8 @@ use protocol::Question;
 use super::elements::{command, evidence_table, plain_text};
 use super::mask;
 use super::png::data_uri;
-use crate::report_answers::ReportAnswers;
-use crate::rerun_command::RerunCommand;
+use crate::report::answers::ReportAnswers;
+use crate::score::rerun_command::RerunCommand;
 
 /// The width of the SVG that contains the marks, in its own units. It does not depend on the size
 /// of the film.

@@ -7,11 +7,11 @@ use super::counted;
 use super::elements::{command, plain_text};
 use super::pictures;
 use super::prose::prose;
-use crate::exam_source::PRACTICE_ID;
+use crate::inputs::exam_source::PRACTICE_ID;
+use crate::report::answers::ReportAnswers;
 use crate::report::failing_items::most_telling_first;
-use crate::report_answers::ReportAnswers;
-use crate::rerun_command::RerunCommand;
 use crate::sandbox::Isolation;
+use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
 use crate::svg::number;
 

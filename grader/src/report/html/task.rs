@@ -5,11 +5,11 @@ use maud::{Markup, html};
 
 use super::elements::plain_text;
 use super::item;
-use crate::book::Book;
+use crate::report::answers::ReportAnswers;
 use crate::report::failing_items::most_telling_first;
-use crate::report_answers::ReportAnswers;
-use crate::rerun_command::RerunCommand;
+use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
+use crate::workspace::book::Book;
 
 /// Renders the files that did not compile, and the notes. Returns nothing if there are neither.
 pub(super) fn files(score: &Score) -> Markup {

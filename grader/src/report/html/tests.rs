@@ -6,9 +6,9 @@ use protocol::{Answer, ElementOutcome, Panic};
 use sha2::{Digest, Sha256};
 
 use super::Reload;
-use crate::exam_source::ExamSource;
 use crate::handed_out::RAYS;
-use crate::report_answers::ReportAnswers;
+use crate::inputs::exam_source::ExamSource;
+use crate::report::answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
 use crate::verdict::pending_score;
 

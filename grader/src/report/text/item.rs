@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use judging::sanitize::{sanitize, sanitize_line};
 
 use super::{FAINT, HintDetail, STRONG, WIDTH, points_style};
-use crate::printing::counted;
+use crate::machine::printing::counted;
 use crate::score::{Hint, ItemScore, TaskScore};
 
 /// Writes an item and the ids of other items with the same hint.

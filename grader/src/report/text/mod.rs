@@ -11,11 +11,11 @@ use anstyle::{AnsiColor, Style};
 use judging::assignment::Task;
 use judging::sanitize::{sanitize, sanitize_line};
 
+use crate::inputs::task_selection::TaskSelection;
 use crate::report::failing_items::{explained_items, most_telling_first, with_something_new};
 use crate::report::text::item::{write_command, write_hidden_count, write_item, write_printed};
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
-use crate::task_selection::TaskSelection;
 
 pub use item::joined_hints;
 pub use short_table::short_table;

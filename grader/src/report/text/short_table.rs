@@ -1,7 +1,7 @@
 //! The points of all tasks in one line, for small terminals.
 
+use crate::inputs::task_selection::TaskSelection;
 use crate::score::{Score, TaskScore};
-use crate::task_selection::TaskSelection;
 
 /// Returns the points of the selected tasks, and those of all tasks if all are selected.
 pub fn short_table(score: &Score, selection: &TaskSelection) -> String {

@@ -6,7 +6,7 @@ use rustix::process::{Resource, Rlimit, setrlimit};
 
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
-use crate::system::CPU_GRACE_SECONDS;
+use crate::machine::system::CPU_GRACE_SECONDS;
 
 /// The maximum number of threads of a probe, including the two that every probe has. This limit is
 /// set only for a dedicated user, who has no other processes.

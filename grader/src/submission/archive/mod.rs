@@ -17,8 +17,8 @@ use rawzip::{FileReader, ReaderAt};
 
 use super::display_name;
 use super::limited_reader::{ByteBudget, LimitedReader};
-use crate::disk::{self, Operation};
-use crate::files::is_about_file;
+use crate::machine::disk::{self, Operation};
+use crate::machine::files::is_about_file;
 
 pub(super) use paths::without_extension;
 pub(super) use search::search;

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use rawzip::ReaderAt;
 
-use crate::zipfile::{EntryKind, Zip, ZipError};
+use crate::machine::zipfile::{EntryKind, Zip, ZipError};
 
 use super::{
     ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member,

@@ -14,10 +14,10 @@ use super::found::{FoundFolder, is_read};
 use super::names::is_archive_name;
 use super::search::Search;
 use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, display_name};
-use crate::disk::{self, Operation};
-use crate::files::{PathError, is_about_file};
 use crate::handed_out::HandedOut;
-use crate::system::{self, EntryKind, Folder};
+use crate::machine::disk::{self, Operation};
+use crate::machine::files::{PathError, is_about_file};
+use crate::machine::system::{self, EntryKind, Folder};
 
 /// The maximum number of levels of folders that are searched.
 const MAX_DEPTH: usize = 12;

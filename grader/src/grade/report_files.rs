@@ -7,9 +7,9 @@ use judging::exam::Exam;
 
 use crate::error::Error;
 use crate::format::outputs::Outputs;
+use crate::report::answers::ReportAnswers;
 use crate::report::atomic_write;
 use crate::report::html::{self, Reload};
-use crate::report_answers::ReportAnswers;
 use crate::score::Score;
 
 /// Minimum time between two writes of the score file during an exam. Writing a score takes a

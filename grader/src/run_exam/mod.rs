@@ -1,5 +1,8 @@
 //! Runs an exam item by item. A failure in one item does not affect the next.
 
+mod leaked_state;
+pub mod task_session;
+
 use std::collections::BTreeSet;
 use std::io;
 use std::time::Instant;
@@ -9,12 +12,12 @@ use judging::exam::{Exam, Item};
 use protocol::Answer;
 
 use crate::build::{Build, SubstitutedProgram};
-use crate::explain::explain_items;
-use crate::item_outcome::{ItemOutcome, NotRun};
 use crate::probe::{Allowance, Budget};
-use crate::report_answers::ReportAnswers;
+use crate::report::answers::ReportAnswers;
+use crate::run_exam::task_session::{TaskSession, TimeSpent};
 use crate::score::{ItemScore, Score};
-use crate::task_session::{TaskSession, TimeSpent};
+use crate::verdict::explain::explain_items;
+use crate::verdict::item_outcome::{ItemOutcome, NotRun};
 use crate::verdict::{blocked_score, blocking_item, item_score, substituted_score};
 
 /// Grades every item of `exam` and records its score. After each item, `progress` is called with

@@ -12,11 +12,11 @@ use judging::recognise::Observations;
 use judging::sanitize::sanitize;
 use protocol::Answer;
 
-use crate::alone::decide;
 use crate::build::Build;
-use crate::item_outcome::{ItemOutcome, NotRun};
-use crate::kept_state::is_right_alone;
+use crate::machine::run_permit::decide;
 use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe, TimeUsed};
+use crate::run_exam::leaked_state::is_right_alone;
+use crate::verdict::item_outcome::{ItemOutcome, NotRun};
 
 /// Number of time-outs after which a task is stopped.
 pub const MAX_TIMEOUTS: usize = 1;

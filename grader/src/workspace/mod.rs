@@ -1,5 +1,10 @@
 //! The location of the workspace, and of the files that the grader writes.
 
+pub mod book;
+pub mod bundle_version;
+pub mod given_files;
+pub mod source_paths;
+
 use std::env;
 use std::path::{Path, PathBuf};
 

@@ -1,15 +1,17 @@
 //! Tests of what makes a cached report stale, with reports in temporary folders.
 
+use std::fs;
+
 use tempfile::TempDir;
 
 use super::*;
+use crate::grade::options::Dependents;
 use crate::handed_out::RAYS;
-use crate::options::Dependents;
+use crate::inputs::task_selection::TaskSelection;
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
 use crate::score::tests::small_exam::{exam, pending};
 use crate::submission::TaskFileError;
-use crate::task_selection::TaskSelection;
 
 fn submission() -> Submission {
     let files = RAYS.files.iter();

@@ -8,8 +8,8 @@ use judging::content_hash::file_hash;
 use judging::exam_file::{self, ExamFile};
 
 use crate::error::Error;
-use crate::files::{self, AtPath, PathError};
 use crate::handed_out::HandedOut;
+use crate::machine::files::{self, AtPath, PathError};
 
 /// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
 const MAX_FILE_BYTES: u64 = 64 << 20;

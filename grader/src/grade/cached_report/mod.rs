@@ -7,19 +7,18 @@
 //! toolchain or grader, nor after one of the report's files has changed.
 
 use std::env;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use judging::content_hash::ContentHash;
 use serde::{Deserialize, Serialize};
 
 use crate::build::file_fingerprint;
-use crate::exam_source::ExamSource;
-use crate::options::GradeOptions;
+use crate::build::select_isolation::IsolationRequest;
+use crate::grade::options::GradeOptions;
+use crate::grade::report_files::ReportFiles;
+use crate::inputs::exam_source::ExamSource;
+use crate::machine::files::read;
 use crate::report::atomic_write;
-use crate::report_files::ReportFiles;
 use crate::score::{Score, Verdict, VerdictKind};
-use crate::select_isolation::IsolationRequest;
 use crate::submission::Submission;
 
 /// Name of the file that stores the cached report, in the folder of the score.
@@ -50,7 +49,7 @@ pub struct CachedReport {
 impl CachedReport {
     /// Reads the cached report that is stored beside these files, if there is a valid one.
     pub fn read(files: &ReportFiles) -> Option<Self> {
-        serde_json::from_slice(&crate::files::read(files.folder.join(RECORD)).ok()?).ok()
+        serde_json::from_slice(&read(files.folder.join(RECORD)).ok()?).ok()
     }
 
     /// Returns whether the report is about this submission, regardless of the other inputs.
@@ -158,9 +157,8 @@ fn submission_hash(submission: &Submission) -> String {
 
 /// Returns the hashes of the files' contents. The hash of an unreadable file is empty.
 fn content_hashes(files: &ReportFiles) -> Vec<String> {
-    let paths: Vec<PathBuf> = files.paths().map(Path::to_owned).collect();
     let hash = |bytes: Vec<u8>| ContentHash::default().with(&bytes).hex();
-    let hashes = paths.iter().map(|path| fs::read(path).map(hash));
+    let hashes = files.paths().map(|path| read(path).map(hash));
     hashes.map(Result::unwrap_or_default).collect()
 }
 

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use crate::exam_source::ExamSource;
+use crate::build::select_isolation::IsolationRequest;
 use crate::format::OutputSpec;
 use crate::handed_out::{HandedOut, RAYS};
+use crate::inputs::exam_source::ExamSource;
+use crate::inputs::task_selection::TaskSelection;
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
-use crate::select_isolation::IsolationRequest;
-use crate::task_selection::TaskSelection;
 
 /// Options for grading a submission. The default is a student's own work on the practice exam.
 ///

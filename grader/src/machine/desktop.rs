@@ -3,7 +3,7 @@
 use std::env;
 use std::path::Path;
 
-use crate::printing::print_error_line;
+use crate::machine::printing::print_error_line;
 
 /// Opens a file with the desktop's default program for it, without waiting for that program. If
 /// this fails, prints the path of the file instead of returning an error.

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use judging::content_hash::file_hash;
 
-use crate::files;
+use crate::machine::files;
 
 /// The list of these files in a bundle, with their hashes. There is none in this repository.
 pub const LIST: &str = "grader/given-files.txt";

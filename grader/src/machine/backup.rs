@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::files::{AtPath, PathError};
+use crate::machine::files::{AtPath, PathError};
 
 /// Writes a copy beside the file, with the first number that is free, such as `bvh.rs.bak-1`.
 /// Returns its path. Never replaces a file or follows a link.

@@ -2,7 +2,7 @@
 
 use judging::assignment::{Assignment, Task, TaskInfo};
 
-use crate::nearest_name::suggestion;
+use crate::inputs::nearest_name::suggestion;
 
 /// The tasks to grade.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

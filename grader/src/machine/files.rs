@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::disk::{self, Operation};
+use crate::machine::disk::{self, Operation};
 
 /// The error if a file, a folder or a program cannot be used.
 #[derive(Debug, thiserror::Error)]

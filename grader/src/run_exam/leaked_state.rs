@@ -6,8 +6,8 @@ use std::io;
 use judging::exam::{Item, Key};
 use judging::judge::{Failure, FailureKind, Judgement, element_error};
 
-use crate::item_outcome::worst_failure;
 use crate::probe::{Allowance, Launcher};
+use crate::verdict::item_outcome::worst_failure;
 
 /// Returns whether the answer that the report shows is right when its question is asked alone. The time
 /// that it takes is deducted from the allowance.

@@ -2,7 +2,8 @@
 //! archives, and archives in archives. They are numbers of files and bytes, and not times, so that they
 //! do not depend on the machine.
 
-use std::cell::Cell;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fmt;
 
 use super::limited_reader::ByteBudget;
@@ -19,7 +20,7 @@ const MAX_COPIES: usize = 200;
 const MAX_BYTES: u64 = 1 << 30;
 
 /// A limited quantity of a submission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limit {
     /// Files and folders, in folders and in archives.
     Files,
@@ -55,13 +56,24 @@ impl fmt::Display for Limit {
     }
 }
 
-/// The amounts that may still be read of a submission.
+impl Limit {
+    /// Returns how many things of this kind may be read, if they are counted by [`Budget::spend`].
+    fn most(self) -> usize {
+        match self {
+            Limit::Files => MAX_FILES,
+            Limit::Archives => MAX_ARCHIVES,
+            Limit::Folders => MAX_FOLDERS,
+            Limit::Copies => MAX_COPIES,
+            Limit::Levels | Limit::Bytes => 0,
+        }
+    }
+}
+
+/// The amounts that have been read of a submission.
 #[derive(Debug)]
 pub(super) struct Budget {
-    files: Cell<usize>,
-    archives: Cell<usize>,
-    folders: Cell<usize>,
-    copies: Cell<usize>,
+    /// The number of things of each kind.
+    counts: RefCell<BTreeMap<Limit, usize>>,
     /// The bytes that may still be read from archives.
     pub(super) bytes: ByteBudget,
 }
@@ -69,27 +81,23 @@ pub(super) struct Budget {
 impl Default for Budget {
     fn default() -> Self {
         Budget {
-            files: Cell::new(MAX_FILES),
-            archives: Cell::new(MAX_ARCHIVES),
-            folders: Cell::new(MAX_FOLDERS),
-            copies: Cell::new(MAX_COPIES),
+            counts: RefCell::default(),
             bytes: ByteBudget::new(MAX_BYTES),
         }
     }
 }
 
 impl Budget {
-    /// Deducts a number of things. Fails if there are more of them than are left.
+    /// Counts things. Fails if there are more of them than may be read.
     pub(super) fn spend(&self, limit: Limit, count: usize) -> Result<(), Limit> {
-        let left = match limit {
-            Limit::Files => &self.files,
-            Limit::Archives => &self.archives,
-            Limit::Folders => &self.folders,
-            Limit::Copies => &self.copies,
-            Limit::Levels | Limit::Bytes => return Err(limit),
-        };
-        left.set(left.get().checked_sub(count).ok_or(limit)?);
-        Ok(())
+        let mut counts = self.counts.borrow_mut();
+        let spent = counts.entry(limit).or_default();
+        *spent = spent.saturating_add(count);
+        if *spent > limit.most() {
+            Err(limit)
+        } else {
+            Ok(())
+        }
     }
 
     /// Fails if all bytes have been read.

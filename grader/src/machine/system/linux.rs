@@ -8,7 +8,11 @@ use std::time::Duration;
 use rustix::process::{Resource, Rlimit, prlimit};
 
 use super::unix::pid;
-use super::{CPU_GRACE_SECONDS, Limits, ProcessTime};
+use super::{Limits, ProcessTime};
+
+/// Seconds of CPU time between the soft limit, which a process may ignore, and the hard limit,
+/// which kills it.
+const CPU_GRACE_SECONDS: u64 = 1;
 
 /// Sets the limits of a process that has just been started.
 pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
@@ -24,23 +28,24 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     .into_iter()
     .chain(data)
     {
-        let rlimit = Rlimit {
-            current: Some(most),
-            maximum: Some(
-                most + if resource == Resource::Cpu {
-                    CPU_GRACE_SECONDS
-                } else {
-                    0
-                },
-            ),
-        };
-        match prlimit(pid(child), resource, rlimit) {
+        match prlimit(pid(child), resource, rlimit(resource, most)) {
             // The process has already ended; the caller will see that when it waits for it.
             Ok(_) | Err(rustix::io::Errno::SRCH) => {}
             Err(error) => return Err(error.into()),
         }
     }
     Ok(())
+}
+
+/// Returns the soft and the hard limit. They are equal except for CPU time: there, the hard limit sends
+/// SIGKILL, as the system does when memory runs out, so a lower soft limit sends SIGXCPU first.
+pub fn rlimit(resource: Resource, most: u64) -> Rlimit {
+    let is_cpu = resource == Resource::Cpu;
+    let grace = if is_cpu { CPU_GRACE_SECONDS } else { 0 };
+    Rlimit {
+        current: Some(most),
+        maximum: Some(most + grace),
+    }
 }
 
 /// Returns how a process has used its time so far.

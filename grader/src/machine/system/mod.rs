@@ -23,7 +23,7 @@ mod windows;
 #[cfg(target_os = "linux")]
 pub use available_memory::available_memory;
 #[cfg(target_os = "linux")]
-pub use linux::{cpu_time, cpu_time_with_children, memory, process_time, set_limits};
+pub use linux::{cpu_time, cpu_time_with_children, memory, process_time, rlimit, set_limits};
 #[cfg(unix)]
 pub use unix::{
     Folder, command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,
@@ -75,11 +75,6 @@ impl Limits {
         }
     }
 }
-
-/// Seconds of CPU time between the soft limit, which a process may ignore, and the hard limit,
-/// which kills it.
-#[cfg(target_os = "linux")]
-pub(crate) const CPU_GRACE_SECONDS: u64 = 1;
 
 /// The kind of an entry of a [`Folder`]. Links are not followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

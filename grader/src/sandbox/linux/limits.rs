@@ -2,11 +2,11 @@
 
 use std::io;
 
-use rustix::process::{Resource, Rlimit, setrlimit};
+use rustix::process::{Resource, setrlimit};
 
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
-use crate::machine::system::CPU_GRACE_SECONDS;
+use crate::machine::system::rlimit;
 
 /// The maximum number of threads of a probe, including the two that every probe has. This limit is
 /// set only for a dedicated user, who has no other processes.
@@ -17,8 +17,7 @@ const COMPILER_PROCESSES: u64 = 256;
 /// has its own stack size.
 const STACK: u64 = 8 << 20;
 
-/// Sets all limits. Soft and hard limits are equal except for CPU time: there, the hard limit sends
-/// SIGKILL, as the system does when memory runs out, so a lower soft limit sends SIGXCPU first.
+/// Sets all limits.
 pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
     let limits = request.limits;
     let (processes, open_files) = match request.profile {
@@ -39,17 +38,7 @@ pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> 
     ];
     let data = limits.data.map(|most| (Resource::Data, most));
     for (resource, most) in all.into_iter().chain(data).chain(processes) {
-        let limit = Rlimit {
-            current: Some(most),
-            maximum: Some(
-                most + if resource == Resource::Cpu {
-                    CPU_GRACE_SECONDS
-                } else {
-                    0
-                },
-            ),
-        };
-        setrlimit(resource, limit).map_err(while_doing("set a limit"))?;
+        setrlimit(resource, rlimit(resource, most)).map_err(while_doing("set a limit"))?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 //! nothing that a submission writes may bring them to a terminal, a page or a file for a platform.
 
 use grader::exam_source::ExamSource;
-use grader::format::{FORMATS, FormatContext, StudentView};
+use grader::format::{FormatContext, StudentView};
 use grader::handed_out::RAYS;
 use grader::policy::{Lateness, Policy};
 use grader::report::html::{self, Reload};
@@ -17,6 +17,7 @@ use judging::sanitize::affects_surroundings;
 use serde_json::Value;
 
 use crate::formats::models::readable;
+use crate::formats::rendered;
 
 const NONE: [char; 0] = [];
 
@@ -70,21 +71,16 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
         folder: text.to_owned(),
         ..FormatContext::default()
     };
-    let mut outputs = Vec::new();
-    for format in FORMATS {
-        if let Some(render) = format.render {
-            let text = readable(format.id, &render(&view, &context));
-            // JSON escapes control characters, and platforms restore them.
-            let text = match serde_json::from_str::<Value>(&text) {
-                Ok(value) => texts(&value).join("\n"),
-                Err(_) => text,
-            };
-            outputs.push((format.id, text));
-        }
-        if let Some(commands) = format.runner_commands {
-            outputs.push(("log", commands(&view, &context)));
-        }
-    }
+    let outputs = rendered(&view, &context).into_iter().map(|(output, text)| {
+        let text = readable(output, &text);
+        // JSON escapes control characters, and platforms restore them.
+        let text = match serde_json::from_str::<Value>(&text) {
+            Ok(value) => texts(&value).join("\n"),
+            Err(_) => text,
+        };
+        (output, text)
+    });
+    let mut outputs: Vec<(&str, String)> = outputs.collect();
     let answers = ReportAnswers::default();
     let page = html::page(&score, &exam, &answers, Reload::Never);
     outputs.push(("report.html", readable("html", &page)));

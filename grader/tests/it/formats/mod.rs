@@ -11,7 +11,7 @@ mod numbers;
 use std::collections::BTreeMap;
 use std::fs;
 
-use grader::format::{FORMATS, FormatSpec};
+use grader::format::{FORMATS, FormatContext, FormatSpec, StudentView};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -21,6 +21,18 @@ use crate::harness::{Submission, grader, workspace};
 pub fn student_formats() -> impl Iterator<Item = &'static FormatSpec> {
     let formats = FORMATS.into_iter();
     formats.filter(|format| format.render.is_some())
+}
+
+/// Returns everything that students can read in the formats, by the name of the output. Formats are
+/// taken from their table, so that a new one is tested, too.
+pub fn rendered(view: &StudentView, context: &FormatContext) -> FormatTexts {
+    let files = student_formats().filter_map(|format| Some((format.id, format.render?)));
+    let logs = FORMATS.into_iter();
+    let logs = logs.filter_map(|format| Some(("log", format.runner_commands?)));
+    let outputs = files.chain(logs);
+    outputs
+        .map(|(output, render)| (output, render(view, context)))
+        .collect()
 }
 
 /// The environment variables of classroom50's runner.

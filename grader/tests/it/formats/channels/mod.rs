@@ -11,7 +11,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use grader::exam_source::ExamSource;
-use grader::format::{FORMATS, FormatContext, StudentView};
+use grader::format::{FormatContext, StudentView};
 use grader::handed_out::RAYS;
 use grader::policy::{Lateness, Policy};
 use grader::score::{Score, Verdict};
@@ -20,7 +20,7 @@ use insta::assert_snapshot;
 use judging::exam::{Exam, Item};
 use tempfile::NamedTempFile;
 
-use crate::formats::small_exam;
+use crate::formats::{FormatTexts, rendered, small_exam};
 use sent::channels;
 
 /// The bits that are sent.
@@ -38,7 +38,7 @@ const CLOSED: [&str; 5] = [
 ];
 
 /// The number of bits that arrived, by output.
-type Arrived = BTreeMap<String, u32>;
+type Arrived = BTreeMap<&'static str, u32>;
 
 /// Returns a policy that shows every item of every exam at this level.
 fn policy(level: &str) -> Policy {
@@ -66,31 +66,20 @@ fn item<'a>(exam: &'a Exam, id: &str) -> &'a Item {
     exam.items.iter().find(|item| item.id == id).unwrap()
 }
 
-/// Returns everything that students can read of a score. Formats are taken from the table of
-/// formats, so that a new one is tested, too.
-fn readable(score: &Score, policy: &Policy) -> BTreeMap<String, String> {
+/// Returns everything that students can read of a score.
+fn readable(score: &Score, policy: &Policy) -> FormatTexts {
     let view = StudentView::new(score, policy, Lateness::NONE);
-    let context = FormatContext::default();
-    let mut outputs = BTreeMap::new();
-    for format in FORMATS {
-        if let Some(render) = format.render {
-            outputs.insert(format.id.to_owned(), render(&view, &context));
-        }
-        if let Some(commands) = format.runner_commands {
-            outputs.insert(format!("{} log", format.id), commands(&view, &context));
-        }
-    }
-    outputs
+    rendered(&view, &FormatContext::default())
 }
 
 /// Sends bits, and counts those that change an output when they are flipped.
 fn count_arrived(send: impl Fn(u32) -> Score, policy: &Policy) -> Arrived {
     let sent = readable(&send(MESSAGE), policy);
-    let mut arrived: Arrived = sent.keys().map(|output| (output.clone(), 0)).collect();
+    let mut arrived: Arrived = sent.keys().map(|output| (*output, 0)).collect();
     for bit in 0..u32::BITS {
         for (output, text) in readable(&send(MESSAGE ^ (1 << bit)), policy) {
-            let differs = sent[&output] != text;
-            *arrived.get_mut(&output).unwrap() += u32::from(differs);
+            let differs = sent[output] != text;
+            *arrived.get_mut(output).unwrap() += u32::from(differs);
         }
     }
     arrived
@@ -150,6 +139,6 @@ fn bits_arrive_where_students_see_everything() {
         for (name, arrived) in &rows {
             writeln!(table, "{:>2} {name}", arrived[output]).unwrap();
         }
-        settings.bind(|| assert_snapshot!(output.replace(' ', "-"), table));
+        settings.bind(|| assert_snapshot!(*output, table));
     }
 }

@@ -25,7 +25,7 @@ use crate::items::traverse::RecordedPicture;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Seed;
 
-use declaration::{Declaration, Group, item};
+use declaration::{Declaration, Group};
 pub use declaration::{DeclaredItem, resolve};
 use distinct::draw_items;
 pub use distinct::shares_a_question;

@@ -8,7 +8,7 @@ mod ray;
 mod sensor;
 
 #[cfg(test)]
-pub(super) use sensor::corners;
+pub(super) use sensor::CORNERS;
 
 use glam::{UVec2, Vec2, uvec2};
 use judging::exam::{ExamQuestion, Key, RayCheck};
@@ -22,19 +22,19 @@ const MIDDLE: Vec2 = Vec2::splat(0.5);
 
 /// Returns the items of the task `camera`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 12] = [
-        sensor::corners,
-        sensor::field_of_view,
-        sensor::aspect_ratio,
-        sensor::other_aspect,
-        sensor::film,
-        sensor::bottom_left,
-        ray::offset,
-        ray::offset_axes,
-        ray::large_film,
-        ray::unit_length,
-        ray::origin_and_range,
-        ray::picture,
+    let all = [
+        sensor::CORNERS,
+        sensor::FIELD_OF_VIEW,
+        sensor::ASPECT_RATIO,
+        sensor::OTHER_ASPECT,
+        sensor::FILM,
+        sensor::BOTTOM_LEFT,
+        ray::OFFSET,
+        ray::OFFSET_AXES,
+        ray::LARGE_FILM,
+        ray::UNIT_LENGTH,
+        ray::ORIGIN_AND_RANGE,
+        ray::PICTURE,
     ];
     draw_items(seed, &all)
 }

@@ -14,21 +14,21 @@ use crate::seed::{Rng, Seed};
 
 /// Returns the items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 14] = [
-        roots::near_side,
-        roots::beside,
-        roots::radius,
-        roots::behind,
-        roots::from_inside,
-        roots::far_root,
-        roots::range_max,
-        roots::range_within,
-        surface::position,
-        surface::normal,
-        surface::uv,
-        surface::uv_radius,
-        surface::origin_and_material,
-        surface::picture,
+    let all = [
+        roots::NEAR_SIDE,
+        roots::BESIDE,
+        roots::RADIUS,
+        roots::BEHIND,
+        roots::FROM_INSIDE,
+        roots::FAR_ROOT,
+        roots::RANGE_MAX,
+        roots::RANGE_WITHIN,
+        surface::POSITION,
+        surface::NORMAL,
+        surface::UV,
+        surface::UV_RADIUS,
+        surface::ORIGIN_AND_MATERIAL,
+        surface::PICTURE,
     ];
     draw_items(seed, &all)
 }
@@ -82,19 +82,17 @@ fn sphere_question(
 
 /// Creates one question per radius, with rays of one kind and some rays that miss.
 fn table_questions(
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     checks: &[HitCheck],
     radii: &[f64],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(name);
     let table = |&radius: &f64| {
-        let sphere = random_sphere(&mut rng, radius);
+        let sphere = random_sphere(rng, radius);
         let mut rays: Vec<Ray> = (0..12)
-            .map(|_| unambiguous_ray(&mut rng, &sphere, |rng| kind(rng, &sphere)))
+            .map(|_| unambiguous_ray(rng, &sphere, |rng| kind(rng, &sphere)))
             .collect();
-        rays.extend((0..5).map(|_| missing_ray(&mut rng, &sphere)));
+        rays.extend((0..5).map(|_| missing_ray(rng, &sphere)));
         sphere_question(checks, &sphere, 0, rng.shuffled(rays))
     };
     radii.iter().map(table).collect()
@@ -103,20 +101,18 @@ fn table_questions(
 /// Creates the same questions as [`table_questions`], about a sphere that is as large and as far
 /// from the origin as things in the Cornell box, and about one with a radius of a hundredth.
 fn placed_questions(
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     checks: &[HitCheck],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(&format!("{name}.placed"));
     let places: [fn(&mut Rng) -> Place; 2] = [Place::room, Place::miniature];
     let question = |place: fn(&mut Rng) -> Place| {
-        let sphere = random_sphere(&mut rng, 1.0);
+        let sphere = random_sphere(rng, 1.0);
         let mut rays: Vec<Ray> = (0..8)
-            .map(|_| unambiguous_ray(&mut rng, &sphere, |rng| kind(rng, &sphere)))
+            .map(|_| unambiguous_ray(rng, &sphere, |rng| kind(rng, &sphere)))
             .collect();
-        rays.extend((0..4).map(|_| missing_ray(&mut rng, &sphere)));
-        let place = place(&mut rng);
+        rays.extend((0..4).map(|_| missing_ray(rng, &sphere)));
+        let place = place(rng);
         let rays = rng
             .shuffled(rays)
             .iter()

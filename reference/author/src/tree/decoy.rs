@@ -48,7 +48,7 @@ pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, side: Side) -> b
     };
     child as usize == leaf
         && skip_reason(tree, leaf, ray64) == Some(SkipReason::Missed)
-        && TraversalRule::ALL.into_iter().all(is_entered)
+        && TraversalRule::all().into_iter().all(is_entered)
 }
 
 /// Returns whether the ray misses the box of the leaf's sibling.
@@ -202,7 +202,7 @@ fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
 /// Returns whether traversal by every rule finds the expected hit.
 fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
     let expected = tree.expected_hit(ray64);
-    TraversalRule::ALL
+    TraversalRule::all()
         .into_iter()
         .all(|rule| Traversal::correct(tree, ray64, rule).closest == expected)
 }

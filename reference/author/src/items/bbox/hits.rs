@@ -1,6 +1,6 @@
 //! Items about hits and misses of rays from all sides.
 
-use glam::{DVec3, Vec3, dvec3};
+use glam::{Vec3, dvec3};
 use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
@@ -12,7 +12,6 @@ use crate::items::place::Place;
 use crate::items::similarity::dust;
 use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
-use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
 pub(super) const THROUGH: Declaration = Declaration {
@@ -61,15 +60,7 @@ fn slab_after_slab(rng: &mut Rng) -> Vec<ExamQuestion> {
             let ray = rng.retry(|rng| {
                 let ray = ray_from_around(rng, &bounds);
                 let ray64 = Ray64::from(&ray);
-                let crosses = |axis: usize| {
-                    let mut slab = Bounds {
-                        min: DVec3::NEG_INFINITY,
-                        max: DVec3::INFINITY,
-                    };
-                    slab.min[axis] = bounds.min[axis];
-                    slab.max[axis] = bounds.max[axis];
-                    slab.span(&ray64).is_some()
-                };
+                let crosses = |axis: usize| bounds.slab(axis).span(&ray64).is_some();
                 (0..3).all(crosses).then_some(ray)
             });
             (ray, Interval::AHEAD)

@@ -6,7 +6,7 @@ use protocol::{Question, Shape};
 use crate::items::place::Place;
 use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
+use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder, SideRule};
 use crate::oracle::{scan, sweep};
 use crate::seed::Rng;
 
@@ -59,9 +59,16 @@ fn question_about(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> ExamQ
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
 /// of a builder narrowly miss the best split, so that its tree is expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
+    let sides = SideRule::AllBuckets;
     let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
-        [BucketExtent::Centers, BucketExtent::Bounds]
-            .map(|extent| relative_cost(question, BucketedBuilder::correct(count, extent)))
+        [BucketExtent::Centers, BucketExtent::Bounds].map(|extent| {
+            let builder = BucketedBuilder {
+                count,
+                extent,
+                sides,
+            };
+            relative_cost(question, builder)
+        })
     });
     costs.fold(0.0, f64::max)
 }
@@ -69,10 +76,15 @@ fn highest_correct_cost(question: &ExamQuestion) -> f64 {
 /// Returns the lowest relative cost among builders that mistake the two buckets next to a plane for
 /// its two sides. For some meshes, such builders find good planes by luck.
 fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
+    let (extent, sides) = (BucketExtent::Centers, SideRule::AdjacentBuckets);
     let costs = [8, 12, 16, 24, 32].map(|count| {
         relative_cost(
             question,
-            BucketedBuilder::with_adjacent_buckets_only(count, BucketExtent::Centers),
+            BucketedBuilder {
+                count,
+                extent,
+                sides,
+            },
         )
     });
     costs.into_iter().fold(f64::INFINITY, f64::min)

@@ -123,8 +123,7 @@ fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
         return false;
     };
-    let around_all = |all: Bounds, next: &Bounds| all.union(next);
-    let node_box = boxes.iter().fold(Bounds::around([]), around_all);
+    let node_box = Bounds::enclosing(boxes.iter().copied());
     let center_box = Bounds::around(boxes.iter().map(Bounds::center));
     (8..=64).all(|count| {
         [node_box, center_box].iter().all(|over| {

@@ -45,7 +45,7 @@ fn closest_hit(rng: &mut Rng) -> Vec<ExamQuestion> {
 /// Returns whether every correct traversal finds a farther hit before the closest one.
 fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
     let closest = tree.expected_hit(ray64);
-    TraversalRule::ALL.into_iter().all(|rule| {
+    TraversalRule::all().into_iter().all(|rule| {
         let tested = Traversal::correct(tree, ray64, rule).tested_primitives;
         let mut hits = tested
             .into_iter()

@@ -5,7 +5,7 @@ use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 use judging::signatures::MistakeSignatures;
 
-use super::similarity::in_a_room;
+use super::place::in_a_room;
 use crate::seed::{Rng, Seed};
 
 /// An item whose numbers are not drawn yet.

@@ -12,7 +12,6 @@ mod distinct;
 pub mod meshes;
 pub mod picture;
 mod place;
-mod similarity;
 pub mod sphere;
 pub mod traverse;
 pub mod triangle;
@@ -56,11 +55,15 @@ fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question that asks for the closest hit of each ray. It calls the `hit` of every shape,
-/// without a tree.
-fn shapes_question(checks: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
-    let key = hits_key(checks, &rays, |ray64| scan::closest_hit(ray64, &shapes));
-    let rays = Rays::List(rays);
+/// Creates a question that asks for the hit of each ray with a shape, without a tree.
+fn shape_question(
+    checks: &[HitCheck],
+    shape: Shape,
+    rays: impl IntoIterator<Item = Ray>,
+) -> ExamQuestion {
+    let rays: Vec<Ray> = rays.into_iter().collect();
+    let key = hits_key(checks, &rays, |ray64| scan::intersect(ray64, &shape));
+    let (shapes, rays) = (vec![shape], Rays::List(rays));
     ExamQuestion::new(Question::Shapes { shapes, rays }, key)
 }
 

@@ -5,11 +5,9 @@ use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
 use super::{
-    Query, almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box,
-    ray_from_around,
+    almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around,
 };
-use crate::items::place::Place;
-use crate::items::similarity::dust;
+use crate::items::place::{Place, dust};
 use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
 use crate::seed::Rng;
@@ -36,8 +34,8 @@ fn through(rng: &mut Rng) -> Vec<ExamQuestion> {
     };
     let [near, far] = [question(), question()];
     let room = Place::room(rng);
-    let moved = |(ray, times): &Query| (room.ray(ray), room.interval(*times));
-    let far = bbox_question(room.bounds(&far.0), far.1.iter().map(moved).collect());
+    let queries = far.1.iter().map(|query| room.query(query)).collect();
+    let far = bbox_question(room.bounds(&far.0), queries);
     vec![bbox_question(near.0, near.1), far]
 }
 

@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
 use super::{Query, bbox_question, hits_and_misses, random_box, ray_from_around};
-use crate::items::similarity::dust;
+use crate::items::place::dust;
 use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;

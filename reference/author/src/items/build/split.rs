@@ -6,7 +6,7 @@ use judging::exam::ExamQuestion;
 use protocol::Shape;
 
 use super::cost::cost_question;
-use crate::items::similarity::dust;
+use crate::items::place::dust;
 use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};

@@ -4,8 +4,7 @@ use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 
 use super::build_question;
-use crate::items::place::Place;
-use crate::items::similarity::dust;
+use crate::items::place::{Place, dust};
 use crate::items::{Declaration, Group, meshes};
 use crate::seed::Rng;
 

@@ -75,9 +75,9 @@ fn sphere_question(
     checks: &[HitCheck],
     sphere: &Sphere,
     material: u32,
-    rays: Vec<Ray>,
+    rays: impl IntoIterator<Item = Ray>,
 ) -> ExamQuestion {
-    super::shapes_question(checks, vec![shape(sphere, material)], rays)
+    super::shape_question(checks, shape(sphere, material), rays)
 }
 
 /// Creates one question per radius, with rays of one kind and some rays that miss.
@@ -113,12 +113,8 @@ fn placed_questions(
             .collect();
         rays.extend((0..4).map(|_| missing_ray(rng, &sphere)));
         let place = place(rng);
-        let rays = rng
-            .shuffled(rays)
-            .iter()
-            .map(|ray| place.ray(ray))
-            .collect();
-        super::shapes_question(checks, vec![place.shape(&shape(&sphere, 0))], rays)
+        let (shape, rays) = place.table(&(shape(&sphere, 0), rng.shuffled(rays)));
+        super::shape_question(checks, shape, rays)
     };
     places.map(question).into()
 }

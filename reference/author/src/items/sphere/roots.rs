@@ -7,7 +7,7 @@ use super::{
     hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, ray_passing_at,
     sphere_question, table_questions, unambiguous_ray,
 };
-use crate::items::similarity::dust;
+use crate::items::place::dust;
 use crate::items::{Declaration, Group};
 use crate::oracle::Ray64;
 use crate::seed::Rng;
@@ -110,7 +110,6 @@ fn behind(rng: &mut Rng) -> Vec<ExamQuestion> {
                 Ray::new(ray.origin, -ray.dir)
             }
         });
-        let rays = rays.collect();
         sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
     vec![table(1.0), table(1.5)]
@@ -157,7 +156,6 @@ fn range_questions(
                 ray.within(min as f32, max as f32)
             })
         });
-        let rays = rays.collect();
         sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
     vec![table(1.0), table(2.0), dust(table(1.0))]
@@ -175,7 +173,6 @@ fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
             .as_vec3();
         Ray { origin, ..ray }.within(0.05, f32::INFINITY)
     });
-    let rays = rays.collect();
     sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
 }
 

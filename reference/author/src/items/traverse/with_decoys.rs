@@ -7,7 +7,7 @@ use super::{
     TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
 };
 use crate::items::Declaration;
-use crate::items::similarity::dust;
+use crate::items::place::dust;
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 use crate::tree::Tree;

@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 use protocol::Shape;
 
 use super::{TRAVERSAL, question_without_decoys, ray_from_around, soup_tree};
-use crate::items::similarity::dust;
+use crate::items::place::dust;
 use crate::items::{Declaration, Group, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;

@@ -8,10 +8,9 @@ use super::aim::{
     Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge,
     weights_beyond_edge_by, weights_inside,
 };
-use super::table_questions;
-use crate::items::place::Place;
-use crate::items::similarity::dust;
-use crate::items::{Declaration, Group, ray, shapes_question};
+use super::{distance_question, table_questions};
+use crate::items::place::{Place, dust};
+use crate::items::{Declaration, Group, ray, shape_question};
 use crate::oracle::{Ray64, triangle};
 use crate::seed::Rng;
 
@@ -54,10 +53,8 @@ fn outside(rng: &mut Rng) -> Vec<ExamQuestion> {
         (shape(&vertices, 0), rng.shuffled(rays))
     };
     let [first, second, third] = [table(), table(), table()];
-    let room = Place::room(rng);
-    let third_rays = third.1.iter().map(|ray| room.ray(ray)).collect();
-    let third = (room.shape(&third.0), third_rays);
-    let question = |(shape, rays)| shapes_question(&[], vec![shape], rays);
+    let third = Place::room(rng).table(&third);
+    let question = |(shape, rays)| shape_question(&[], shape, rays);
     [first, second, third].map(question).to_vec()
 }
 
@@ -86,8 +83,7 @@ fn range_questions(
             let (min, max) = range(rng, hit.distance);
             ray.within(min as f32, max as f32)
         });
-        let rays = rays.collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        distance_question(&vertices, rays)
     };
     vec![table(), table(), dust(table())]
 }
@@ -120,8 +116,7 @@ fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
         let origin = Ray64::from(&ray).at(start).as_vec3();
         Ray { origin, ..ray }.within(0.05, f32::INFINITY)
     });
-    let rays = rays.collect();
-    shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+    distance_question(&vertices, rays)
 }
 
 pub(super) const RANGE_MIN: Declaration = Declaration {
@@ -167,8 +162,7 @@ fn behind_the_ray(rng: &mut Rng) -> Vec<ExamQuestion> {
                 Ray::new(ray.origin, -ray.dir)
             }
         });
-        let rays = rays.collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        distance_question(&vertices, rays)
     };
     vec![table(), table()]
 }
@@ -208,8 +202,7 @@ fn tiny(rng: &mut Rng) -> Vec<ExamQuestion> {
                 (is_steep && intersection.least_weight().abs() > 0.05).then_some(ray)
             })
         });
-        let rays = rays.collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        distance_question(&vertices, rays)
     };
     vec![table(), table()]
 }
@@ -261,10 +254,8 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
     };
     let control = |rng: &mut Rng| {
         let vertices = random_triangle(rng);
-        let rays = (0..4)
-            .map(|_| hitting_ray(rng, &vertices, Side::Either))
-            .collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        let rays = (0..4).map(|_| hitting_ray(rng, &vertices, Side::Either));
+        distance_question(&vertices, rays)
     };
     let down = |x: f32, y: f32| Ray::new(frame.point(x, y, 4.0), frame.dir(0.0, 0.0, -1.0));
     let along = |y: f32, z: f32| Ray::new(frame.point(-4.0, y, z), frame.dir(1.0, 0.0, 0.0));
@@ -277,7 +268,7 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
     let beside = [1.0, 2.0, 3.0, -1.0, 5.0].into_iter();
     let parallel = beside.flat_map(|y| [2.0, -2.0, 1.0, -1.0].map(|z| along(y, z)));
     let parallel = parallel.collect();
-    let question = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
+    let question = |shape: Shape, rays: Vec<Ray>| shape_question(&[], shape, rays);
     vec![
         question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
         question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),

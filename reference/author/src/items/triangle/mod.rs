@@ -7,7 +7,7 @@ mod surface;
 
 use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
 use judging::exam::{ExamQuestion, HitCheck};
-use protocol::{Ray, Shape};
+use protocol::{Ray, Vertex};
 
 use crate::items::place::Place;
 use crate::items::{DeclaredItem, draw_items};
@@ -47,19 +47,15 @@ fn table_questions(rng: &mut Rng, checks: &[HitCheck], side: Side) -> Vec<ExamQu
             let weights = weights_beyond_edge(rng, i % 3);
             ray_through(rng, &vertices, weights, side)
         }));
-        (vec![shape(&vertices, 0)], rng.shuffled(rays))
+        (shape(&vertices, 0), rng.shuffled(rays))
     };
-    let tables = [table(), table(), table(), table()];
-    let room = Place::room(rng);
-    let question = |(index, (shapes, rays)): (usize, (Vec<Shape>, Vec<Ray>))| {
-        let is_last = index == 3;
-        let (shapes, rays) = if is_last {
-            let rays = rays.iter().map(|ray| room.ray(ray)).collect();
-            (room.shapes(&shapes), rays)
-        } else {
-            (shapes, rays)
-        };
-        super::shapes_question(checks, shapes, rays)
-    };
-    tables.into_iter().enumerate().map(question).collect()
+    let [first, second, third, last] = [table(), table(), table(), table()];
+    let last = Place::room(rng).table(&last);
+    let question = |(shape, rays)| super::shape_question(checks, shape, rays);
+    [first, second, third, last].map(question).to_vec()
+}
+
+/// Creates a question about a triangle whose hits are compared by their distances.
+fn distance_question(vertices: &[Vertex; 3], rays: impl IntoIterator<Item = Ray>) -> ExamQuestion {
+    super::shape_question(&[HitCheck::Distance], shape(vertices, 0), rays)
 }

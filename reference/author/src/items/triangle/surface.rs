@@ -7,7 +7,7 @@ use super::aim::{
     Side, hitting_ray, missing_ray, random_triangle, ray_through, shape, weights_inside,
 };
 use super::table_questions;
-use crate::items::{Declaration, Group, shapes_question};
+use crate::items::{Declaration, Group, shape_question};
 use crate::seed::Rng;
 
 pub(super) const POSITION: Declaration = Declaration {
@@ -65,7 +65,7 @@ fn uv_corners(rng: &mut Rng) -> Vec<ExamQuestion> {
             }
             rays.push(missing_ray(rng, &vertices, Side::Front));
         }
-        shapes_question(&[HitCheck::Uv], vec![shape(&vertices, 0)], rays)
+        shape_question(&[HitCheck::Uv], shape(&vertices, 0), rays)
     };
     vec![table(), table()]
 }
@@ -99,7 +99,7 @@ fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
             .collect();
         rays.extend((0..3).map(|_| missing_ray(rng, &vertices, Side::Front)));
         let checks = [HitCheck::Origin, HitCheck::Material];
-        shapes_question(&checks, vec![shape(&vertices, material)], rays)
+        shape_question(&checks, shape(&vertices, material), rays)
     };
     vec![table(0), table(7), table(42)]
 }

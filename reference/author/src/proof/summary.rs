@@ -63,13 +63,6 @@ impl ProofSummary {
         )
     }
 
-    /// Returns whether every variant and every mistake got the score that it must get.
-    pub fn is_proven(&self) -> bool {
-        let is_proven =
-            |result: &SeedResult| result.false_fails.is_empty() && result.uncaught.is_empty();
-        self.results.iter().all(is_proven)
-    }
-
     /// Returns the problems found, one line each.
     pub fn problems(&self) -> Vec<String> {
         let mut lines = Vec::new();
@@ -135,7 +128,6 @@ mod tests {
             mistakes: 1,
             variants: 0,
         };
-        assert!(summary.is_proven());
         assert_eq!(summary.problems(), [""; 0]);
         assert_eq!(
             summary.notes(),

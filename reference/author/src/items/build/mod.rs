@@ -54,9 +54,14 @@ fn control(seed: Seed) -> ExamQuestion {
     build_question(&[Partition, Split], soup, 4)
 }
 
-fn build_question(checks: &[TreeCheck], shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
+/// Creates a question about a tree over these shapes, whose materials are replaced with numbers.
+fn build_question(
+    checks: &[TreeCheck],
+    shapes: impl IntoIterator<Item = Shape>,
+    max_leaf_size: u32,
+) -> ExamQuestion {
     let question = Question::Build {
-        shapes,
+        shapes: meshes::number_shapes(shapes),
         max_leaf_size,
     };
     let key = Key::Tree {

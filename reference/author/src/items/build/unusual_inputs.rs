@@ -26,8 +26,7 @@ fn negative(rng: &mut Rng) -> Vec<ExamQuestion> {
         let center = far + rng.point(4.0);
         meshes::random_flat_triangle(rng, center, 0.5)
     });
-    let shapes = meshes::number_shapes(triangles);
-    vec![build_question(&[Partition, Contains, Tight], shapes, 2)]
+    vec![build_question(&[Partition, Contains, Tight], triangles, 2)]
 }
 
 pub(super) const COINCIDENT: Declaration = Declaration {
@@ -44,7 +43,7 @@ pub(super) const COINCIDENT: Declaration = Declaration {
 fn coincident(rng: &mut Rng) -> Vec<ExamQuestion> {
     let center = rng.point(2.0);
     let same = meshes::random_flat_triangle(rng, center, 0.5);
-    let all = meshes::number_shapes(vec![same; 20]);
+    let all = vec![same; 20];
     // More than half of the primitives coincide, so a leaf that holds all of these counts as not
     // split.
     let mut some = meshes::soup(rng, 17, 3.0, 0.4);
@@ -52,11 +51,7 @@ fn coincident(rng: &mut Rng) -> Vec<ExamQuestion> {
     vec![
         build_question(&[Partition, Split], all.clone(), 1),
         build_question(&[Partition, Split], all, 4),
-        build_question(
-            &[Partition, Split],
-            meshes::number_shapes(rng.shuffled(some)),
-            2,
-        ),
+        build_question(&[Partition, Split], rng.shuffled(some), 2),
     ]
 }
 
@@ -79,11 +74,7 @@ fn concentric(rng: &mut Rng) -> Vec<ExamQuestion> {
         radius: step * i as f32,
         material: 0,
     });
-    vec![build_question(
-        &[Partition, Split, Contains],
-        meshes::number_shapes(shells),
-        2,
-    )]
+    vec![build_question(&[Partition, Split, Contains], shells, 2)]
 }
 
 pub(super) const COPLANAR: Declaration = Declaration {
@@ -110,11 +101,7 @@ fn coplanar(rng: &mut Rng) -> Vec<ExamQuestion> {
             let corner = start + f64::from(cell % 8) * x + f64::from(cell / 8) * y;
             meshes::flat_triangle([corner, corner + x, corner + y], 0)
         });
-        build_question(
-            &[Partition, Split, Contains],
-            meshes::number_shapes(cells),
-            2,
-        )
+        build_question(&[Partition, Split, Contains], cells, 2)
     };
     [0, 1, 2].map(question).to_vec()
 }
@@ -142,7 +129,7 @@ fn collinear(rng: &mut Rng) -> Vec<ExamQuestion> {
                 material: 0,
             }
         });
-        build_question(&[Partition, Split, Contains], meshes::number_shapes(row), 3)
+        build_question(&[Partition, Split, Contains], row, 3)
     };
     [0, 1, 2].map(question).to_vec()
 }
@@ -163,7 +150,7 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
         let mut shapes = meshes::soup(rng, 40, 1.0, 0.1);
         let center = far * rng.direction();
         shapes.push(meshes::random_flat_triangle(rng, center, 0.5));
-        meshes::number_shapes(rng.shuffled(shapes))
+        rng.shuffled(shapes)
     };
     let checks = [Partition, Split, Contains];
     let questions = vec![
@@ -176,7 +163,6 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
         let size = 1e-3 * 1.25f64.powi(i);
         meshes::random_flat_triangle(rng, 4.0 * size * DVec3::ONE, size)
     });
-    let growing = meshes::number_shapes(growing);
     questions
         .into_iter()
         .chain([build_question(&checks, growing, 1)])

@@ -18,8 +18,6 @@ use crate::items::{DeclaredItem, draw_items};
 use crate::oracle;
 use crate::seed::{Rng, Seed};
 
-const MIDDLE: Vec2 = Vec2::splat(0.5);
-
 /// Returns the items of the task `camera`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     let all = [
@@ -68,13 +66,15 @@ fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
 /// Returns a sample at the middle of each pixel in the middle row of a film with an odd number of
 /// rows.
 fn middle_row(film: UVec2) -> Vec<Sample> {
-    let pixels = (0..film.x).map(|x| uvec2(x, film.y / 2));
-    pixels
-        .map(|pixel| Sample {
-            pixel,
-            offset: MIDDLE,
-        })
-        .collect()
+    (0..film.x).map(|x| middle_of(x, film.y / 2)).collect()
+}
+
+/// Returns the sample at the middle of a pixel.
+fn middle_of(x: u32, y: u32) -> Sample {
+    Sample {
+        pixel: uvec2(x, y),
+        offset: Vec2::splat(0.5),
+    }
 }
 
 fn random_below(rng: &mut Rng, n: u32) -> u32 {

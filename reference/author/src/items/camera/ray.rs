@@ -4,7 +4,7 @@ use glam::{UVec2, uvec2, vec2};
 use judging::exam::{ExamQuestion, RayCheck};
 use protocol::{Sample, Samples};
 
-use super::{MIDDLE, camera, camera_question, direction_question, random_below};
+use super::{camera, camera_question, direction_question, middle_of, random_below};
 use crate::items::{Declaration, Group};
 use crate::seed::Rng;
 
@@ -95,10 +95,7 @@ fn large_film(rng: &mut Rng) -> Vec<ExamQuestion> {
 /// about length, origin or range.
 fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
     let film = UVec2::splat(rng.integer(7, 19));
-    let samples = (0..16).map(|_| Sample {
-        pixel: uvec2(random_below(rng, film.x), random_below(rng, film.y)),
-        offset: MIDDLE,
-    });
+    let samples = (0..16).map(|_| middle_of(random_below(rng, film.x), random_below(rng, film.y)));
     let samples = Samples::List(samples.collect());
     camera_question(checks, camera(90.0, 1.0, film), samples)
 }

@@ -2,9 +2,8 @@
 
 use glam::{UVec2, uvec2};
 use judging::exam::ExamQuestion;
-use protocol::Sample;
 
-use super::{MIDDLE, camera, direction_question, middle_row};
+use super::{camera, direction_question, middle_of, middle_row};
 use crate::items::{Declaration, Group};
 use crate::seed::Rng;
 
@@ -46,10 +45,7 @@ fn corners(rng: &mut Rng) -> Vec<ExamQuestion> {
             (n - 1, n - 1),
             (n / 2, n / 2),
         ];
-        let sample = |(x, y)| Sample {
-            pixel: uvec2(x, y),
-            offset: MIDDLE,
-        };
+        let sample = |(x, y)| middle_of(x, y);
         direction_question(camera(90.0, 1.0, film), corners.map(sample).to_vec())
     };
     sizes.map(question).to_vec()
@@ -143,10 +139,7 @@ fn film(rng: &mut Rng) -> Vec<ExamQuestion> {
         uvec2(odd_size(rng, 3, 7), odd_size(rng, 13, 21)),
     ];
     let question = |film: UVec2| {
-        let columns = (0..film.y).map(|y| Sample {
-            pixel: uvec2(film.x / 2, y),
-            offset: MIDDLE,
-        });
+        let columns = (0..film.y).map(|y| middle_of(film.x / 2, y));
         let samples = middle_row(film).into_iter().chain(columns).collect();
         direction_question(camera(90.0, aspect_of(film), film), samples)
     };
@@ -168,10 +161,7 @@ fn bottom_left(rng: &mut Rng) -> Vec<ExamQuestion> {
     let sizes = [rng.integer(6, 9), rng.integer(10, 15)];
     let question = |n: u32| {
         let film = UVec2::splat(n);
-        let samples = (0..n).map(|i| Sample {
-            pixel: uvec2(i, i / 2),
-            offset: MIDDLE,
-        });
+        let samples = (0..n).map(|i| middle_of(i, i / 2));
         direction_question(camera(90.0, 1.0, film), samples.collect())
     };
     sizes.map(question).to_vec()

@@ -175,7 +175,6 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
         let center = DVec3::X * (0.5 * i as f64) + rng.point(0.3);
         meshes::random_flat_triangle(rng, center, 0.5)
     });
-    let triangles: Vec<Shape> = triangles.collect();
     let tree = construction::chain(meshes::number_shapes(triangles));
     // Rays along the chain, from both ends, and across it.
     let kind = |rng: &mut Rng, _: &Tree| {
@@ -210,7 +209,6 @@ fn flat(rng: &mut Rng) -> Vec<ExamQuestion> {
         let size = rng.uniform(0.6, 1.4) * rng.sign();
         meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
     });
-    let triangles: Vec<Shape> = triangles.collect();
     let tree = construction::median_split(meshes::number_shapes(triangles), 1);
     vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
 }
@@ -239,7 +237,6 @@ fn mixed(rng: &mut Rng) -> Vec<ExamQuestion> {
             }
         }
     });
-    let shapes: Vec<Shape> = shapes.collect();
     let tree = construction::median_split(meshes::number_shapes(shapes), 1);
     vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
 }

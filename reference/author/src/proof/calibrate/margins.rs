@@ -82,10 +82,8 @@ pub struct Margins {
 impl Margins {
     /// Returns the margin of one threshold.
     pub fn margin(&self, threshold: Threshold) -> Margin {
-        self.by_threshold
-            .get(&threshold)
-            .cloned()
-            .unwrap_or_default()
+        let known = self.by_threshold.get(&threshold);
+        known.cloned().unwrap_or_default()
     }
 
     /// Adds a deviation of a correct solution.
@@ -131,24 +129,15 @@ impl Margins {
 
     /// Returns the margins of both sets of samples together.
     pub fn merge(mut self, other: Margins) -> Margins {
-        for margin in other.by_threshold.into_values() {
-            margin
-                .worst_correct
-                .into_iter()
-                .for_each(|it| self.add_correct(it));
-            margin
-                .mildest_mistake
-                .into_iter()
-                .for_each(|it| self.add_mistake(it));
-        }
-        other
-            .weak_detections
-            .into_values()
-            .for_each(|it| self.add_mistake(it));
-        other
-            .failed_variants
-            .into_values()
-            .for_each(|it| self.add_correct(it));
+        let margins = other.by_threshold.into_values();
+        let nearest = margins.map(|margin| (margin.worst_correct, margin.mildest_mistake));
+        let (correct, mistakes): (Vec<_>, Vec<_>) = nearest.unzip();
+        let correct = correct.into_iter().flatten();
+        let correct = correct.chain(other.failed_variants.into_values());
+        correct.for_each(|sample| self.add_correct(sample));
+        let mistakes = mistakes.into_iter().flatten();
+        let mistakes = mistakes.chain(other.weak_detections.into_values());
+        mistakes.for_each(|sample| self.add_mistake(sample));
         self
     }
 

@@ -3,7 +3,7 @@
 use anyhow::{Result, anyhow};
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
-use crate::handout::pages::formulas;
+use crate::handout::pages::Page;
 
 /// Returns the chapter with its formulas as MathML.
 pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String> {
@@ -15,7 +15,8 @@ pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String> {
         .map_err(|problem| formula_error("", format!("{problem:?}")))?;
     let mut text = markdown.to_owned();
     // From the end, so that the ranges of earlier formulas stay valid.
-    for (range, latex, is_display) in formulas(markdown).into_iter().rev() {
+    let formulas = Page::new(chapter, markdown).formulas;
+    for (range, latex, is_display) in formulas.into_iter().rev() {
         let display = if is_display {
             MathDisplay::Block
         } else {

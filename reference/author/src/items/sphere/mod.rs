@@ -89,10 +89,7 @@ fn table_questions(
 ) -> Vec<ExamQuestion> {
     let table = |&radius: &f64| {
         let sphere = random_sphere(rng, radius);
-        let mut rays: Vec<Ray> = (0..12)
-            .map(|_| unambiguous_ray(rng, &sphere, |rng| kind(rng, &sphere)))
-            .collect();
-        rays.extend((0..5).map(|_| missing_ray(rng, &sphere)));
+        let rays = hits_and_misses(rng, &sphere, [12, 5], &kind);
         sphere_question(checks, &sphere, 0, rng.shuffled(rays))
     };
     radii.iter().map(table).collect()
@@ -108,15 +105,25 @@ fn placed_questions(
     let places: [fn(&mut Rng) -> Place; 2] = [Place::room, Place::miniature];
     let question = |place: fn(&mut Rng) -> Place| {
         let sphere = random_sphere(rng, 1.0);
-        let mut rays: Vec<Ray> = (0..8)
-            .map(|_| unambiguous_ray(rng, &sphere, |rng| kind(rng, &sphere)))
-            .collect();
-        rays.extend((0..4).map(|_| missing_ray(rng, &sphere)));
+        let rays = hits_and_misses(rng, &sphere, [8, 4], &kind);
         let place = place(rng);
         let (shape, rays) = place.table(&(shape(&sphere, 0), rng.shuffled(rays)));
         super::shape_question(checks, shape, rays)
     };
     places.map(question).into()
+}
+
+/// Returns so many rays of one kind, followed by so many that miss.
+fn hits_and_misses(
+    rng: &mut Rng,
+    sphere: &Sphere,
+    [hits, misses]: [usize; 2],
+    kind: impl Fn(&mut Rng, &Sphere) -> Ray,
+) -> Vec<Ray> {
+    let hits = (0..hits).map(|_| unambiguous_ray(rng, sphere, |rng| kind(rng, sphere)));
+    let mut rays: Vec<Ray> = hits.collect();
+    rays.extend((0..misses).map(|_| missing_ray(rng, sphere)));
+    rays
 }
 
 /// Returns an unambiguous ray of one kind. It does not hit the sphere near a pole, where texture

@@ -8,7 +8,7 @@ use super::{
     sphere_question, table_questions, unambiguous_ray,
 };
 use crate::items::place::dust;
-use crate::items::{Declaration, Group};
+use crate::items::{Declaration, Group, reversed_if};
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 
@@ -65,24 +65,13 @@ pub(super) const RADIUS: Declaration = Declaration {
 };
 
 fn radius(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let tiny = table_questions(
-        &mut rng.sequence("sphere.radius.tiny"),
-        &[HitCheck::Distance],
-        &[1.0],
-        hitting_ray,
-    );
+    let (checks, radii) = ([HitCheck::Distance], [0.3, 0.7, 2.0, 5.0]);
+    let [placed, tiny] =
+        &mut ["sphere.radius.placed", "sphere.radius.tiny"].map(|it| rng.sequence(it));
+    let tiny = table_questions(tiny, &checks, &[1.0], hitting_ray);
     [
-        table_questions(
-            rng,
-            &[HitCheck::Distance],
-            &[0.3, 0.7, 2.0, 5.0],
-            hitting_ray,
-        ),
-        placed_questions(
-            &mut rng.sequence("sphere.radius.placed"),
-            &[HitCheck::Distance],
-            hitting_ray,
-        ),
+        table_questions(rng, &checks, &radii, hitting_ray),
+        placed_questions(placed, &checks, hitting_ray),
         tiny.into_iter().map(dust).collect(),
     ]
     .concat()
@@ -102,14 +91,7 @@ pub(super) const BEHIND: Declaration = Declaration {
 fn behind(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = |radius: f64| {
         let sphere = random_sphere(rng, radius);
-        let rays = (0..16).map(|i| {
-            let ray = hitting_ray(rng, &sphere);
-            if i % 2 == 0 {
-                ray
-            } else {
-                Ray::new(ray.origin, -ray.dir)
-            }
-        });
+        let rays = (0..16).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &sphere)));
         sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
     };
     vec![table(1.0), table(1.5)]
@@ -124,15 +106,12 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
            is in the range is its distance.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
-        [
-            table_questions(rng, &[HitCheck::Distance], &[1.0, 2.0], ray_from_inside),
-            placed_questions(
-                &mut rng.sequence("sphere.from_inside.placed"),
-                &[HitCheck::Distance],
-                ray_from_inside,
-            ),
-        ]
-        .concat()
+        let (checks, placed) = (
+            [HitCheck::Distance],
+            &mut rng.sequence("sphere.from_inside.placed"),
+        );
+        let near = table_questions(rng, &checks, &[1.0, 2.0], ray_from_inside);
+        [near, placed_questions(placed, &checks, ray_from_inside)].concat()
     },
     ..Declaration::in_group(Group::SphereHits)
 };
@@ -197,12 +176,10 @@ fn far_root(rng: &mut Rng) -> Vec<ExamQuestion> {
         };
         (from, far + rng.uniform(0.1, 3.0))
     };
-    range_questions(rng, range)
-        .into_iter()
-        .chain([rays_from_the_surface(
-            &mut rng.sequence("sphere.rays_from_the_surface"),
-        )])
-        .collect()
+    let from_the_surface = &mut rng.sequence("sphere.rays_from_the_surface");
+    let mut questions = range_questions(rng, range);
+    questions.push(rays_from_the_surface(from_the_surface));
+    questions
 }
 
 pub(super) const RANGE_MAX: Declaration = Declaration {

@@ -12,7 +12,7 @@ use crate::items::{Declaration, picture};
 use crate::oracle::sphere::Sphere;
 use crate::seed::Rng;
 
-fn hitting_ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
+fn ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
     if rng.coin() {
         hitting_ray(rng, sphere)
     } else {
@@ -32,7 +32,7 @@ pub(super) const POSITION: Declaration = Declaration {
             rng,
             &[HitCheck::Position],
             &[0.8, 2.0],
-            hitting_ray_from_either_side,
+            ray_from_either_side,
         )
     },
     ..Declaration::ALONE
@@ -52,17 +52,10 @@ pub(super) const NORMAL: Declaration = Declaration {
 fn normal(rng: &mut Rng) -> Vec<ExamQuestion> {
     let checks = [HitCheck::Normal, HitCheck::UnitNormal];
     let outside = table_questions(rng, &checks, &[0.5, 3.0], hitting_ray);
-    let inside = table_questions(
-        &mut rng.sequence("sphere.normal.inside"),
-        &checks,
-        &[2.0],
-        ray_from_inside,
-    );
-    let placed = placed_questions(
-        &mut rng.sequence("sphere.normal.placed"),
-        &checks,
-        hitting_ray_from_either_side,
-    );
+    let inside = &mut rng.sequence("sphere.normal.inside");
+    let inside = table_questions(inside, &checks, &[2.0], ray_from_inside);
+    let placed = &mut rng.sequence("sphere.normal.placed");
+    let placed = placed_questions(placed, &checks, ray_from_either_side);
     [outside, inside, placed].concat()
 }
 
@@ -86,18 +79,11 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     questions: |rng| {
+        let (checks, placed) = ([HitCheck::Uv], &mut rng.sequence("sphere.uv_radius.placed"));
+        let near = table_questions(rng, &checks, &[0.4, 2.5], ray_from_either_side);
         [
-            table_questions(
-                rng,
-                &[HitCheck::Uv],
-                &[0.4, 2.5],
-                hitting_ray_from_either_side,
-            ),
-            placed_questions(
-                &mut rng.sequence("sphere.uv_radius.placed"),
-                &[HitCheck::Uv],
-                hitting_ray_from_either_side,
-            ),
+            near,
+            placed_questions(placed, &checks, ray_from_either_side),
         ]
         .concat()
     },
@@ -121,12 +107,8 @@ fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
         let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
         rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
         rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
-        sphere_question(
-            &[HitCheck::Origin, HitCheck::Material],
-            &sphere,
-            material,
-            rays,
-        )
+        let checks = [HitCheck::Origin, HitCheck::Material];
+        sphere_question(&checks, &sphere, material, rays)
     };
     vec![table(0), table(3), table(99)]
 }

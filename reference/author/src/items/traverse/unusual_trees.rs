@@ -36,7 +36,7 @@ fn root(rng: &mut Rng) -> Vec<ExamQuestion> {
         let tree = tree.with_nodes_shuffled(rng, inner);
         traversal_question(&with_detached_subtrees(rng, tree, &rays, position), rays)
     };
-    let children: [fn(&TreeNode) -> u32; 2] = [|root| root.l, |root| root.r];
+    let children: [decoy::Child; 2] = [|root| root.l, |root| root.r];
     let child_in_front = children.map(|child| question_with_a_child_in_front(in_front, child));
     [
         RootPosition::First,
@@ -51,7 +51,7 @@ fn root(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 /// Creates a question about a tree whose first node is a child of the root, to check that 0 is
 /// accepted as the index of a child.
-fn question_with_a_child_in_front(rng: &mut Rng, child: fn(&TreeNode) -> u32) -> ExamQuestion {
+fn question_with_a_child_in_front(rng: &mut Rng, child: decoy::Child) -> ExamQuestion {
     let tree = soup_tree(rng, 20, 0.9, 1);
     let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
     let mut tree = tree.with_nodes_shuffled(rng, RootPosition::Last);

@@ -11,7 +11,7 @@ use crate::items::place::dust;
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 use crate::tree::Tree;
-use crate::tree::decoy::{self, Side, SkipReason};
+use crate::tree::decoy::{self, Child, SkipReason};
 use crate::tree::traversal::Traversal;
 
 /// Returns whether the slides' pseudo-code, taken literally, gives the correct answer for this ray.
@@ -109,17 +109,18 @@ fn is_skipped_for(tree: &Tree, leaf: usize, ray64: &Ray64, reason: SkipReason) -
 
 /// Accepts the leaves that the ray misses, and that are this child of a node of which it hits the
 /// other child's box.
-fn missed_alone(side: Side) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, side) && !decoy::misses_sibling(tree, leaf, ray64)
+        decoy::is_missed_child(tree, leaf, ray64, child)
+            && !decoy::misses_sibling(tree, leaf, ray64)
     }
 }
 
 /// Accepts the leaves that the ray misses, and that are this child of a node of which it misses both
 /// children's boxes.
-fn missed_with_sibling(side: Side) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, side) && decoy::misses_sibling(tree, leaf, ray64)
+        decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)
     }
 }
 
@@ -141,9 +142,10 @@ fn skips_missed(rng: &mut Rng) -> Vec<ExamQuestion> {
     // The slides enter the left child if both are missed, and may enter it if only the right one is
     // hit: see `both_sides`.
     let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        missed_alone(Side::R)(tree, leaf, ray64) && !decoy::hits_below_sibling(tree, leaf, ray64)
+        missed_alone(|node| node.r)(tree, leaf, ray64)
+            && !decoy::hits_below_sibling(tree, leaf, ray64)
     };
-    let with_sibling = missed_with_sibling(Side::R);
+    let with_sibling = missed_with_sibling(|node| node.r);
     vec![
         question_with_decoys(rng, &fits, SlidesAnswer::Correct),
         question_with_decoys(rng, &after_nothing, SlidesAnswer::Correct),
@@ -219,8 +221,8 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
 };
 
 fn both_sides(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let missed_alone = missed_alone(Side::L);
-    let with_sibling = missed_with_sibling(Side::L);
+    let missed_alone = missed_alone(|node| node.l);
+    let with_sibling = missed_with_sibling(|node| node.l);
     let pruned_alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::LeafPruned)
             && decoy::siblings_beyond_are_missed(tree, leaf, ray64)

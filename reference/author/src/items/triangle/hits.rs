@@ -10,7 +10,7 @@ use super::aim::{
 };
 use super::{distance_question, table_questions};
 use crate::items::place::{Place, dust};
-use crate::items::{Declaration, Group, ray, shape_question};
+use crate::items::{Declaration, Group, ray, reversed_if, shape_question};
 use crate::oracle::{Ray64, triangle};
 use crate::seed::Rng;
 
@@ -68,6 +68,12 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
     ..Declaration::in_group(Group::TriangleHits)
 };
 
+/// Returns the distance of a triangle along a ray that is aimed at it.
+fn distance(ray: &Ray, vertices: &[Vertex; 3]) -> f64 {
+    let hit = triangle::intersect(&Ray64::from(ray), vertices, 0);
+    hit.expect("the ray was aimed at the triangle").distance
+}
+
 /// Creates questions with rays through a triangle, where only the range decides between hit and
 /// miss.
 fn range_questions(
@@ -78,9 +84,7 @@ fn range_questions(
         let vertices = random_triangle(rng);
         let rays = (0..12).map(|_| {
             let ray = hitting_ray(rng, &vertices, Side::Either);
-            let hit = triangle::intersect(&Ray64::from(&ray), &vertices, 0)
-                .expect("the ray was aimed at the triangle");
-            let (min, max) = range(rng, hit.distance);
+            let (min, max) = range(rng, distance(&ray, &vertices));
             ray.within(min as f32, max as f32)
         });
         distance_question(&vertices, rays)
@@ -110,9 +114,11 @@ fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
     let vertices = random_triangle(rng);
     let rays = (0..12).map(|i| {
         let ray = hitting_ray(rng, &vertices, Side::Either);
-        let hit = triangle::intersect(&Ray64::from(&ray), &vertices, 0)
-            .expect("the ray was aimed at the triangle");
-        let start = if i % 3 == 0 { 0.0 } else { hit.distance };
+        let start = if i % 3 == 0 {
+            0.0
+        } else {
+            distance(&ray, &vertices)
+        };
         let origin = Ray64::from(&ray).at(start).as_vec3();
         Ray { origin, ..ray }.within(0.05, f32::INFINITY)
     });
@@ -132,12 +138,10 @@ pub(super) const RANGE_MIN: Declaration = Declaration {
 
 fn range_min(rng: &mut Rng) -> Vec<ExamQuestion> {
     let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
-    range_questions(rng, range)
-        .into_iter()
-        .chain([rays_from_the_surface(
-            &mut rng.sequence("triangle.rays_from_the_surface"),
-        )])
-        .collect()
+    let from_the_surface = &mut rng.sequence("triangle.rays_from_the_surface");
+    let mut questions = range_questions(rng, range);
+    questions.push(rays_from_the_surface(from_the_surface));
+    questions
 }
 
 pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
@@ -154,14 +158,8 @@ pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
 fn behind_the_ray(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = || {
         let vertices = random_triangle(rng);
-        let rays = (0..12).map(|i| {
-            let ray = hitting_ray(rng, &vertices, Side::Either);
-            if i % 2 == 0 {
-                ray
-            } else {
-                Ray::new(ray.origin, -ray.dir)
-            }
-        });
+        let rays =
+            (0..12).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &vertices, Side::Either)));
         distance_question(&vertices, rays)
     };
     vec![table(), table()]
@@ -252,11 +250,8 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
         };
         shape(&corners.map(vertex), 0)
     };
-    let control = |rng: &mut Rng| {
-        let vertices = random_triangle(rng);
-        let rays = (0..4).map(|_| hitting_ray(rng, &vertices, Side::Either));
-        distance_question(&vertices, rays)
-    };
+    let vertices = random_triangle(rng);
+    let control = (0..4).map(|_| hitting_ray(rng, &vertices, Side::Either));
     let down = |x: f32, y: f32| Ray::new(frame.point(x, y, 4.0), frame.dir(0.0, 0.0, -1.0));
     let along = |y: f32, z: f32| Ray::new(frame.point(-4.0, y, z), frame.dir(1.0, 0.0, 0.0));
 
@@ -276,6 +271,6 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
         question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
         // On both sides of the plane, as t = z / 0 is +∞ on one of them and −∞ on the other.
         question(half_square, parallel),
-        control(rng),
+        distance_question(&vertices, control),
     ]
 }

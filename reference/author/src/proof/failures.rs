@@ -142,12 +142,11 @@ mod tests {
 
     fn failed(seeds: u64, fails: &[(&str, &[&str])]) -> FailedItems {
         let owned = |items: &[&str]| items.iter().map(|&item| item.to_owned()).collect();
+        let fails = fails.iter();
+        let fails = fails.map(|&(id, items)| (id.to_owned(), owned(items)));
         FailedItems {
             seeds,
-            fails: fails
-                .iter()
-                .map(|&(id, items)| (id.to_owned(), owned(items)))
-                .collect(),
+            fails: fails.collect(),
         }
     }
 

@@ -1,11 +1,9 @@
 //! Meshes, as an intermediate form between the OBJ file and the shapes of a scene.
 
 use glam::{Mat3, Vec2, Vec3};
-use protocol::{Shape, Vertex};
+use protocol::Vertex;
 
-use super::error::SceneErrorKind;
-use super::file::MeshEntry;
-use super::number::MAX_COORDINATE;
+use super::value::MAX_COORDINATE;
 use crate::math::sin_cos;
 
 /// An indexed triangle mesh. Triangles share positions, which subdivision uses to find neighbours.
@@ -27,20 +25,27 @@ pub(super) struct Face {
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
+/// The position of a mesh in the scene. It is scaled, rotated about the x-, y- and z-axes in this
+/// order, and then translated.
+pub(super) struct Transform {
+    pub(super) scale: f32,
+    /// The angles about the x-, y- and z-axes, in degrees.
+    pub(super) rotate: Vec3,
+    pub(super) translate: Vec3,
+}
+
 impl Mesh {
-    /// Returns the mesh's triangles, transformed as `entry` specifies and numbered from `first`.
-    /// Triangles without area are left out, because they have no normal and no ray can hit them.
-    pub(super) fn shapes(
-        &self,
-        entry: &MeshEntry,
-        first: u32,
-    ) -> Result<Vec<Shape>, SceneErrorKind> {
-        let rotation = rotation(entry.rotate);
-        let transform = |p: Vec3| rotation * (p * entry.scale) + entry.translate;
+    /// Returns the mesh's transformed triangles. Triangles without area are left out, because they
+    /// have no normal and no ray can hit them.
+    pub(super) fn triangles(&self, to: &Transform) -> Result<Vec<[Vertex; 3]>, String> {
+        let rotation = rotation(to.rotate);
+        let transform = |p: Vec3| rotation * (p * to.scale) + to.translate;
         let positions: Vec<Vec3> = self.positions.iter().copied().map(transform).collect();
         let is_in_range = |p: &Vec3| p.abs().max_element() <= MAX_COORDINATE;
         if !positions.iter().all(is_in_range) {
-            return Err(SceneErrorKind::MeshTooLarge);
+            let message = "the mesh has a coordinate beyond 1e9 after `scale`, `rotate` and \
+                           `translate`: use smaller numbers";
+            return Err(message.to_owned());
         }
         let vertices = |face: &Face| {
             let corners = face.corners.map(|corner| positions[corner]);
@@ -52,13 +57,13 @@ impl Mesh {
             let vertex = |i: usize| Vertex::new(corners[i], normals[i], face.uv[i]);
             Some([vertex(0), vertex(1), vertex(2)])
         };
-        let numbered = self.faces.iter().filter_map(vertices).zip(first..);
-        let shape = |(vertices, material)| Shape::Triangle { vertices, material };
-        let shapes: Vec<Shape> = numbered.map(shape).collect();
-        if shapes.is_empty() {
-            return Err(SceneErrorKind::MeshWithoutArea);
+        let triangles: Vec<[Vertex; 3]> = self.faces.iter().filter_map(vertices).collect();
+        if triangles.is_empty() {
+            let message = "no triangle of the mesh has an area, so no ray can hit it: use another \
+                           mesh or `scale`";
+            return Err(message.to_owned());
         }
-        Ok(shapes)
+        Ok(triangles)
     }
 
     /// Returns the same mesh with a normal at each position: the mean of the normals of the faces

@@ -5,15 +5,15 @@
 
 #[cfg(test)]
 mod tests;
-mod triangulate;
 
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::error::{SceneError, SceneErrorKind, TextPosition, read_bytes};
+use super::error::{SceneError, TextPosition};
 use super::mesh::{Face, Mesh};
-use triangulate::triangulate;
+use super::text_file::read_bytes;
+use super::triangulate::triangulate;
 
 /// The maximum number of corners of a face. Splitting a face takes up to the third power of this.
 const MAX_CORNERS: usize = 1000;
@@ -22,14 +22,10 @@ const MAX_CORNERS: usize = 1000;
 type ObjError = (Option<usize>, String);
 
 /// Loads a mesh from an OBJ file.
-pub(super) fn load(path: &Path) -> Result<Mesh, SceneErrorKind> {
-    let bytes = read_bytes(path).map_err(in_mesh)?;
+pub(super) fn load(path: &Path) -> Result<Mesh, SceneError> {
     // Names of groups and materials may have another encoding.
-    parse(&String::from_utf8_lossy(&bytes)).map_err(|error| in_mesh(error.in_file(path)))
-}
-
-fn in_mesh(error: SceneError) -> SceneErrorKind {
-    SceneErrorKind::Mesh(Box::new(error))
+    let text = String::from_utf8_lossy(&read_bytes(path)?).into_owned();
+    parse(&text).map_err(|error| error.in_file(path))
 }
 
 /// Parses the faces of an OBJ text, and splits them into triangles. The scene defines the materials,
@@ -40,7 +36,7 @@ fn parse(text: &str) -> Result<Mesh, SceneError> {
     let mesh = checked.and_then(|(text, faces)| triangles(&text, &faces));
     mesh.map_err(|(line, message)| {
         let position = line.map(|line| TextPosition::new(text, line, 0));
-        SceneError::new(position, SceneErrorKind::Obj(message))
+        SceneError::new(position, message)
     })
 }
 

@@ -11,7 +11,6 @@ mod mesh;
 mod obj;
 mod polygon;
 mod read;
-mod subdivide;
 #[cfg(feature = "cli")]
 mod text_file;
 mod triangulate;
@@ -113,15 +112,10 @@ impl Scene {
 
     /// Returns the largest absolute value of any coordinate in the scene.
     pub fn extent(&self) -> f32 {
-        let of_shape = |shape: &Shape| match shape {
-            Shape::Triangle { vertices, .. } => vertices
-                .iter()
-                .map(|vertex| vertex.position.abs().max_element())
-                .fold(0.0, f32::max),
-            Shape::FlatTriangle { corners, .. } => corners
-                .iter()
-                .map(|corner| corner.abs().max_element())
-                .fold(0.0, f32::max),
+        let of_triangle = |[a, b, c]: [Vec3; 3]| a.abs().max(b.abs()).max(c.abs()).max_element();
+        let of_shape = |shape: &Shape| match *shape {
+            Shape::Triangle { vertices, .. } => of_triangle(vertices.map(|vertex| vertex.position)),
+            Shape::FlatTriangle { corners, .. } => of_triangle(corners),
             Shape::Sphere { center, radius, .. } => center.abs().max_element() + radius,
         };
         let of_camera = self.camera.placement.position.abs().max_element();

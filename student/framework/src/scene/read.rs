@@ -5,16 +5,12 @@ use protocol::{Shape, Vertex};
 use super::camera::Camera;
 use super::error::{SceneError, TextPosition};
 use super::material::Material;
-use super::mesh::{Mesh, Transform};
-use super::subdivide::subdivide;
+use super::mesh::{Face, Transform};
 use super::value::{Object, Value};
 use super::{MAX_LEAF_SIZE, Scene, polygon};
 
-/// The maximum number of triangles in one mesh. A mesh of this size takes about 2 GB of memory.
-const MAX_TRIANGLES: u64 = 1 << 24;
-
 /// Loads a mesh from the path in a scene file, or returns why it cannot.
-pub(super) type LoadMesh<'a> = &'a dyn Fn(&str) -> Result<Mesh, String>;
+pub(super) type LoadMesh<'a> = &'a dyn Fn(&str) -> Result<Vec<Face>, String>;
 
 /// Reads the scene in `text`, and returns it with the names of its materials.
 pub(super) fn scene(text: &str, load: LoadMesh) -> Result<(Scene, Vec<String>), SceneError> {
@@ -100,14 +96,7 @@ fn read_shape<'a>(
             Ok((keys, numbered(triangles)))
         }
         "mesh" => {
-            let known = [
-                "file",
-                "material",
-                "subdivide",
-                "scale",
-                "rotate",
-                "translate",
-            ];
+            let known = ["file", "material", "scale", "rotate", "translate"];
             let keys = value.object(&known)?;
             let triangles = read_mesh(&keys, load)?;
             Ok((keys, numbered(triangles)))
@@ -122,9 +111,6 @@ fn read_shape<'a>(
 
 /// Reads the entry of a mesh, which is in an OBJ file in or below the folder of the scene file.
 fn read_mesh(keys: &Object, load: LoadMesh) -> Result<Vec<[Vertex; 3]>, SceneError> {
-    let levels = keys.optional("subdivide", |value| {
-        value.parsed("a whole number that is not negative", |_: &u32| true)
-    })?;
     let transform = Transform {
         scale: keys.optional("scale", Value::positive)?.unwrap_or(1.0),
         rotate: keys.optional("rotate", Value::point)?.unwrap_or_default(),
@@ -134,25 +120,6 @@ fn read_mesh(keys: &Object, load: LoadMesh) -> Result<Vec<[Vertex; 3]>, SceneErr
     };
     let file = keys.value("file")?;
     load(&file.string()?)
-        .and_then(|mesh| subdivide_mesh(mesh, levels.unwrap_or_default()))
-        .and_then(|mesh| mesh.triangles(&transform))
+        .and_then(|mesh| transform.apply(&mesh))
         .map_err(|message| file.error(message))
-}
-
-/// Subdivides a mesh this many times.
-fn subdivide_mesh(mut mesh: Mesh, levels: u32) -> Result<Mesh, String> {
-    let triangles = (mesh.faces.len() as u64).saturating_mul(4_u64.saturating_pow(levels));
-    if triangles > MAX_TRIANGLES {
-        return Err(format!(
-            "with `subdivide` {levels} the mesh has {triangles} triangles, and the limit is \
-             {MAX_TRIANGLES}: use a smaller number"
-        ));
-    }
-    if levels == 0 {
-        return Ok(mesh);
-    }
-    for _ in 0..levels {
-        mesh = subdivide(&mesh);
-    }
-    Ok(mesh.with_smooth_normals())
 }

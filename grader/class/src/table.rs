@@ -106,6 +106,11 @@ impl Table {
         column.ok_or_else(|| missing_column(path, name, remedy))
     }
 
+    /// Returns the cell of the first row in the column with this name.
+    pub fn first_cell(&self, name: &str) -> Option<String> {
+        self.rows.first()?.get(self.column(name)?).cloned()
+    }
+
     /// Returns the table with only these columns, in this order.
     pub fn select_columns(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| {

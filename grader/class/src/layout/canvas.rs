@@ -13,6 +13,7 @@ use grader::handed_out::HandedOut;
 use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, Person, Source};
 use crate::listing::Node;
+use crate::names::is_number;
 use crate::roster::Member;
 
 /// The reason for not grading a user who submitted text or a link, but no files.
@@ -130,10 +131,6 @@ fn parse_text(name: &str) -> Option<CanvasName<'_>> {
         attachment: 0,
         file: parts[index + 1].to_owned(),
     })
-}
-
-fn is_number(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 
 /// Splits off `LATE`, which is after the user's name, but before `anon`. Returns the name, and whether

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use super::{LayoutContents, unmatched_path};
 use crate::entry::{Entry, EntryInfo, NUMBER, Person, Source, WHO};
 use crate::listing::Node;
+use crate::names::is_number;
 
 const MARK: &str = "_assignsubmission_";
 /// The reason for not grading a participant who submitted text but no files.
@@ -35,7 +36,6 @@ pub(super) struct MoodleName<'a> {
 pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     let (head, tail) = name.split_once(MARK)?;
     let (kind, file) = tail.split_once('_').unwrap_or((tail, ""));
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let (who, number) = match head.rsplit_once('_') {
         Some((who, number)) if is_number(number) => (who, number),
         Some(_) | None => (head, ""),

@@ -9,7 +9,7 @@ use crate::cli::Lists;
 use crate::entry::Person;
 use crate::error::Error;
 use crate::moodle_status::MoodleStatus;
-use crate::names::{are_equal, fold};
+use crate::names::{are_equal, fold, number_at_end};
 use crate::table::{Table, missing_column};
 
 pub use times::set_submission_times;
@@ -50,7 +50,7 @@ const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 const EXTENSION: [&str; 3] = ["extension", "extension_days", "extension days"];
 
 /// The name in the row of Canvas's gradebook with the maximum points.
-const POINTS_POSSIBLE: &str = "Points Possible";
+pub const POINTS_POSSIBLE: &str = "Points Possible";
 
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -142,11 +142,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             email: cell(email),
             sid: cell(sid),
             login: cell(login),
-            number: cell(number)
-                .rsplit(|c: char| !c.is_ascii_digit())
-                .next()
-                .unwrap_or_default()
-                .to_owned(),
+            number: number_at_end(&cell(number)).to_owned(),
             group: cell(group),
             extension: cell(extension),
             status: cell(status),

@@ -16,6 +16,7 @@ use judging::sanitize::sanitize_line;
 use crate::cli::Lists;
 use crate::error::Error;
 use crate::list_kind::{KeptList, KeptLists, ListKind};
+use crate::run::Run;
 use crate::store::Store;
 
 /// The folder of the copies, in the output folder.
@@ -29,7 +30,7 @@ pub struct UsedLists {
     /// The lists to keep.
     pub kept: KeptLists,
     /// Sentences for staff.
-    pub notes: Vec<String>,
+    notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
 }
 
@@ -52,45 +53,41 @@ pub struct ListFiles {
 }
 
 impl ListFiles {
-    /// Returns the file of a list.
-    pub fn get(&self, kind: ListKind) -> Option<&Path> {
-        let lists = &self.lists;
-        let path = match kind {
-            ListKind::Policy => &self.policy,
-            ListKind::Roster => &lists.roster,
-            ListKind::ManualPoints => &lists.manual_points,
-            ListKind::Canvas => &lists.canvas,
-            ListKind::Moodle => &lists.moodle,
-            ListKind::Gradescope => &lists.gradescope,
-        };
-        path.as_deref()
-    }
-
-    /// Replaces the file of a list.
-    pub fn set(&mut self, kind: ListKind, path: PathBuf) {
-        let lists = &mut self.lists;
-        let place = match kind {
+    /// Returns the path of a list, to read or replace it.
+    pub fn path(&mut self, kind: ListKind) -> &mut Option<PathBuf> {
+        match kind {
             ListKind::Policy => &mut self.policy,
-            ListKind::Roster => &mut lists.roster,
-            ListKind::ManualPoints => &mut lists.manual_points,
-            ListKind::Canvas => &mut lists.canvas,
-            ListKind::Moodle => &mut lists.moodle,
-            ListKind::Gradescope => &mut lists.gradescope,
-        };
-        *place = Some(path);
+            ListKind::Roster => &mut self.lists.roster,
+            ListKind::ManualPoints => &mut self.lists.manual_points,
+            ListKind::Canvas => &mut self.lists.canvas,
+            ListKind::Moodle => &mut self.lists.moodle,
+            ListKind::Gradescope => &mut self.lists.gradescope,
+        }
     }
 }
 
 impl UsedLists {
     /// Chooses each list: the one on the command line or else, unless it is dropped, the one that
-    /// the output folder has, or else the one that all merged parts were graded with.
-    pub fn choose(given: ListFiles, out: Option<KeptIn>, parts: &[KeptIn]) -> Result<Self, Error> {
+    /// the output folder `out` has, or else the one that all merged parts were graded with. Prints
+    /// where lists come from, and which have changed.
+    pub fn choose(given: ListFiles, out: Option<&Path>, parts: &[KeptIn]) -> Result<Self, Error> {
         let mut used = UsedLists {
             files: given,
             ..UsedLists::default()
         };
+        let run = out
+            .map(|out| Store::new(out).read_run())
+            .transpose()?
+            .flatten();
+        let last = out.zip(run.as_ref()).map(|(folder, run)| KeptIn {
+            folder,
+            lists: &run.lists,
+        });
         for kind in ListKind::value_variants() {
-            used.choose_list(*kind, out, parts)?;
+            used.choose_list(*kind, last, parts)?;
+        }
+        for note in &used.notes {
+            print_error_line(sanitize_line(note, 300));
         }
         Ok(used)
     }
@@ -103,12 +100,17 @@ impl UsedLists {
     ) -> Result<(), Error> {
         let (name, title) = (kind.name(), kind.title());
         let last = out.and_then(|out| Some((out.folder, out.lists.get(&kind)?)));
-        if let Some(path) = self.files.get(kind) {
-            let bytes = read(kind, path)?;
+        if let Some(path) = self.files.path(kind).clone() {
+            let bytes = read(kind, &path)?;
             let list = KeptList {
                 hash: file_hash(&bytes),
                 given_as: path.display().to_string(),
-                column: self.column(kind),
+                column: self
+                    .files
+                    .lists
+                    .column
+                    .clone()
+                    .filter(|_| kind == ListKind::Canvas),
                 is_of_parts: false,
             };
             if last.is_some_and(|(_, last)| !last.is_same(&list)) {
@@ -166,50 +168,31 @@ impl UsedLists {
         if kind == ListKind::Canvas && self.files.lists.column.is_none() {
             self.files.lists.column.clone_from(&list.column);
         }
-        self.files.set(kind, path);
+        *self.files.path(kind) = Some(path);
         self.copies.insert(kind, bytes);
         self.kept.insert(kind, list);
         Ok(())
     }
 
-    fn column(&self, kind: ListKind) -> Option<String> {
-        let column = self.files.lists.column.clone();
-        column.filter(|_| kind == ListKind::Canvas)
-    }
-
-    /// Writes the copies into an output folder. Their names have the hash, so that those of the last
-    /// run stay until `run.json` no longer names them.
-    pub fn save(&self, store: &Store) -> Result<(), Error> {
+    /// Writes the copies and `run.json` into an output folder, and removes copies that it does not
+    /// name. The names have the hash, so that those of the last run stay until `run.json` is written.
+    pub fn save(&self, store: &Store, run: &Run) -> Result<(), Error> {
+        let mut paths = Vec::new();
         for (kind, list) in &self.kept {
             let path = copy_path(store.folder(), *kind, list);
-            if files::read(&path).is_ok_and(|bytes| bytes == self.copies[kind]) {
-                continue;
-            }
             let name = Path::new(FOLDER).join(path.file_name().unwrap_or_default());
-            store.write(name, &self.copies[kind])?;
+            if !files::read(&path).is_ok_and(|bytes| bytes == self.copies[kind]) {
+                store.write(name, &self.copies[kind])?;
+            }
+            paths.push(path);
         }
-        Ok(())
-    }
-
-    /// Removes copies that `run.json` does not name, and what a killed run has left.
-    pub fn remove_others(&self, store: &Store) -> Result<(), Error> {
-        let kept = self.kept.iter();
-        let kept: Vec<PathBuf> = kept
-            .map(|(kind, list)| copy_path(store.folder(), *kind, list))
-            .collect();
+        store.write_run(run)?;
         for path in store.list(FOLDER)? {
-            if !kept.contains(&path) {
+            if !paths.contains(&path) {
                 files::remove_if_exists(path)?;
             }
         }
         Ok(())
-    }
-
-    /// Prints the notes.
-    pub fn print_notes(&self) {
-        for note in &self.notes {
-            print_error_line(sanitize_line(note, 300));
-        }
     }
 }
 

@@ -5,14 +5,13 @@ use grader::printing::{print, print_line};
 
 use crate::cli::Lists;
 use crate::counting::count_points;
-use crate::entry::Person;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
 use crate::list_kind::ListKind;
-use crate::manual_points::ManualPointsList;
+use crate::lists::ListFindings;
 use crate::outcome::EntryResult;
 use crate::regrade_diff::Changes;
 use crate::report::{grades, page, text};
@@ -39,10 +38,8 @@ pub struct ClassContext<'a> {
     pub lists: &'a Lists,
     /// The course's policy.
     pub policy: &'a Policy,
-    /// The points by hand.
-    pub manual: &'a ManualPointsList,
-    /// The people on lists who submitted nothing.
-    pub missing: Vec<Person>,
+    /// The facts in the lists.
+    pub findings: ListFindings,
 }
 
 impl ClassContext<'_> {
@@ -53,8 +50,8 @@ impl ClassContext<'_> {
             exam: settings.exam.clone(),
             exam_hash: settings.exam_hash.clone(),
             isolation: settings.isolation.clone(),
-            rows: count_points(results, self.policy, self.manual, &self.run.tasks)?,
-            missing: self.missing,
+            rows: count_points(results, self.policy, &self.findings.manual, &self.run.tasks)?,
+            missing: self.findings.missing,
         };
         write_results(&class, self.store, self.lists, self.run, changes)?;
         Ok(match class.fault_count() {

@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::final_grades::GradeChanges;
 use crate::outcome::{EntryResult, ItemScore, ScoreSummary, id_and_names};
+use crate::run::Run;
 use crate::store::Store;
 
 /// The differences from earlier runs.
@@ -55,9 +56,32 @@ impl fmt::Display for RemovedEntry {
 
 /// Returns the scores that changed because their submission did.
 pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, Error> {
+    find_drifts(results, |id| store.replaced_score(id))
+}
+
+/// Returns the changes that a regrade made, or `None` in a folder's first round.
+pub fn find_regrade_changes(
+    store: &Store,
+    run: &Run,
+    results: &[EntryResult],
+) -> Result<Option<RegradeChanges>, Error> {
+    let Some(before) = &run.before else {
+        return Ok(None);
+    };
+    Ok(Some(RegradeChanges {
+        drifts: find_drifts(results, |id| store.previous_score(id))?,
+        causes: before.differences(&run.settings),
+    }))
+}
+
+/// Compares each result with the score that was kept for its entry.
+fn find_drifts(
+    results: &[EntryResult],
+    kept_score: impl Fn(&str) -> Result<Option<ScoreSummary>, Error>,
+) -> Result<Vec<Drift>, Error> {
     let mut drifts = Vec::new();
     for result in results {
-        let was = store.replaced_score(&result.id)?;
+        let was = kept_score(&result.id)?;
         drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
     }
     Ok(drifts)
@@ -116,7 +140,7 @@ pub struct ItemChange {
 }
 
 /// Compares the scores of an entry; returns `None` if nothing changed.
-pub fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
+fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
     let items = match now {
         Some(now) => item_changes(was, now),
         None => Vec::new(),
@@ -170,6 +194,7 @@ mod tests {
     use super::*;
     use crate::graded_class::tests::{graded, result};
     use crate::outcome::{EntryOutcome, FileNotes, TaskScore};
+    use crate::store::tests::run;
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
@@ -316,5 +341,31 @@ mod tests {
             .map(|drift| (drift.id.as_str(), drift.was, drift.now))
             .collect();
         assert_eq!(drifts, [("a", 80, Some(70))]);
+    }
+
+    #[test]
+    fn only_a_regrade_has_changes_and_causes() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path());
+        let first = find_regrade_changes(&store, &run(), &[]).unwrap();
+        assert!(first.is_none());
+        store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+        store.save_previous_scores().unwrap();
+        let mut settings = run().settings;
+        settings.exam_hash.push('x');
+        let second = run().next_round(settings.clone());
+        let results = [
+            result("a", &["Ann"], graded(70)),
+            result("b", &["Bob"], graded(70)),
+        ];
+        let changes = find_regrade_changes(&store, &second, &results).unwrap();
+        let changes = changes.unwrap();
+        let drifts: Vec<_> = changes
+            .drifts
+            .iter()
+            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
+            .collect();
+        assert_eq!(drifts, [("a", 80, Some(70))]);
+        assert_eq!(changes.causes, ["the exam"]);
     }
 }

@@ -9,14 +9,13 @@ use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
 use crate::cli::MergeArguments;
-use crate::entry::{EntryInfo, Person};
+use crate::entry::EntryInfo;
 use crate::error::Error;
-use crate::grade::read_manual_points;
-use crate::late::warn_about_extensions;
 use crate::list_memory::{KeptIn, ListFiles, UsedLists};
 use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, Completion};
+use crate::paths::contains;
 use crate::regrade_diff::{Changes, RemovedEntry, find_removed, find_resubmitted};
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
@@ -49,7 +48,7 @@ pub fn merge_shards(
         )));
     }
     let out = Store::new(&arguments.out);
-    let used = choose_lists(arguments, &out, &shards)?;
+    let used = choose_lists(arguments, &shards)?;
     let lists = &used.files.lists;
     let policy = match &used.files.policy {
         Some(path) => Policy::read(path)?,
@@ -80,9 +79,7 @@ pub fn merge_shards(
         lists: used.kept.clone(),
         ..run.clone()
     };
-    used.save(&out)?;
-    out.write_run(run)?;
-    used.remove_others(&out)?;
+    used.save(&out, run)?;
 
     let rows: Vec<EntryResult> = out.results()?;
     let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
@@ -93,18 +90,12 @@ pub fn merge_shards(
             .iter_mut()
             .for_each(|info| info.forget_groups_and_extensions());
     }
-    let all = infos.len();
-    let findings = lists::complete_entries(lists, &mut infos)?;
-    findings.check(lists, all)?;
+    let findings = lists::complete_entries(lists, handed_out, &mut infos)?;
+    findings.check(lists)?;
     for warning in &findings.warnings {
         print(format!("  {}\n", sanitize_line(warning, 400)));
     }
-    let missing = findings.missing;
-    let manual = read_manual_points(lists, handed_out)?;
-    let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
-    manual.check_students(&people)?;
-    let all: Vec<&Person> = people.into_iter().chain(&missing).collect();
-    warn_about_extensions(&policy, &all);
+    findings.warn_about_extensions(&policy);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
     let mut removed = find_removed(&out, &ids)?;
     for (path, _) in &shards {
@@ -124,8 +115,7 @@ pub fn merge_shards(
         run,
         lists,
         policy: &policy,
-        manual: &manual,
-        missing,
+        findings,
     };
     class.finish(rows, changes)
 }
@@ -133,12 +123,7 @@ pub fn merge_shards(
 /// Rejects an output folder in the results of a shard: each entry would be replaced while it is
 /// copied.
 fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
-    // The output folder may not exist yet.
-    let mut existing = arguments.out.ancestors();
-    let Some(out) = existing.find_map(|folder| folder.canonicalize().ok()) else {
-        return Ok(());
-    };
-    let holds_out = |shard: &&PathBuf| shard.canonicalize().is_ok_and(|s| out.starts_with(s));
+    let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {
         Some(shard) => Err(Error::User(format!(
             "{} is, or is in, the results of the shard {}: choose another folder for --out",
@@ -153,25 +138,17 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
 /// shards were graded with.
 fn choose_lists(
     arguments: &MergeArguments,
-    out: &Store,
     shards: &[(&PathBuf, Run)],
 ) -> Result<UsedLists, Error> {
     let given = ListFiles {
         policy: arguments.policy.clone(),
         lists: arguments.lists.clone(),
     };
-    let last = out.read_run()?;
-    let last = last.as_ref().map(|run| KeptIn {
-        folder: out.folder(),
-        lists: &run.lists,
-    });
     let parts = shards.iter().map(|(folder, run)| KeptIn {
         folder,
         lists: &run.lists,
     });
-    let used = UsedLists::choose(given, last, &parts.collect::<Vec<_>>())?;
-    used.print_notes();
-    Ok(used)
+    UsedLists::choose(given, Some(&arguments.out), &parts.collect::<Vec<_>>())
 }
 
 fn read_finished_run(path: &Path) -> Result<Run, Error> {

@@ -59,10 +59,11 @@ impl Shards {
         let path = self.path("given");
         fs::write(&path, text).unwrap();
         let mut given = ListFiles::default();
-        given.set(kind, path);
+        *given.path(kind) = Some(path);
         let used = UsedLists::choose(given, None, &[]).unwrap();
-        used.save(&self.store(part)).unwrap();
         self.write(part, |run| run.lists = used.kept.clone());
+        let run = self.store(part).read_run().unwrap().unwrap();
+        used.save(&self.store(part), &run).unwrap();
     }
 
     fn arguments(&self) -> MergeArguments {
@@ -169,8 +170,7 @@ fn a_given_policy_counts_instead_of_those_of_the_shards() {
         let runs: Vec<(&PathBuf, Run)> = runs
             .map(|path| (path, read_finished_run(path).unwrap()))
             .collect();
-        let out = Store::new(&arguments.out);
-        let used = choose_lists(arguments, &out, &runs).unwrap();
+        let used = choose_lists(arguments, &runs).unwrap();
         let policy = Policy::read(&used.files.policy.unwrap()).unwrap();
         policy.points.out_of
     };

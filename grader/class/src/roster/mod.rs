@@ -8,6 +8,7 @@ use std::path::Path;
 use crate::cli::Lists;
 use crate::entry::Person;
 use crate::error::Error;
+use crate::list_kind::ListKind;
 use crate::moodle_status::MoodleStatus;
 use crate::names::{are_equal, fold, number_at_end};
 use crate::table::{Table, missing_column};
@@ -55,6 +56,8 @@ pub const POINTS_POSSIBLE: &str = "Points Possible";
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
+    /// The list.
+    pub list: ListKind,
     /// The row, as spreadsheets number it.
     row: usize,
     /// The person that the row is about.
@@ -98,14 +101,14 @@ impl Member {
 }
 
 /// Reads the people in a roster or in a platform's gradebook.
-pub fn read_members(path: &Path) -> Result<Vec<Member>, Error> {
+fn read_members(path: &Path, list: ListKind) -> Result<Vec<Member>, Error> {
     let remedy = "it needs at least one of the columns name, email, sid and username; in another \
         language, column heads are not recognised";
-    let members = parse_members(&Table::read(path)?);
+    let members = parse_members(&Table::read(path)?, list);
     members.ok_or_else(|| missing_column(path, "that identifies people", remedy))
 }
 
-fn parse_members(table: &Table) -> Option<Vec<Member>> {
+fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
     let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
     let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
@@ -151,6 +154,7 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             is_listed: true,
         };
         Member {
+            list,
             row: row_number,
             person,
             // Moodle writes a dash for a participant who handed in nothing.
@@ -218,22 +222,22 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
     pairs.iter().all(|(one, other)| are_equal(one, other))
 }
 
-/// Reads a roster, and checks that no two people have the same identifier.
-pub fn read_roster(path: &Path) -> Result<Vec<Member>, Error> {
-    let members = read_members(path)?;
-    check_keys(path, &members)?;
-    Ok(members)
-}
-
-/// Reads the people on all lists. A person has a row in each list that knows them.
+/// Reads the people on all lists. A person has a row in each list that knows them. No two people in
+/// the roster may have the same identifier.
 pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
-    let mut rows = match &lists.roster {
-        Some(path) => read_roster(path)?,
-        None => Vec::new(),
-    };
-    let gradebooks = [&lists.canvas, &lists.moodle, &lists.gradescope];
-    for path in gradebooks.into_iter().flatten() {
-        rows.extend(read_members(path)?);
+    let mut rows = Vec::new();
+    if let Some(path) = &lists.roster {
+        rows = read_members(path, ListKind::Roster)?;
+        check_keys(path, &rows)?;
+    }
+    for (path, list) in [
+        (&lists.canvas, ListKind::Canvas),
+        (&lists.moodle, ListKind::Moodle),
+        (&lists.gradescope, ListKind::Gradescope),
+    ] {
+        if let Some(path) = path {
+            rows.extend(read_members(path, list)?);
+        }
     }
     Ok(rows)
 }

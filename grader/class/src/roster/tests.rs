@@ -3,7 +3,7 @@
 use super::*;
 
 fn parse_roster(table: &str) -> Vec<Member> {
-    parse_members(&Table::parse(table.as_bytes()).unwrap()).unwrap()
+    parse_members(&Table::parse(table.as_bytes()).unwrap(), ListKind::Roster).unwrap()
 }
 
 #[test]
@@ -47,7 +47,8 @@ fn one_column_that_identifies_people_is_enough() {
         assert_eq!(rows[0].person.display_name(), "x", "{name}");
         assert!(rows[0].late);
     }
-    assert!(parse_members(&Table::parse(b"group,late\nx,true\n").unwrap()).is_none());
+    let table = Table::parse(b"group,late\nx,true\n").unwrap();
+    assert!(parse_members(&table, ListKind::Roster).is_none());
     // The number that Canvas writes into a list of a group's members.
     let rows = parse_roster("name,canvas_user_id\nAnn,7001\n");
     assert_eq!(rows[0].person.number, "7001");
@@ -128,7 +129,11 @@ fn a_key_belongs_to_one_person() {
     let path = folder.path().join("roster.csv");
     let check = |table: &str| {
         std::fs::write(&path, table).unwrap();
-        read_roster(&path).map(drop)
+        let lists = Lists {
+            roster: Some(path.clone()),
+            ..Lists::default()
+        };
+        read_lists(&lists).map(drop)
     };
     let sections = "name,email,section\nAnn,a@x.edu,1\nann,A@x.edu,2\n";
     assert!(check(sections).is_ok());

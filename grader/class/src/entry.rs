@@ -110,6 +110,19 @@ fn is_false(flag: &bool) -> bool {
     !flag
 }
 
+impl Entry {
+    /// Returns the entry of one person. `from` is the file or folder that it was read from.
+    pub fn new(id: impl Into<String>, person: Person, from: &str, source: Source) -> Self {
+        let info = EntryInfo {
+            people: vec![person],
+            from: from.to_owned(),
+            ..EntryInfo::default()
+        };
+        let id = id.into();
+        Entry { id, info, source }
+    }
+}
+
 /// The location of an entry's files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {

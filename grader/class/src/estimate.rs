@@ -1,7 +1,8 @@
 //! `--estimate`: how long a class takes, from the first submissions that are graded.
 
-use std::fmt::Write;
 use std::time::Duration;
+
+use crate::plural::count;
 
 /// The numbers of machines for which the time is given.
 const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
@@ -40,12 +41,8 @@ impl Estimate {
         };
         let mut text = String::new();
         let seconds = mean.as_secs_f64();
-        let count = match self.times.len() {
-            1 => "1 submission".to_owned(),
-            count => format!("{count} submissions"),
-        };
-        let mut line =
-            |line: String| writeln!(text, "  {line}").expect("writing to a string succeeds");
+        let count = count(self.times.len(), "submission");
+        let mut line = |line: String| text += &format!("  {line}\n");
         line(format!(
             "\n  estimate from {count}: {seconds:.1} s per submission on one core"
         ));

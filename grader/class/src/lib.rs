@@ -19,7 +19,7 @@
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
-//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
+//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`plural`], [`queue`], [`shard`] |
 
 pub mod archive;
 pub mod attempts;
@@ -51,6 +51,7 @@ pub mod names;
 pub mod outcome;
 pub mod output;
 pub mod paths;
+pub mod plural;
 pub mod progress;
 pub mod queue;
 pub mod regrade_diff;

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use grader::handed_out::HandedOut;
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, Person, Source};
 use crate::listing::Node;
 use crate::names::is_number;
 use crate::roster::Member;
@@ -195,7 +195,7 @@ pub(super) fn read(root: &Node, handed_out: &HandedOut, known: &[Member]) -> Lay
     }
     entries.extend(of_texts.into_values().map(|(name, node)| {
         let source = Source::Missing(TEXT_ONLY.to_owned());
-        entry(&name, name.late, node.name.clone(), source)
+        entry(&name, name.late, &node.name, source)
     }));
     (entries, others)
 }
@@ -206,20 +206,15 @@ fn ambiguous(ways: &[CanvasName], node: &Node) -> Entry {
         .iter()
         .map(|name| format!("{} of {}", name.user, name.who));
     let users: Vec<String> = users.collect();
-    Entry {
-        id: node.name.clone(),
-        info: EntryInfo {
-            people: vec![Person::named_by_file(&node.name)],
-            late: ways.iter().any(|name| name.late),
-            from: node.name.clone(),
-            ..EntryInfo::default()
-        },
-        source: Source::Missing(format!(
-            "its name can be read with the user number {}: pass a gradebook that has one of them with \
-             --canvas, or rename the file",
-            users.join(" or ")
-        )),
-    }
+    let why = format!(
+        "its name can be read with the user number {}: pass a gradebook that has one of them with \
+         --canvas, or rename the file",
+        users.join(" or ")
+    );
+    let person = Person::named_by_file(&node.name);
+    let mut entry = Entry::new(&node.name, person, &node.name, Source::Missing(why));
+    entry.info.late = ways.iter().any(|name| name.late);
+    entry
 }
 
 /// Returns the entry for all files of one user.
@@ -261,23 +256,17 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -
     let is_zip = attachment.name.to_lowercase().ends_with(".zip");
     let end = if is_zip { "" } else { ".html" };
     let is_first = readings(&attachment.name).first() == Some(name);
-    let mut entry = entry(last, files.iter().any(|(name, _)| name.late), from, source);
+    let mut entry = entry(last, files.iter().any(|(name, _)| name.late), &from, source);
     entry.info.hand_back_as = is_first.then(|| format!("{}{end}", attachment.name));
     entry
 }
 
-fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
-    Entry {
-        id: format!("{}_{}", name.who, name.user),
-        info: EntryInfo {
-            people: vec![name.person()],
-            late,
-            marks_late: true,
-            from,
-            ..EntryInfo::default()
-        },
-        source,
-    }
+fn entry(name: &CanvasName, late: bool, from: &str, source: Source) -> Entry {
+    let id = format!("{}_{}", name.who, name.user);
+    let mut entry = Entry::new(id, name.person(), &from, source);
+    entry.info.late = late;
+    entry.info.marks_late = true;
+    entry
 }
 
 /// Removes the number that Canvas appends to the name of a file that is handed in again.

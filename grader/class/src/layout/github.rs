@@ -3,7 +3,7 @@
 //! `scores.csv` beside them.
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, Person, Source};
 use crate::listing::Node;
 
 /// The suffix of the folder that GitHub Classroom's tool creates.
@@ -58,18 +58,12 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     for node in root.children() {
         if node.is_folder() {
             let login = node.name.strip_prefix(&prefix).unwrap_or(&node.name);
-            entries.push(Entry {
-                id: login.to_owned(),
-                info: EntryInfo {
-                    people: vec![Person {
-                        login: login.to_owned(),
-                        ..Person::default()
-                    }],
-                    from: node.name.clone(),
-                    ..EntryInfo::default()
-                },
-                source: Source::Path(node.path.clone()),
-            });
+            let person = Person {
+                login: login.to_owned(),
+                ..Person::default()
+            };
+            let source = Source::Path(node.path.clone());
+            entries.push(Entry::new(login, person, &node.name, source));
         } else if node.name != CLASSROOM50_SCORES {
             others.push(unmatched_path(node, "it is not a repository"));
         }

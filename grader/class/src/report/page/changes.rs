@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::sanitized;
 use super::submissions::report_link;
+use crate::plural::count;
 use crate::regrade_diff::{Changes, Drift};
 use crate::report::text::with_changed_points;
 
@@ -45,25 +46,20 @@ pub(super) fn sections(changes: &Changes) -> Markup {
 }
 
 fn drifts(drifts: &[&Drift]) -> Markup {
-    let now = |drift: &Drift| {
-        drift
-            .now
-            .map_or("no score".to_owned(), |now| now.to_string())
-    };
-    let points = |points: Option<u32>| points.map_or("–".to_owned(), |points| points.to_string());
     html! {
         @if drifts.is_empty() { p { "No score changed." } }
         ul {
             @for drift in drifts {
                 li {
                     a href=(report_link(&drift.id)) { (sanitized(&drift.id)) }
-                    ": " strong { (drift.was) " → " (now(drift)) }
+                    ": " strong { (drift.was) " → " (drift.now_text()) }
                     @if !drift.items.is_empty() { details {
-                        summary { (item_count(drift.items.len())) }
+                        summary { (count(drift.items.len(), "item")) }
                         ul { @for item in &drift.items {
+                            @let [was, now] = item.point_texts();
                             li {
                                 code { (sanitized(&item.item)) } " "
-                                (points(item.was)) " → " (points(item.now)) ": "
+                                (was) " → " (now) ": "
                                 (sanitized(&item.why))
                             }
                         } } }
@@ -71,12 +67,5 @@ fn drifts(drifts: &[&Drift]) -> Markup {
                 }
             }
         }
-    }
-}
-
-fn item_count(count: usize) -> String {
-    match count {
-        1 => "1 item".to_owned(),
-        count => format!("{count} items"),
     }
 }

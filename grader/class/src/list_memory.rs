@@ -100,17 +100,13 @@ impl UsedLists {
     ) -> Result<(), Error> {
         let (name, title) = (kind.name(), kind.title());
         let last = out.and_then(|out| Some((out.folder, out.lists.get(&kind)?)));
-        if let Some(path) = self.files.path(kind).clone() {
+        let (list, bytes) = if let Some(path) = self.files.path(kind).clone() {
             let bytes = read(kind, &path)?;
+            let column = self.files.lists.column.clone();
             let list = KeptList {
                 hash: file_hash(&bytes),
                 given_as: path.display().to_string(),
-                column: self
-                    .files
-                    .lists
-                    .column
-                    .clone()
-                    .filter(|_| kind == ListKind::Canvas),
+                column: column.filter(|_| kind == ListKind::Canvas),
                 is_of_parts: false,
             };
             if last.is_some_and(|(_, last)| !last.is_same(&list)) {
@@ -118,57 +114,38 @@ impl UsedLists {
                     "{title} differs from the last run's, so final points may change"
                 ));
             }
-            self.copies.insert(kind, bytes);
-            self.kept.insert(kind, list);
+            (list, bytes)
+        } else if self.files.lists.drop_list.contains(&kind) {
+            let dropped = last.map(|_| format!("{title} of the last run no longer counts"));
+            self.notes.extend(dropped);
             return Ok(());
-        }
-        if self.files.lists.drop_list.contains(&kind) {
-            if last.is_some() {
-                self.notes
-                    .push(format!("{title} of the last run no longer counts"));
-            }
-            return Ok(());
-        }
-        let (folder, list) = match last {
-            Some((folder, list)) if !list.is_of_parts || parts.is_empty() => (folder, list.clone()),
-            Some(_) | None => match one_of_parts(kind, parts)? {
-                Some((folder, list)) => (
-                    folder,
-                    KeptList {
-                        is_of_parts: true,
-                        ..list.clone()
-                    },
-                ),
-                None => return Ok(()),
-            },
-        };
-        let path = copy_path(folder, kind, &list);
-        let bytes = match files::read(&path) {
-            Ok(bytes) if file_hash(&bytes) == list.hash => bytes,
-            Err(error) if error.source.kind() != ErrorKind::NotFound => {
-                return Err(Error::user(error));
-            }
-            Ok(_) | Err(_) => {
-                let path = path.display();
-                return Err(Error::User(format!(
-                    "{path} is missing or has changed, and {title} of the last run is still \
-                     needed: pass it again with --{name}, or drop it with --drop-list {name}"
-                )));
-            }
-        };
-        let of = if list.is_of_parts {
-            "parts"
         } else {
-            "last run"
+            let own = last.filter(|(_, list)| !list.is_of_parts || parts.is_empty());
+            let of_parts = match own {
+                Some(_) => None,
+                None => one_of_parts(kind, parts)?,
+            };
+            let Some((folder, list)) = own.or(of_parts) else {
+                return Ok(());
+            };
+            let is_of_parts = list.is_of_parts || of_parts.is_some();
+            let path = copy_path(folder, kind, list);
+            let bytes = read_copy(kind, &path, list)?;
+            self.notes.push(format!(
+                "using {title} of the {}, {}; --drop-list {name} drops it",
+                if is_of_parts { "parts" } else { "last run" },
+                list.given_as
+            ));
+            if kind == ListKind::Canvas && self.files.lists.column.is_none() {
+                self.files.lists.column.clone_from(&list.column);
+            }
+            *self.files.path(kind) = Some(path);
+            let list = KeptList {
+                is_of_parts,
+                ..list.clone()
+            };
+            (list, bytes)
         };
-        self.notes.push(format!(
-            "using {title} of the {of}, {}; --drop-list {name} drops it",
-            list.given_as
-        ));
-        if kind == ListKind::Canvas && self.files.lists.column.is_none() {
-            self.files.lists.column.clone_from(&list.column);
-        }
-        *self.files.path(kind) = Some(path);
         self.copies.insert(kind, bytes);
         self.kept.insert(kind, list);
         Ok(())
@@ -229,6 +206,21 @@ fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
     folder
         .join(FOLDER)
         .join(format!("{}-{hash}.{extension}", kind.name()))
+}
+
+/// Reads a copy, which must be as it was written.
+fn read_copy(kind: ListKind, path: &Path, list: &KeptList) -> Result<Vec<u8>, Error> {
+    match files::read(path) {
+        Ok(bytes) if file_hash(&bytes) == list.hash => Ok(bytes),
+        Err(error) if error.source.kind() != ErrorKind::NotFound => Err(Error::user(error)),
+        Ok(_) | Err(_) => {
+            let (path, name, title) = (path.display(), kind.name(), kind.title());
+            Err(Error::User(format!(
+                "{path} is missing or has changed, and {title} of the last run is still needed: \
+                 pass it again with --{name}, or drop it with --drop-list {name}"
+            )))
+        }
+    }
 }
 
 fn read(kind: ListKind, path: &Path) -> Result<Vec<u8>, Error> {

@@ -12,7 +12,7 @@ use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
 
-use crate::archive;
+use crate::archive::ArchiveWriter;
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
@@ -159,9 +159,15 @@ impl Store {
     /// Writes the task files that are graded.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
         let path = self.entry_folder(id).join(SUBMISSION);
-        let files = submission.files.iter();
-        let files = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
-        Ok(atomic_write::write(archive::pack(files), &path)?)
+        let mut archive = ArchiveWriter::new();
+        for (file, text) in &submission.files {
+            if let Ok(text) = text {
+                let added = archive.add(file.name, text.as_bytes());
+                added.expect("writing to memory succeeds");
+            }
+        }
+        let archive = archive.finish().expect("writing to memory succeeds");
+        Ok(atomic_write::write(archive, &path)?)
     }
 
     /// Reads the page that the student may see.

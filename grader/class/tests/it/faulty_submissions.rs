@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::harness::{TestClass, successful_stdout};
+use crate::harness::{TestClass, assert_contains, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
@@ -68,7 +68,7 @@ fn the_page_for_a_student_has_nothing_that_the_program_wrote() {
         .with_reference("sender2")
         .with_replaced("sender2/camera.rs", head, &sends(0x61c8_8646));
     let exam = class.small_exam(&ITEMS);
-    successful_stdout(&class.grade(&exam, &[]));
+    class.graded(&exam, &[]);
     let page = |id: &str, name: &str| {
         let page = class.read(&format!("students/{id}/{name}.html"));
         page.replace(id, "sender")
@@ -99,7 +99,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     link("alice", "linked-student");
     link("../alice.zip", "linked-archive/work.zip");
     let exam = class.small_exam(&ITEMS);
-    successful_stdout(&class.grade(&exam, &[]));
+    class.graded(&exam, &[]);
     let grades = class.read("grades.csv");
     let line = |id: &str| {
         let line = grades.lines().find(|line| line.starts_with(id));
@@ -114,8 +114,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
         ("linked-archive,", "work.zip"),
     ] {
         let (line, why) = (line(id), format!("{link} is a link"));
-        assert!(line.contains("nothing to grade,,,"), "{line}");
-        assert!(line.contains(&why), "{line}");
+        assert_contains(&line, &["nothing to grade,,,", &why]);
     }
     assert!(class.preview().contains(".hidden"), "{}", class.preview());
 }
@@ -150,7 +149,8 @@ fn an_unreadable_folder_is_listed_with_the_reason() {
         return;
     }
     let line = "locked: nothing to grade: the folder or file cannot be read: permission denied";
-    assert!(preview.contains(line), "{preview}");
-    assert!(preview.contains("alice: all 5 files"), "{preview}");
-    assert!(preview.contains("partly locked: all 5 files"), "{preview}");
+    assert_contains(
+        &preview,
+        &[line, "alice: all 5 files", "partly locked: all 5 files"],
+    );
 }

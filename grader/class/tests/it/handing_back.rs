@@ -1,46 +1,22 @@
 //! The archive with the pages to hand back, named as each platform expects it.
 
-use std::fs::File;
-use std::io::{Cursor, Read, Seek, Write};
+use grader::handed_out::RAYS;
 
-use zip::write::SimpleFileOptions;
-use zip::{ZipArchive, ZipWriter};
-
-use crate::harness::{TestClass, successful_stdout, workspace};
+use crate::harness::{TestClass, assert_contains, source, unzip, zip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
 /// Returns a zip with the reference's task files.
 fn solution() -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for file in grader::handed_out::RAYS.file_names() {
-        let text = std::fs::read(workspace().join("reference/src").join(file)).unwrap();
-        writer
-            .start_file(file, SimpleFileOptions::default())
-            .unwrap();
-        writer.write_all(&text).unwrap();
-    }
-    writer.finish().unwrap().into_inner()
-}
-
-/// Returns the names in an archive, and the text of each file.
-fn contents(archive: impl Read + Seek) -> Vec<(String, Vec<u8>)> {
-    let mut archive = ZipArchive::new(archive).unwrap();
-    let mut files = Vec::new();
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index).unwrap();
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).unwrap();
-        files.push((file.name().unwrap().into_owned(), bytes));
-    }
-    files
+    let read = |file: &'static str| (file, source(&format!("reference/src/{file}")));
+    zip(RAYS.file_names().map(read))
 }
 
 fn hand_back(class: &TestClass, more: &[&str]) -> (Vec<(String, Vec<u8>)>, String) {
     let exam = class.small_exam(&ITEMS);
-    let text = successful_stdout(&class.grade(&exam, &[&["--hand-back"], more].concat()));
-    let archive = File::open(class.out().join("hand-back.zip")).unwrap();
-    (contents(archive), text)
+    let text = class.graded(&exam, &[&["--hand-back"], more].concat());
+    let archive = std::fs::read(class.out().join("hand-back.zip")).unwrap();
+    (unzip(&archive), text)
 }
 
 fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
@@ -50,7 +26,7 @@ fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
 /// Canvas finds the submission by the numbers of the user and of one of their attachments.
 #[test]
 fn canvas_gets_each_page_under_the_name_of_an_attachment() {
-    let bvh = std::fs::read(workspace().join("reference/src/bvh.rs")).unwrap();
+    let bvh = source("reference/src/bvh.rs");
     let class = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", solution())
         .with("doejane_7001_9002_notes.pdf", "text")
@@ -69,22 +45,20 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
         "leeann_LATE_7002_9003_bvh.rs.html",
     ];
     assert_eq!(names(&files), expected);
-    assert!(text.contains("to hand back: 3 pages"), "{text}");
-    assert!(
-        text.contains("not in it: emptyeve: nothing to grade"),
-        "{text}"
+    assert_contains(
+        &text,
+        &[
+            "to hand back: 3 pages",
+            "not in it: emptyeve: nothing to grade",
+        ],
     );
-    let inner = contents(Cursor::new(&files[1].1));
+    let inner = unzip(&files[1].1);
     assert_eq!(names(&inner), ["Doe__Jane_feedback.html"]);
     let page = String::from_utf8(inner[0].1.clone()).unwrap();
     assert!(page.contains("Doe, Jane") && page.ends_with("</html>"));
     // The name in the gradebook is also in the table and on the class's page.
-    assert!(
-        class
-            .read("grades.csv")
-            .contains("doejane_7001,\"Doe, Jane\",")
-    );
-    assert!(class.read("class.html").contains("Doe, Jane"));
+    assert_contains(&class.read("grades.csv"), &["doejane_7001,\"Doe, Jane\","]);
+    assert_contains(&class.read("class.html"), &["Doe, Jane"]);
 }
 
 /// Moodle splits the name at its first four underscores: the second part is the participant.
@@ -96,10 +70,7 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
     // Without a list, a number could be a group's, and a stranger would get the page.
     let (files, text) = hand_back(&class, &[]);
     assert_eq!(names(&files), [""; 0]);
-    assert!(
-        text.contains("pass Moodle's worksheet with --moodle"),
-        "{text}"
-    );
+    assert_contains(&text, &["pass Moodle's worksheet with --moodle"]);
     let worksheet = class.write_beside(
         "worksheet.csv",
         "Identifier,Full name,Grade\nParticipant 301,José Núñez,\nParticipant 302,An_n Lee,\n",
@@ -119,13 +90,8 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
 
 #[test]
 fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
-    let class = TestClass::named("class")
-        .with_reference("a")
-        .with_reference("b")
-        .with_reference("c")
-        .with_reference("d")
-        .with_reference("e")
-        .with_reference("f");
+    let folders = ["a", "b", "c", "d", "e", "f"].into_iter();
+    let class = folders.fold(TestClass::named("class"), TestClass::with_reference);
     let roster = class.write_beside(
         "roster.csv",
         "name,username,group,datetime\n../../Ann,a,,\nCON,b,,\n-rf,c,,\n\

@@ -7,8 +7,6 @@ mod gradebooks;
 mod handing_back;
 mod harness;
 mod identity;
-#[cfg(target_os = "linux")]
-mod large_class;
 mod layouts;
 mod machine_faults;
 mod merging;

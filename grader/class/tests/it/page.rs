@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::harness::{TestClass, successful_stdout};
+use crate::harness::TestClass;
 
 /// Keep these names in sync with `grader/tests/browser/chromium.rs`.
 const BROWSERS: [&str; 5] = [
@@ -80,7 +80,7 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
     let late = "[late]\ndue = 2026-11-20T23:59:59Z\npercent_per_day = 10\n";
     let policy = class.write_beside("policy.toml", late);
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
-    successful_stdout(&class.grade(&exam, &["--roster", &roster, "--policy", &policy]));
+    class.graded(&exam, &["--roster", &roster, "--policy", &policy]);
     let page = class.read("class.html");
     assert!(page.contains("whatever <code>offset</code> is"), "{page}");
     assert!(page.contains("<th scope=\"row\">2 days late</th><td class=\"number\">1</td>"));

@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::process::Output;
 
-use crate::harness::{TestClass, class_command, comparable_files, successful_stdout};
+use crate::harness::{
+    TestClass, assert_contains, class_command, comparable_files, successful_stdout,
+};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
@@ -34,7 +36,7 @@ fn merged_shards_equal_an_unsharded_run() {
     let exam = class.small_exam(&ITEMS);
     let policy = class.write_beside("policy.toml", "[points]\nout_of = 7\n");
     let more = ["--policy", policy.as_str()];
-    successful_stdout(&class.grade(&exam, &more));
+    class.graded(&exam, &more);
     let shards = ["1/2", "2/2"].map(|which| grade_shard(&class, &exam, which, &more));
     let [one, two] = shards.each_ref().map(String::as_str);
     let out = class.path_beside("merged");
@@ -50,10 +52,15 @@ fn an_estimate_grades_a_few_submissions_and_keeps_their_results() {
         .with_reference("dora")
         .with_reference("eve");
     let exam = class.small_exam(&ITEMS);
-    let estimate = || successful_stdout(&class.grade(&exam, &["--estimate", "--jobs", "1"]));
+    let estimate = || class.graded(&exam, &["--estimate", "--jobs", "1"]);
     let text = estimate();
-    assert!(text.contains("estimate from 2 submissions"), "{text}");
-    assert!(text.contains("2 more submissions, 1 at a time"), "{text}");
+    assert_contains(
+        &text,
+        &[
+            "estimate from 2 submissions",
+            "2 more submissions, 1 at a time",
+        ],
+    );
     assert!(
         text.contains("64 machines like this") && text.contains("core-hours"),
         "{text}"

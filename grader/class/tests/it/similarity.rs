@@ -1,23 +1,11 @@
 //! The input for similarity checkers, and the list of identical submissions.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(files(&path));
-        } else {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
+use crate::harness::{
+    TestClass, assert_contains, class_command, exit_code_and_stderr, files_below, successful_stdout,
+};
 
 fn run(class: &TestClass, folder: &Path, more: &[&str]) -> (i32, String, String) {
     let mut command = class_command();
@@ -61,15 +49,17 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
     );
     let folder = class.path_beside("own");
     let (_, text, _) = run(&class, &folder, &["--roster", &roster]);
-    assert!(text.contains("  identical: ann_lee, bob\n"), "{text}");
-    assert!(
-        text.contains("  identical (same group): z1, z2\n"),
-        "{text}"
+    assert_contains(
+        &text,
+        &[
+            "  identical: ann_lee, bob\n",
+            "  identical (same group): z1, z2\n",
+        ],
     );
     // Those who have written nothing are identical, too, and not worth a word.
     assert!(!text.contains("identical: dora"), "{text}");
 
-    let written = files(&folder);
+    let written = files_below(&folder);
     assert_eq!(written.len(), 5 * 5, "{written:?}");
     for path in &written {
         let (path, text) = (path.to_str().unwrap(), fs::read_to_string(path).unwrap());

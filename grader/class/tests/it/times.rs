@@ -1,8 +1,6 @@
 //! Submission times, extensions and late flags, as rosters and platforms write them.
 
-use std::fs;
-
-use crate::harness::{TestClass, cell, successful_stdout, workspace};
+use crate::harness::{TestClass, assert_contains, cell, source};
 
 const POLICY: &str = "[late]\ndue = 2026-10-20T23:59:00+02:00\ntimezone = 'Europe/Berlin'\n\
                       percent_per_day = 10\n";
@@ -12,11 +10,11 @@ fn grade(class: &TestClass, policy: &str, lists: &[&str]) -> String {
     let exam = class.small_exam(&["camera.offset"]);
     let policy = class.write_beside("policy.toml", policy);
     let arguments = [&["--policy", &policy], lists].concat();
-    successful_stdout(&class.grade(&exam, &arguments))
+    class.graded(&exam, &arguments)
 }
 
-fn camera() -> Vec<u8> {
-    fs::read(workspace().join("reference/src/camera.rs")).unwrap()
+fn camera() -> String {
+    source("reference/src/camera.rs")
 }
 
 /// Returns the status, the late days and the reason for one person.
@@ -151,8 +149,5 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
         "the extension \"lundi 26 octobre 2026, 23:59\"",
     );
     is_open("German_4", "German", "set Moodle's language to English");
-    assert!(
-        text.contains("Draft: the status in Moodle's worksheet"),
-        "{text}"
-    );
+    assert_contains(&text, &["Draft: the status in Moodle's worksheet"]);
 }

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use self::cases::{PART, cases};
 use self::platforms::{Platform, Student, students};
-use crate::harness::{TestClass, successful_stdout};
+use crate::harness::TestClass;
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str = "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T23:59:59+01:00\n\
@@ -45,7 +45,7 @@ fn check(platform: Platform) {
     let lists = platform.lists(&class, &students);
     let lists = lists.iter().map(String::as_str);
     let options: Vec<&str> = ["--policy", &policy].into_iter().chain(lists).collect();
-    let text = successful_stdout(&class.grade(&exam, &options));
+    let text = class.graded(&exam, &options);
     check_grades(platform, &class, &students);
     check_counts(platform, &class, &text);
     check_gradebook(platform, &class, &students);

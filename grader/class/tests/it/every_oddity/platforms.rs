@@ -1,7 +1,7 @@
 //! The same submissions as each platform exports them, with its list of the class.
 
-use super::cases::{Case, Files, zipped};
-use crate::harness::TestClass;
+use super::cases::{Case, Files};
+use crate::harness::{TestClass, zip};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Platform {
@@ -111,7 +111,7 @@ impl Platform {
             } else {
                 format!("{prefix}hw.zip")
             };
-            return vec![(path, zipped(files.clone()))];
+            return vec![(path, zip(files.clone()))];
         }
         let named = files.iter();
         let named = named.map(|(path, bytes)| (format!("{prefix}{path}"), bytes.clone()));

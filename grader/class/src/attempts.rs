@@ -92,9 +92,11 @@ fn choose(
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
     use crate::entry::Person;
-    use crate::graded_class::tests::{graded, policy, result};
+    use crate::graded_class::tests::{graded, person, policy, result};
 
     /// Returns a row for each submission: its id, its outcome and its time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
@@ -229,10 +231,7 @@ mod tests {
     #[test]
     fn a_submission_that_lists_a_person_twice_is_one_attempt() {
         let twice = |mut row: ClassRow| {
-            let person = Person {
-                email: "a@x.edu".to_owned(),
-                ..Person::named("Ann")
-            };
+            let person = person(json!({ "name": "Ann", "email": "a@x.edu" }));
             let partner = Person {
                 name: "Bob".to_owned(),
                 ..person.clone()

@@ -278,7 +278,10 @@ impl EntryInfo {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
+    use crate::graded_class::tests::person;
 
     #[test]
     fn people_match_by_identifier_and_not_by_name() {
@@ -294,10 +297,7 @@ mod tests {
 
     #[test]
     fn a_number_counts_only_with_the_name() {
-        let with_number = |name: &str| Person {
-            number: "51".to_owned(),
-            ..Person::named(name)
-        };
+        let with_number = |name: &str| person(json!({ "name": name, "number": "51" }));
         for (one, other) in [
             ("Ann Lee", "Lee, Ann"),
             ("", "Ann Lee"),
@@ -315,25 +315,15 @@ mod tests {
 
     #[test]
     fn what_is_not_known_identifies_nobody() {
-        let ann = Person {
-            sid: "17".to_owned(),
-            ..Person::named("Ann")
-        };
+        let ann = person(json!({ "name": "Ann", "sid": "17" }));
         assert_eq!(ann.identifiers().collect::<Vec<_>>(), ["17", "Ann"]);
         assert_eq!(Person::default().identifiers().next(), None);
     }
 
     #[test]
     fn another_roster_counts_for_groups_and_extensions() {
-        let listed = Person {
-            group: "Team A".to_owned(),
-            extension: "2".to_owned(),
-            ..Person::named("Ann")
-        };
-        let of_group = Person {
-            is_from_group: true,
-            ..Person::named("Bob")
-        };
+        let listed = person(json!({ "name": "Ann", "group": "Team A", "extension": "2" }));
+        let of_group = person(json!({ "name": "Bob", "is_from_group": true }));
         let mut info = EntryInfo {
             people: vec![listed, of_group],
             ..EntryInfo::default()

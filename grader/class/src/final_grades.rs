@@ -92,21 +92,20 @@ impl GradeHistory {
     pub fn after(earlier: Option<GradeHistory>, run: &Run, class: &GradedClass) -> Self {
         let last = earlier.as_ref().map(|earlier| &earlier.now);
         let now = FinalGrades::new(run, class, last);
-        match earlier {
-            Some(earlier) if earlier.now == now => earlier,
+        let Some(earlier) = earlier else {
+            return GradeHistory { before: None, now };
+        };
+        if earlier.now == now {
+            return earlier;
+        }
+        let before = match earlier.before {
             // The comparison lasts until all submissions are graded.
-            Some(GradeHistory {
-                before: Some(before),
-                now: last,
-            }) if last.is_incomplete => GradeHistory {
-                before: Some(before),
-                now,
-            },
-            Some(GradeHistory { now: before, .. }) => GradeHistory {
-                before: Some(before),
-                now,
-            },
-            None => GradeHistory { before: None, now },
+            Some(before) if earlier.now.is_incomplete => before,
+            Some(_) | None => earlier.now,
+        };
+        GradeHistory {
+            before: Some(before),
+            now,
         }
     }
 
@@ -163,12 +162,9 @@ impl FinalGrades {
         match self.find(now) {
             Some(was) if was.counts == now.counts => None,
             Some(was) => Some(now.change(was, causes)),
-            None => now.counts.map(|_| GradeChange {
-                id: now.submission.clone(),
-                who: now.person.display_name().to_owned(),
-                was: "–".to_owned(),
-                now: now.value(false),
-                why: "the submission now counts for this person as well".to_owned(),
+            None => now.counts.map(|_| {
+                let why = "the submission now counts for this person as well";
+                now.changed("–".to_owned(), now.value(false), why.to_owned())
             }),
         }
     }
@@ -176,12 +172,9 @@ impl FinalGrades {
     /// Returns the change of an earlier grade that is not among these, whose submission still is.
     fn loss(&self, was: &FinalGrade) -> Option<GradeChange> {
         self.of(&was.submission).next()?;
-        (was.counts.is_some() && self.find(was).is_none()).then(|| GradeChange {
-            id: was.submission.clone(),
-            who: was.person.display_name().to_owned(),
-            was: was.value(false),
-            now: "–".to_owned(),
-            why: "the submission no longer counts for this person".to_owned(),
+        (was.counts.is_some() && self.find(was).is_none()).then(|| {
+            let why = "the submission no longer counts for this person";
+            was.changed(was.value(false), "–".to_owned(), why.to_owned())
         })
     }
 
@@ -241,12 +234,17 @@ impl FinalGrade {
         if why.is_empty() {
             why = causes.iter().map(|cause| (*cause).to_owned()).collect();
         }
+        let was = was.value(with_maximum);
+        self.changed(was, self.value(with_maximum), why.join(", "))
+    }
+
+    fn changed(&self, was: String, now: String, why: String) -> GradeChange {
         GradeChange {
             id: self.submission.clone(),
             who: self.person.display_name().to_owned(),
-            was: was.value(with_maximum),
-            now: self.value(with_maximum),
-            why: why.join(", "),
+            was,
+            now,
+            why,
         }
     }
 }

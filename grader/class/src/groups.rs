@@ -85,16 +85,16 @@ pub fn add_group_members(rows: &[Member], entries: &mut [&mut EntryInfo]) -> boo
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
     use crate::cli::Lists;
+    use crate::graded_class::tests::person;
     use crate::roster::read_lists;
 
     fn submitted_by(login: &str) -> EntryInfo {
         EntryInfo {
-            people: vec![Person {
-                login: login.to_owned(),
-                ..Person::default()
-            }],
+            people: vec![person(json!({ "login": login }))],
             ..EntryInfo::default()
         }
     }

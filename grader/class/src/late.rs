@@ -193,17 +193,16 @@ fn extensions(
 /// Prints a warning for each of the policy's extensions that belongs to none of these people, or to
 /// several who have the same name.
 pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
-    for name in unmatched_extensions(policy, people) {
+    let unmatched = unmatched_extensions(policy, people).into_iter();
+    let unmatched = unmatched.map(|name| (name, "who is not in this class"));
+    let shared = extensions_of_namesakes(policy, people).into_iter();
+    let advice = "and several people with this name get it: write an email address or student number \
+                  in its place";
+    let shared = shared.map(|name| (name, advice));
+    for (name, problem) in unmatched.chain(shared) {
         let name = sanitize(name, 200);
         print_error_line(format_args!(
-            "the policy has an extension for {name:?}, who is not in this class"
-        ));
-    }
-    for name in extensions_of_namesakes(policy, people) {
-        let name = sanitize(name, 200);
-        print_error_line(format_args!(
-            "the policy has an extension for {name:?}, and several people with this name get it: \
-             write an email address or student number in its place"
+            "the policy has an extension for {name:?}, {problem}"
         ));
     }
 }
@@ -243,13 +242,10 @@ pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
+    use serde_json::json;
 
     use super::*;
-
-    fn policy(text: &str) -> Policy {
-        Policy::from_text(Path::new("policy.toml"), text).unwrap()
-    }
+    use crate::graded_class::tests::{person, policy};
 
     fn late_flag() -> EntryInfo {
         EntryInfo {
@@ -285,20 +281,15 @@ mod tests {
     #[test]
     fn an_extension_for_a_group_or_in_other_letters_belongs_to_somebody() {
         let policy = policy("[late.extensions]\n'Ann LEE' = 2\n'Team A' = 1\n'Team B' = 1");
-        let ann = Person {
-            group: "team a".to_owned(),
-            ..Person::named("ann lee")
-        };
+        let ann = person(json!({ "name": "ann lee", "group": "team a" }));
         assert_eq!(unmatched_extensions(&policy, &[&ann]), ["Team B"]);
     }
 
     #[test]
     fn an_extension_by_name_should_be_for_one_person() {
         let policy = policy("[late.extensions]\n'ann lee' = 2\nu1 = 2\n'team a' = 1");
-        let ann = |sid: &str, group: &str| Person {
-            sid: sid.to_owned(),
-            group: group.to_owned(),
-            ..Person::named("Ann Lee")
+        let ann = |sid: &str, group: &str| {
+            person(json!({ "name": "Ann Lee", "sid": sid, "group": group }))
         };
         let shared = |people: &[&Person]| extensions_of_namesakes(&policy, people);
         let (one, other) = (ann("u1", "team a"), ann("u2", "team a"));
@@ -360,11 +351,7 @@ mod tests {
         let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z\n[late.extensions]\n'team a' = 1");
         let info = submitted("2026-11-22T12:00:00Z", false);
         let hours = |group: &str, extension: &str| {
-            let person = Person {
-                group: group.to_owned(),
-                extension: extension.to_owned(),
-                ..Person::named("Ann")
-            };
+            let person = person(json!({ "name": "Ann", "group": group, "extension": extension }));
             let late = lateness(&policy, &info, &person);
             late.map(|late| late.seconds / 3600)
         };

@@ -139,7 +139,10 @@ mod tests {
 
     use grader::handed_out::RAYS;
 
+    use serde_json::json;
+
     use super::*;
+    use crate::graded_class::tests::person;
 
     /// Writes a list into the folder.
     fn list(folder: &tempfile::TempDir, name: &str, text: &str) -> Option<PathBuf> {
@@ -149,10 +152,7 @@ mod tests {
     }
 
     fn with_login(login: &str) -> Person {
-        Person {
-            login: login.to_owned(),
-            ..Person::default()
-        }
+        person(json!({ "login": login }))
     }
 
     fn entry(person: Person) -> EntryInfo {
@@ -177,10 +177,7 @@ mod tests {
             gradescope: list(&folder, "gradescope.csv", gradescope),
             ..Lists::default()
         };
-        let mut ann = entry(Person {
-            email: "ann@x.edu".to_owned(),
-            ..Person::default()
-        });
+        let mut ann = entry(person(json!({ "email": "ann@x.edu" })));
         let missing = complete_entries(&lists, &RAYS, &mut [&mut ann])
             .unwrap()
             .missing;

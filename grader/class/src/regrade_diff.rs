@@ -87,19 +87,21 @@ fn find_drifts(
     Ok(drifts)
 }
 
-/// Returns the entries in the store that are not among `ids`.
-pub fn find_removed(store: &Store, ids: &[&str]) -> Result<Vec<RemovedEntry>, Error> {
-    let mut removed = Vec::new();
-    for id in store.ids()? {
-        if ids.contains(&id.as_str()) {
-            continue;
-        }
-        if let Some(result) = store.result(&id)? {
-            removed.push(RemovedEntry {
-                names: result.info.display_names(),
-                points: result.score().map(|score| score.points),
-                id,
-            });
+/// Returns the entries in the stores that are not among `ids`, each once.
+pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<RemovedEntry>, Error> {
+    let mut removed: Vec<RemovedEntry> = Vec::new();
+    for store in stores {
+        for id in store.ids()? {
+            if ids.contains(&id.as_str()) || removed.iter().any(|entry| entry.id == id) {
+                continue;
+            }
+            if let Some(result) = store.result(&id)? {
+                removed.push(RemovedEntry {
+                    names: result.info.display_names(),
+                    points: result.score().map(|score| score.points),
+                    id,
+                });
+            }
         }
     }
     Ok(removed)
@@ -333,10 +335,10 @@ mod tests {
         }
         // A folder without a result, such as that of a killed run.
         std::fs::create_dir(store.entry_folder("d")).unwrap();
-        let removed = find_removed(&store, &["a", "e"]).unwrap();
+        let removed = find_removed(&[&store], &["a", "e"]).unwrap();
         let removed: Vec<String> = removed.iter().map(ToString::to_string).collect();
         assert_eq!(removed, ["b (Ann): 70 points", "c (Ann): no score"]);
-        assert_eq!(find_removed(&store, &["a", "b", "c"]).unwrap(), []);
+        assert_eq!(find_removed(&[&store], &["a", "b", "c"]).unwrap(), []);
     }
 
     #[test]

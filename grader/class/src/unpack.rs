@@ -46,21 +46,37 @@ pub struct Unpacked {
 
 /// Unpacks an archive into a temporary folder in `parent`.
 pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpacked, Error> {
-    let archive_error = |why: ArchiveError| {
-        let path = path.display();
-        Error::User(format!(
-            "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
-        ))
-    };
-    let bytes = fs::metadata(path)
-        .at("read", path)
-        .map_err(Error::user)?
-        .len();
-    let mut archive = Archive::open(path, ArchiveLimits::class()).map_err(archive_error)?;
-    let listing = archive.listing().map_err(archive_error)?;
-    let build_dir = BuildDir::new_in(parent).map_err(Error::user)?;
+    unpack_files(path, parent, handed_out).map_err(|error| match error {
+        UnpackError::Archive(why) => {
+            let path = path.display();
+            Error::User(format!(
+                "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
+            ))
+        }
+        UnpackError::File(error) => Error::user(error),
+    })
+}
+
+/// A reason why an archive cannot be unpacked.
+#[derive(Debug, thiserror::Error)]
+enum UnpackError {
+    #[error(transparent)]
+    Archive(#[from] ArchiveError),
+    #[error(transparent)]
+    File(#[from] PathError),
+}
+
+fn unpack_files(
+    path: &Path,
+    parent: &Path,
+    handed_out: &HandedOut,
+) -> Result<Unpacked, UnpackError> {
+    let bytes = fs::metadata(path).at("read", path)?.len();
+    let mut archive = Archive::open(path, ArchiveLimits::class())?;
+    let listing = archive.listing()?;
+    let build_dir = BuildDir::new_in(parent)?;
     let folder = &build_dir.path().join(CLASS_FOLDER);
-    files::create_dir_all(folder).map_err(Error::user)?;
+    files::create_dir_all(folder)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let unmatched = |why: String| UnmatchedPath {
         name: name.clone().into_owned(),
@@ -71,7 +87,7 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
         let put = extract_to(folder, path, |target| files::create_dir_all(target));
-        problems.extend(put.map_err(Error::user)?.map(unmatched));
+        problems.extend(put?.map(unmatched));
     }
 
     let members = listing
@@ -91,47 +107,19 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
         problems.extend(put?.map(unmatched));
         Ok::<_, UnpackError>(())
     };
-    let mut not_read = selected.not_read.iter();
-    let put_empty = not_read.try_for_each(|(member, why)| match why {
-        Some(why) => put(member, Err(why.clone())),
-        None => put(member, Ok(&[])),
-    });
-    let put_all = put_empty.and_then(|()| {
-        archive.read_each(&selected.read, |slot, bytes| {
-            let bytes = bytes.map_err(|why| why.to_string());
-            put(
-                selected.read[slot].0,
-                bytes.as_deref().map_err(Clone::clone),
-            )
-        })
-    });
-    put_all.map_err(|error| match error {
-        UnpackError::Archive(why) => archive_error(why),
-        UnpackError::File(error) => Error::user(error),
+    for (member, why) in &selected.not_read {
+        put(member, why.clone().map_or(Ok(&[]), Err))?;
+    }
+    archive.read_each(&selected.read, |slot, bytes| {
+        let bytes = bytes.map_err(|why| why.to_string());
+        let bytes = bytes.as_deref().map_err(Clone::clone);
+        put(selected.read[slot].0, bytes)
     })?;
     Ok(Unpacked {
         build_dir,
         problems,
         incomplete,
     })
-}
-
-/// A reason why the rest of an archive cannot be unpacked.
-enum UnpackError {
-    Archive(ArchiveError),
-    File(PathError),
-}
-
-impl From<ArchiveError> for UnpackError {
-    fn from(error: ArchiveError) -> Self {
-        UnpackError::Archive(error)
-    }
-}
-
-impl From<PathError> for UnpackError {
-    fn from(error: PathError) -> Self {
-        UnpackError::File(error)
-    }
 }
 
 /// The members of an archive that are unpacked.

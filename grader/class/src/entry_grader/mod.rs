@@ -87,7 +87,7 @@ impl EntryGrader<'_> {
                 Ok(Ok(score)) => {
                     return self.finish(entry, EntryOutcome::Graded(Box::new(score)), key);
                 }
-                Ok(Err(error)) => why = error,
+                Ok(Err(error)) => why = error.to_string(),
                 Err(_) => why = "the grader panicked, with the message above".to_owned(),
             }
         }
@@ -100,16 +100,13 @@ impl EntryGrader<'_> {
         slot: usize,
         entry: &Entry,
         submission: &Submission,
-    ) -> Result<ScoreSummary, String> {
-        let saved = self.store.save_submission(&entry.id, submission);
-        saved.map_err(|error| error.to_string())?;
+    ) -> Result<ScoreSummary, Error> {
+        self.store.save_submission(&entry.id, submission)?;
         let mut files = ReportFiles::new(&self.store.entry_folder(&entry.id), Reload::Never);
         let show_status = |status: &str| self.progress.set_status(slot, &entry.id, status);
-        let graded = self.grader.grade(submission, &mut files, &show_status);
-        let (score, page) = graded.map_err(|error| error.to_string())?;
-        let saved = self.store.save_feedback(&entry.id, &page);
-        saved.map_err(|error| error.to_string())?;
-        ScoreSummary::parse(&json::to_string(&score)).map_err(|error| error.to_string())
+        let (score, page) = self.grader.grade(submission, &mut files, &show_status)?;
+        self.store.save_feedback(&entry.id, &page)?;
+        ScoreSummary::parse(&json::to_string(&score)).map_err(Error::user)
     }
 
     fn finish(

@@ -115,7 +115,7 @@ pub fn grade_class_with(
     let warnings = render_warnings(&recognised);
     let all = recognised.entries.iter().map(|entry| entry.id.as_str());
     let all: Vec<&str> = all.collect();
-    let removed = find_removed(&store, &all)?;
+    let removed = find_removed(&[&store], &all)?;
     let class = file_hash(all.join("\n").as_bytes());
     let shard = arguments.shard.unwrap_or(Shard::ALL);
     let entries = shard.select(recognised.entries);

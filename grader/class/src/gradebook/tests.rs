@@ -1,44 +1,26 @@
 //! Tests that the right rows are filled in, and the others left unchanged.
 
 use grader::policy::Policy;
+use serde_json::json;
 
 use super::*;
-use crate::entry::EntryInfo;
-use crate::outcome::{EntryOutcome, EntryResult, FileNotes, ScoreSummary};
+use crate::graded_class::tests;
+use crate::outcome::EntryOutcome;
 
 fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
-    Person {
-        name: name.to_owned(),
-        email: email.to_owned(),
-        sid: sid.to_owned(),
-        number: number.to_owned(),
-        ..Person::default()
-    }
+    tests::person(json!({ "name": name, "email": email, "sid": sid, "number": number }))
 }
 
+/// Returns a class in which these people have 80 of 100 points.
 fn class(people: &[(&str, Person)]) -> GradedClass {
     let class_row = |(id, person): &(&str, Person)| {
-        let row = EntryResult {
-            id: (*id).to_owned(),
-            info: EntryInfo {
-                people: vec![person.clone()],
-                ..EntryInfo::default()
-            },
-            outcome: EntryOutcome::Graded(Box::new(ScoreSummary {
-                points: 80,
-                max_points: 100,
-                build: FileNotes::default(),
-                tasks: Vec::new(),
-            })),
-        };
-        ClassRow::new(row, &Policy::default(), vec![Vec::new()], 100)
+        let mut result = tests::result(id, &[], tests::graded(80));
+        result.info.people.push(person.clone());
+        ClassRow::new(result, &Policy::default(), vec![Vec::new()], 100)
     };
     GradedClass {
-        exam: String::new(),
-        exam_hash: String::new(),
-        isolation: String::new(),
         rows: people.iter().map(class_row).collect(),
-        missing: Vec::new(),
+        ..GradedClass::default()
     }
 }
 
@@ -240,10 +222,7 @@ fn an_attempt_that_does_not_count_is_not_filled_in_and_needs_no_warning() {
 
 #[test]
 fn every_key_of_a_platform_finds_its_row() {
-    let login = |login: &str| Person {
-        login: login.to_owned(),
-        ..Person::default()
-    };
+    let login = |login: &str| tests::person(json!({ "login": login }));
     let at_canvas = [
         ("number", person("", "", "", "7001")),
         ("sid", person("", "", " U1 ", "")),

@@ -181,14 +181,12 @@ pub(super) fn read(root: &Node, handed_out: &HandedOut, known: &[Member]) -> Lay
             others.push(unmatched_path(other, TEXT_ONLY));
         }
     }
-    let mut names_of: BTreeMap<&str, usize> = BTreeMap::new();
-    for (user, _) in users.keys() {
-        *names_of.entry(*user).or_default() += 1;
-    }
-    let is_shared = |user: &str| names_of.get(user).is_some_and(|names| *names > 1);
-    for ((user, _), files) in &users {
+    for ((user, who), files) in &users {
         let mut entry = entry_of_files(files.clone(), handed_out);
-        if is_shared(user) {
+        if users
+            .keys()
+            .any(|other| other.0 == *user && other.1 != *who)
+        {
             entry.source = Source::Missing(SHARED_NUMBER.to_owned());
         }
         entries.push(entry);

@@ -16,7 +16,7 @@ use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, Completion};
 use crate::paths::contains;
-use crate::regrade_diff::{Changes, RemovedEntry, find_removed, find_resubmitted};
+use crate::regrade_diff::{Changes, find_removed, find_resubmitted};
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
 use crate::store::Store;
@@ -86,9 +86,9 @@ pub fn merge_shards(
     let mut rows: Vec<EntryResult> = rows.collect();
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if lists.roster.is_some() {
-        infos
-            .iter_mut()
-            .for_each(|info| info.forget_groups_and_extensions());
+        for info in &mut infos {
+            info.forget_groups_and_extensions();
+        }
     }
     let findings = lists::complete_entries(lists, handed_out, &mut infos)?;
     findings.check(lists)?;
@@ -97,17 +97,12 @@ pub fn merge_shards(
     }
     findings.warn_about_extensions(&policy);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
-    let mut removed = find_removed(&out, &ids)?;
-    for (path, _) in &shards {
-        let of_shard = find_removed(&Store::new(path), &ids)?;
-        let is_new = |entry: &RemovedEntry| removed.iter().all(|other| other.id != entry.id);
-        let of_shard: Vec<RemovedEntry> = of_shard.into_iter().filter(is_new).collect();
-        removed.extend(of_shard);
-    }
+    let stores: Vec<Store> = shards.iter().map(|(path, _)| Store::new(path)).collect();
+    let stores: Vec<&Store> = [&out].into_iter().chain(&stores).collect();
     let changes = Changes {
         regrade: None,
         resubmitted: find_resubmitted(&out, &rows)?,
-        removed,
+        removed: find_removed(&stores, &ids)?,
         grades: None,
     };
     let class = ClassContext {

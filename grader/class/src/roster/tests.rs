@@ -1,6 +1,9 @@
 //! Tests of reading rosters, and of matching their rows with people.
 
+use serde_json::json;
+
 use super::*;
+use crate::graded_class::tests::person;
 
 fn parse_roster(table: &str) -> Vec<Member> {
     parse_members(&Table::parse(table.as_bytes()).unwrap(), ListKind::Roster).unwrap()
@@ -29,10 +32,7 @@ fn an_ambiguous_name_matches_nobody() {
 fn the_same_name_with_another_number_does_not_match() {
     let worksheet = "Identifier,Full name,Email address\nParticipant 307,Ann Lee,a@x.edu\n";
     let list = parse_roster(worksheet);
-    let numbered = |number: &str| Person {
-        number: number.to_owned(),
-        ..Person::named("Ann Lee")
-    };
+    let numbered = |number: &str| person(json!({ "name": "Ann Lee", "number": number }));
     assert!(list[0].matches(&numbered("307")));
     assert!(!list[0].matches(&numbered("308")));
     let without_numbers = parse_roster("name,email\nAnn Lee,a@x.edu\n");
@@ -114,11 +114,7 @@ fn everybody_who_is_missing_is_named_once() {
     assert_eq!(names(table, &[&Person::named("eve")]), ["Ann", "Bob"]);
     // Two people with this name, who are told apart by nothing else.
     let table = "name,group\nAnn,One\nAnn,Two\n";
-    let of_group = Person {
-        group: "Two".to_owned(),
-        is_from_group: true,
-        ..Person::named("Ann")
-    };
+    let of_group = person(json!({ "name": "Ann", "group": "Two", "is_from_group": true }));
     assert_eq!(names(table, &[&of_group]), ["Ann"]);
     assert_eq!(names(table, &[]), ["Ann", "Ann"]);
 }

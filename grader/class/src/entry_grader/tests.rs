@@ -19,10 +19,10 @@ use crate::store::tests::run;
 
 /// A grader that cannot start the program of any submission.
 #[derive(Default)]
-pub(crate) struct FailingGrader {
+struct FailingGrader {
     policy: Policy,
     /// How often it was asked.
-    pub(crate) asked: AtomicUsize,
+    asked: AtomicUsize,
     /// The store in which it looks for a result of entry `a` while it grades.
     watched: Option<Store>,
     has_seen_result: AtomicBool,
@@ -81,18 +81,21 @@ impl Folder {
         }
     }
 
-    fn is_done(&self, entry: &Entry) -> bool {
-        is_done(&self.grader, &self.store, &run(), entry)
-    }
-
-    fn grade(&self, entry: &Entry) -> EntryResult {
-        let entry_grader = EntryGrader {
+    /// Calls a function with what grades the folder's entries.
+    fn with<T>(&self, call: impl FnOnce(&EntryGrader) -> T) -> T {
+        call(&EntryGrader {
             grader: &self.grader,
             store: &self.store,
             run: &run(),
-            progress: &Progress::new(1, 1),
-        };
-        entry_grader.grade(0, entry).unwrap()
+        })
+    }
+
+    fn is_done(&self, entry: &Entry) -> bool {
+        self.with(|grader| grader.is_done(entry))
+    }
+
+    fn grade(&self, entry: &Entry) -> EntryResult {
+        self.with(|grader| grader.grade(entry, &|_| {}).unwrap().0)
     }
 
     fn asked(&self) -> usize {
@@ -101,7 +104,7 @@ impl Folder {
 }
 
 /// Returns an entry with a task file in this folder.
-pub(crate) fn written(id: &str, folder: &Path) -> Entry {
+fn written(id: &str, folder: &Path) -> Entry {
     let path = folder.join(format!("{id}.rs"));
     fs::write(&path, "new").unwrap();
     let source = Source::Files(vec![("sphere.rs".to_owned(), path)]);
@@ -109,7 +112,7 @@ pub(crate) fn written(id: &str, folder: &Path) -> Entry {
 }
 
 /// Returns an entry with nothing to grade.
-pub(crate) fn missing(id: &str) -> Entry {
+fn missing(id: &str) -> Entry {
     let source = Source::Missing("nothing was handed in".to_owned());
     Entry::new(id, Person::named("Ann"), "", source)
 }
@@ -172,6 +175,31 @@ fn an_entry_with_nothing_to_grade_is_done_and_says_why() {
     let nothing = EntryOutcome::NothingToGrade("nothing was handed in".to_owned());
     assert_eq!(found, result("a", &["Ann"], nothing));
     assert_eq!(folder.store.result("a").unwrap(), Some(found));
+}
+
+#[test]
+fn an_estimate_grades_two_open_submissions_per_slot() {
+    let folder = Folder::new();
+    let mut entries = vec![missing("empty")];
+    entries.extend((0..8).map(|number| written(&number.to_string(), folder.folder.path())));
+    let estimate = folder.with(|grader| grader.estimate(entries, 3).unwrap());
+    assert_eq!(
+        (estimate.times.len(), estimate.remaining, estimate.slots),
+        (6, 2, 3)
+    );
+    assert_eq!(folder.store.ids().unwrap(), ["0", "1", "2", "3", "4", "5"]);
+    assert_eq!(folder.asked(), 6 * ATTEMPTS, "each is retried");
+}
+
+#[test]
+fn entries_are_graded_in_their_order() {
+    let entries = ["b", "a"].map(missing);
+    let results = Folder::new().with(|grader| grader.grade_all(&entries, 2).unwrap());
+    let ids: Vec<&str> = results
+        .iter()
+        .map(|(result, _)| result.id.as_str())
+        .collect();
+    assert_eq!(ids, ["b", "a"]);
 }
 
 #[test]

@@ -3,7 +3,6 @@
 use std::num::NonZero;
 use std::path::Path;
 use std::thread;
-use std::time::{Duration, Instant};
 
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
@@ -13,10 +12,9 @@ use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
 use crate::cli::{ClassArguments, Lists};
-use crate::entry::{Entry, EntryInfo};
-use crate::entry_grader::{EntryGrader, is_done};
+use crate::entry::EntryInfo;
+use crate::entry_grader::EntryGrader;
 use crate::error::Error;
-use crate::estimate::Estimate;
 use crate::input::Input;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
 use crate::list_memory::{ListFiles, UsedLists};
@@ -24,8 +22,6 @@ use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
 use crate::paths::contains;
-use crate::progress::Progress;
-use crate::queue;
 use crate::regrade_diff::{Changes, find_regrade_changes, find_removed, find_resubmitted};
 use crate::report::preview::{render_preview, render_warnings};
 use crate::roster;
@@ -130,12 +126,16 @@ pub fn grade_class_with(
     used.save(&store, &run)?;
     let run = save_previous_scores(&store, run)?;
     let slots = slot_count(arguments.jobs);
+    let entry_grader = EntryGrader {
+        grader: grader.as_ref(),
+        store: &store,
+        run: &run,
+    };
     if arguments.estimate {
-        let estimate = estimate(grader.as_ref(), &store, &run, entries, slots)?;
-        print(estimate.render());
+        print(entry_grader.estimate(entries, slots)?.render());
         return Ok(Completion::Complete);
     }
-    let results = grade_entries(grader.as_ref(), &store, &run, &entries, slots)?;
+    let results = entry_grader.grade_all(&entries, slots)?;
     let results: Vec<EntryResult> = results.into_iter().map(|(result, _)| result).collect();
     let run = Run {
         state: RoundState::Finished,
@@ -242,49 +242,6 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
         ))),
         Some(_) | None => Ok(()),
     }
-}
-
-/// Grades the first entries without a result, two per slot, and measures each.
-fn estimate(
-    grader: &dyn SubmissionGrader,
-    store: &Store,
-    run: &Run,
-    entries: Vec<Entry>,
-    slots: usize,
-) -> Result<Estimate, Error> {
-    let is_open = |entry: &Entry| !is_done(grader, store, run, entry);
-    let mut sample: Vec<Entry> = entries.into_iter().filter(is_open).collect();
-    let rest = sample.split_off(sample.len().min(2 * slots));
-    let graded = grade_entries(grader, store, run, &sample, slots)?;
-    Ok(Estimate {
-        times: graded.into_iter().map(|(_, time)| time).collect(),
-        remaining: rest.len(),
-        slots,
-    })
-}
-
-/// Returns the result of each entry, and the time that it took.
-fn grade_entries(
-    grader: &dyn SubmissionGrader,
-    store: &Store,
-    run: &Run,
-    entries: &[Entry],
-    slots: usize,
-) -> Result<Vec<(EntryResult, Duration)>, Error> {
-    let progress = Progress::new(entries.len(), slots);
-    let entry_grader = EntryGrader {
-        grader,
-        store,
-        run,
-        progress: &progress,
-    };
-    let results = queue::run(entries, slots, |slot, entry| {
-        let started_at = Instant::now();
-        let result = entry_grader.grade(slot, entry);
-        result.map(|result| (result, started_at.elapsed()))
-    });
-    progress.finish();
-    results.into_iter().collect()
 }
 
 fn slot_count(jobs: Option<u16>) -> usize {

@@ -2,12 +2,10 @@
 //! in `tests/histories`.
 
 use std::fs;
-use std::sync::atomic::Ordering;
 
 use grader::handed_out::RAYS;
 
 use super::*;
-use crate::entry_grader::tests::{FailingGrader, missing, written};
 use crate::graded_class::tests::{graded, result};
 use crate::store::tests::run;
 
@@ -114,37 +112,6 @@ fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
             .contains("of part 1/2, and not of the whole class"),
         "{error}"
     );
-}
-
-#[test]
-fn an_estimate_grades_two_open_submissions_per_slot() {
-    let (folder, store) = store();
-    let mut entries = vec![missing("empty")];
-    entries.extend((0..8).map(|number| written(&number.to_string(), folder.path())));
-    let grader = FailingGrader::default();
-    let estimate = estimate(&grader, &store, &run(), entries, 3).unwrap();
-    assert_eq!(
-        (estimate.times.len(), estimate.remaining, estimate.slots),
-        (6, 2, 3)
-    );
-    assert_eq!(store.ids().unwrap(), ["0", "1", "2", "3", "4", "5"]);
-    assert_eq!(
-        grader.asked.load(Ordering::Relaxed),
-        6 * 3,
-        "each is retried"
-    );
-}
-
-#[test]
-fn entries_are_graded_in_their_order() {
-    let (_folder, store) = store();
-    let entries = ["b", "a"].map(missing);
-    let results = grade_entries(&FailingGrader::default(), &store, &run(), &entries, 2).unwrap();
-    let ids: Vec<&str> = results
-        .iter()
-        .map(|(result, _)| result.id.as_str())
-        .collect();
-    assert_eq!(ids, ["b", "a"]);
 }
 
 #[test]

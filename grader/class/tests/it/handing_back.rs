@@ -12,9 +12,9 @@ fn solution() -> Vec<u8> {
     zip(RAYS.file_names().map(read))
 }
 
-fn hand_back(class: &TestClass, more: &[&str]) -> (Vec<(String, Vec<u8>)>, String) {
+fn hand_back(class: &TestClass, lists: &[(&str, &str)]) -> (Vec<(String, Vec<u8>)>, String) {
     let exam = class.small_exam(&ITEMS);
-    let text = class.graded(&exam, &[&["--hand-back"], more].concat());
+    let text = class.graded_with(&exam, lists, &["--hand-back"]);
     let archive = std::fs::read(class.out().join("hand-back.zip")).unwrap();
     (unzip(&archive), text)
 }
@@ -33,12 +33,9 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
         .with("leeann_LATE_7002_9003_bvh.rs", bvh)
         .with("anon_xK3f9_9040_hw-1.zip", solution())
         .with("emptyeve_7005_text.html", "text");
-    let gradebook = class.write_beside(
-        "canvas-export.csv",
-        "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
-         \"Doe, Jane\",7001,u1,jane,A,\n\"Lee, Ann\",7002,u2,ann,A,\n",
-    );
-    let (files, text) = hand_back(&class, &["--canvas", &gradebook]);
+    let gradebook = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
+                     \"Doe, Jane\",7001,u1,jane,A,\n\"Lee, Ann\",7002,u2,ann,A,\n";
+    let (files, text) = hand_back(&class, &[("canvas", gradebook)]);
     let expected = [
         "anon_xK3f9_9040_hw-1.zip",
         "doejane_7001_9001_hw.zip",
@@ -71,11 +68,9 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
     let (files, text) = hand_back(&class, &[]);
     assert_eq!(names(&files), [""; 0]);
     assert_contains(&text, &["pass Moodle's worksheet with --moodle"]);
-    let worksheet = class.write_beside(
-        "worksheet.csv",
-        "Identifier,Full name,Grade\nParticipant 301,José Núñez,\nParticipant 302,An_n Lee,\n",
-    );
-    let (files, _) = hand_back(&class, &["--moodle", &worksheet]);
+    let worksheet = "Identifier,Full name,Grade\nParticipant 301,José Núñez,\n\
+                     Participant 302,An_n Lee,\n";
+    let (files, _) = hand_back(&class, &[("moodle", worksheet)]);
     let expected = [
         "An n Lee_302_assignfeedback_file_feedback.html",
         "José Núñez_301_assignfeedback_file_feedback.html",
@@ -92,24 +87,15 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
 fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
     let folders = ["a", "b", "c", "d", "e", "f"].into_iter();
     let class = folders.fold(TestClass::named("class"), TestClass::with_reference);
-    let roster = class.write_beside(
-        "roster.csv",
-        "name,username,group,datetime\n../../Ann,a,,\nCON,b,,\n-rf,c,,\n\
-         Zoë Lee,d,One,2026-11-20 12:00Z\nBea Berg,bea,One,\nZOË LEE,e,,\nLate,f,,yesterday\n",
-    );
-    let policy = "[late]\ndue = 2026-11-20T23:59:59Z\n";
-    let policy = class.write_beside("policy.toml", policy);
-    let manual = class.write_beside(
-        "manual.csv",
-        "student,task,delta,comment,author\nBea Berg,camera,-1,late,Tess\n",
-    );
+    let roster = "name,username,group,datetime\n../../Ann,a,,\nCON,b,,\n-rf,c,,\n\
+                  Zoë Lee,d,One,2026-11-20 12:00Z\nBea Berg,bea,One,\nZOË LEE,e,,\nLate,f,,yesterday\n";
     let lists = [
-        "--roster",
-        &roster,
-        "--policy",
-        &policy,
-        "--manual-points",
-        &manual,
+        ("roster", roster),
+        ("policy", "[late]\ndue = 2026-11-20T23:59:59Z\n"),
+        (
+            "manual-points",
+            "student,task,delta,comment,author\nBea Berg,camera,-1,late,Tess\n",
+        ),
     ];
     let (files, text) = hand_back(&class, &lists);
     let expected = [

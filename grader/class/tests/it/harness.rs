@@ -1,6 +1,7 @@
 //! Test classes, a small exam for them, and functions that run the binary.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
@@ -151,6 +152,22 @@ impl TestClass {
             .to_owned()
     }
 
+    /// Writes lists beside the class. Returns the options that pass them.
+    pub fn lists(&self, lists: &[(&str, &str)]) -> Vec<String> {
+        let write = |(list, text): &(&str, &str)| {
+            let path = self.write_beside(&format!("{list}.list"), text);
+            format!("--{list}={path}")
+        };
+        lists.iter().map(write).collect()
+    }
+
+    /// Grades the class with lists and more options, and returns the standard output.
+    pub fn graded_with(&self, exam: &str, lists: &[(&str, &str)], more: &[&str]) -> String {
+        let lists = self.lists(lists);
+        let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
+        self.graded(exam, &[&lists, more].concat())
+    }
+
     /// Grades the class, and returns the standard output.
     pub fn graded(&self, exam: &str, more: &[&str]) -> String {
         successful_stdout(&self.grade(exam, more))
@@ -174,11 +191,16 @@ impl TestClass {
     }
 
     pub fn command(&self, exam: &str, more: &[&str]) -> Command {
+        self.command_into(&self.out(), exam, more)
+    }
+
+    /// Returns a command that grades the class into this folder.
+    pub fn command_into(&self, out: &Path, exam: &str, more: &[&str]) -> Command {
         let mut command = class_command();
         command
             .arg(self.input())
             .arg("--out")
-            .arg(self.out())
+            .arg(out)
             // Isolation is tested in the grader's own tests.
             .args(["--exam", exam, "--no-reference", "--isolation", "none"])
             .args(more);
@@ -210,6 +232,13 @@ pub fn class_command() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_class"));
     command.current_dir(workspace());
     command
+}
+
+/// Merges shards, and returns the standard output.
+pub fn merge(shards: &[impl AsRef<OsStr>], out: &Path) -> String {
+    let mut command = class_command();
+    command.arg("merge").args(shards).arg("--out").arg(out);
+    successful_stdout(&command.output().unwrap())
 }
 
 /// Returns the standard output of a run, and panics if the run failed.

@@ -1,20 +1,17 @@
 //! Properties of merged classes.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use tempfile::TempDir;
 
-use crate::harness::{class_command, comparable_files, successful_stdout};
+use crate::harness::comparable_files;
 use crate::stored_class::{StoredEntry, stored_class, write_shard, write_shards};
 
+/// Merges shards, and returns the standard output without the folder.
 fn merge(shards: &[PathBuf], out: &Path) -> String {
-    let mut command = class_command();
-    command.arg("merge").args(shards).arg("--out").arg(out);
-    let text = successful_stdout(&command.output().unwrap());
-    text.replace(out.to_str().unwrap(), "OUT")
+    crate::harness::merge(shards, out).replace(out.to_str().unwrap(), "OUT")
 }
 
 /// Returns the files that are not the same in both folders.
@@ -66,28 +63,5 @@ proptest! {
             prop_assert_eq!(merged, text);
         }
         prop_assert_eq!(differ, Vec::<PathBuf>::new());
-    }
-
-    /// The earlier merge may have been killed between any two files: its folder lacks some of them.
-    #[test]
-    fn a_merge_into_the_folder_of_an_earlier_one_leaves_nothing_of_it(
-        earlier in stored_class(),
-        mut class in stored_class(),
-        lost in 0..40usize,
-    ) {
-        // Nobody leaves the class: the folders of those who do are kept.
-        class.extend(earlier.iter().skip(class.len()).cloned());
-        let root = TempDir::new().unwrap();
-        let old = write_shards(&root.path().join("earlier"), &earlier, 2, false);
-        let new = write_shards(root.path(), &class, 3, false);
-        let (again, fresh) = (root.path().join("again"), root.path().join("fresh"));
-        merge(&old, &again);
-        // The final grades of the earlier merge stay, for comparison.
-        fs::remove_file(again.join("final-grades.json")).unwrap();
-        for file in comparable_files(&again).keys().skip(lost) {
-            fs::remove_file(again.join(file)).unwrap();
-        }
-        prop_assert_eq!(merge(&new, &again).replace("again", "fresh"), merge(&new, &fresh));
-        prop_assert_eq!(differences(&again, &fresh), Vec::<PathBuf>::new());
     }
 }

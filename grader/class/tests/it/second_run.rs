@@ -3,9 +3,7 @@
 
 use std::fs;
 
-use crate::harness::{
-    TestClass, assert_contains, class_command, refusal, source, successful_stdout, unzip,
-};
+use crate::harness::{TestClass, assert_contains, refusal, source, successful_stdout, unzip};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str =
@@ -30,19 +28,14 @@ impl GradedTwice {
         let exam = class.small_exam(&ITEMS);
         let graded = GradedTwice { class, exam };
         let lists = [
-            ("--policy", "policy.toml", POLICY),
-            ("--roster", "roster.csv", ROSTER),
-            ("--manual-points", "manual.csv", MANUAL),
+            ("policy", POLICY),
+            ("roster", ROSTER),
+            ("manual-points", MANUAL),
         ];
-        let files = lists.map(|(option, name, text)| {
-            let path = graded.class.write_beside(name, text);
-            [option.to_owned(), path]
-        });
-        let words: Vec<&str> = files.iter().flatten().map(String::as_str).collect();
-        graded.run(&words);
-        files
-            .iter()
-            .for_each(|[_, path]| fs::remove_file(path).unwrap());
+        graded.class.graded_with(&graded.exam, &lists, &[]);
+        for (list, _) in lists {
+            fs::remove_file(graded.class.path_beside(&format!("{list}.list"))).unwrap();
+        }
         graded
     }
 
@@ -173,18 +166,7 @@ fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
     let class = class.with("leeann_7001_90001_sphere.rs", &text);
     let exam = class.small_exam(&ITEMS);
     let out = class.path_beside("my results");
-    let mut command = class_command();
-    command
-        .arg(class.input())
-        .args([
-            "--exam",
-            &exam,
-            "--isolation",
-            "none",
-            "--hand-back",
-            "--out",
-        ])
-        .arg(&out);
+    let mut command = class.command_into(&out, &exam, &["--hand-back"]);
     successful_stdout(&command.output().unwrap());
     let entries = fs::read_dir(out.join("students")).unwrap();
     let student = entries.map(|entry| entry.unwrap().path()).next().unwrap();

@@ -1,46 +1,25 @@
 //! Classes that are graded in shards.
 
-use std::path::Path;
-use std::process::Output;
-
-use crate::harness::{
-    TestClass, assert_contains, class_command, comparable_files, successful_stdout,
-};
+use crate::harness::{TestClass, assert_contains, comparable_files, merge, successful_stdout};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
-
-fn grade_shard(class: &TestClass, exam: &str, which: &str, more: &[&str]) -> String {
-    let out = class.path_beside(&format!("shard-{}", which.replace('/', "-")));
-    let output = class_command()
-        .arg(class.input())
-        .args(["--exam", exam, "--no-reference", "--isolation", "none"])
-        .args(["--shard", which])
-        .args(more)
-        .arg("--out")
-        .arg(&out)
-        .output()
-        .unwrap();
-    successful_stdout(&output);
-    out.to_str().unwrap().to_owned()
-}
-
-fn merge(shards: &[&str], out: &Path) -> Output {
-    let mut merge = class_command();
-    merge.arg("merge").args(shards).arg("--out").arg(out);
-    merge.output().unwrap()
-}
 
 #[test]
 fn merged_shards_equal_an_unsharded_run() {
     let class = TestClass::of_three();
     let exam = class.small_exam(&ITEMS);
-    let policy = class.write_beside("policy.toml", "[points]\nout_of = 7\n");
-    let more = ["--policy", policy.as_str()];
-    class.graded(&exam, &more);
-    let shards = ["1/2", "2/2"].map(|which| grade_shard(&class, &exam, which, &more));
-    let [one, two] = shards.each_ref().map(String::as_str);
+    let policy = class
+        .lists(&[("policy", "[points]\nout_of = 7\n")])
+        .remove(0);
+    class.graded(&exam, &[&policy]);
+    let shards = ["1/2", "2/2"].map(|which| {
+        let out = class.path_beside(&format!("shard-{}", which.replace('/', "-")));
+        let mut command = class.command_into(&out, &exam, &["--shard", which, &policy]);
+        successful_stdout(&command.output().unwrap());
+        out
+    });
     let out = class.path_beside("merged");
-    successful_stdout(&merge(&[one, two], &out));
+    merge(&shards, &out);
     // The merge takes the policy from the shards.
     assert_eq!(comparable_files(&out), comparable_files(&class.out()));
     assert!(class.read("grades.csv").contains("graded,7,"));

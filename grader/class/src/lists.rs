@@ -151,6 +151,13 @@ mod tests {
         Some(path)
     }
 
+    /// Returns the people on these lists who are not in the entry, and fills in the entry.
+    fn missing(lists: &Lists, entry: &mut EntryInfo) -> Vec<Person> {
+        complete_entries(lists, &RAYS, &mut [entry])
+            .unwrap()
+            .missing
+    }
+
     fn with_login(login: &str) -> Person {
         person(json!({ "login": login }))
     }
@@ -178,9 +185,7 @@ mod tests {
             ..Lists::default()
         };
         let mut ann = entry(person(json!({ "email": "ann@x.edu" })));
-        let missing = complete_entries(&lists, &RAYS, &mut [&mut ann])
-            .unwrap()
-            .missing;
+        let missing = missing(&lists, &mut ann);
         let known = |person: &Person| (person.login.clone(), person.extension.clone());
         let known = [&ann.people[0], &missing[0]].map(known);
         let wanted = [("ann", "2"), ("bob", "3")];
@@ -203,7 +208,7 @@ mod tests {
                 submitted: by_platform.map(str::to_owned),
                 ..entry(Person::named("Ann"))
             };
-            complete_entries(&lists, &RAYS, &mut [&mut entry]).unwrap();
+            missing(&lists, &mut entry);
             assert_eq!(entry.listed.is_some(), by_platform.is_none());
             entry.submitted().unwrap().to_owned()
         };
@@ -228,9 +233,7 @@ mod tests {
             ..Lists::default()
         };
         let mut entry = entry(with_login("ann"));
-        let missing = complete_entries(&lists, &RAYS, &mut [&mut entry])
-            .unwrap()
-            .missing;
+        let missing = missing(&lists, &mut entry);
         let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
         assert_eq!(numbers, ["7001", "7002"]);
         assert_eq!(missing, []);
@@ -264,9 +267,7 @@ mod tests {
             ..Lists::default()
         };
         let mut entry = entry(with_login("ann"));
-        let missing = complete_entries(&lists, &RAYS, &mut [&mut entry])
-            .unwrap()
-            .missing;
+        let missing = missing(&lists, &mut entry);
         let sids: Vec<&str> = entry
             .people
             .iter()

@@ -210,7 +210,7 @@ mod tests {
     use super::*;
     use crate::graded_class::tests::{graded, result};
     use crate::outcome::{EntryOutcome, FileNotes, TaskScore};
-    use crate::store::tests::run;
+    use crate::store::tests::{other_settings, run};
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
@@ -236,6 +236,14 @@ mod tests {
                 items,
             }],
         }
+    }
+
+    /// Returns the ids and points of scores that changed.
+    fn points(drifts: &[Drift]) -> Vec<(&str, u32, Option<u32>)> {
+        let points = drifts.iter();
+        points
+            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
+            .collect()
     }
 
     #[test]
@@ -352,11 +360,7 @@ mod tests {
             result(id, &["Ann"], graded(70))
         });
         let drifts = find_resubmitted(&store, &results).unwrap();
-        let drifts: Vec<_> = drifts
-            .iter()
-            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
-            .collect();
-        assert_eq!(drifts, [("a", 80, Some(70))]);
+        assert_eq!(points(&drifts), [("a", 80, Some(70))]);
     }
 
     #[test]
@@ -367,21 +371,14 @@ mod tests {
         assert!(first.is_none());
         store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
         store.save_previous_scores().unwrap();
-        let mut settings = run().settings;
-        settings.exam_hash.push('x');
-        let second = run().next_round(settings.clone());
+        let second = run().next_round(other_settings());
         let results = [
             result("a", &["Ann"], graded(70)),
             result("b", &["Bob"], graded(70)),
         ];
         let changes = find_regrade_changes(&store, &second, &results).unwrap();
         let changes = changes.unwrap();
-        let drifts: Vec<_> = changes
-            .drifts
-            .iter()
-            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
-            .collect();
-        assert_eq!(drifts, [("a", 80, Some(70))]);
+        assert_eq!(points(&changes.drifts), [("a", 80, Some(70))]);
         assert_eq!(changes.causes, ["the exam"]);
     }
 }

@@ -7,7 +7,7 @@ use grader::handed_out::RAYS;
 
 use super::*;
 use crate::graded_class::tests::{graded, result};
-use crate::store::tests::run;
+use crate::store::tests::{other_settings, run};
 
 /// Returns an empty store in a temporary folder.
 fn store() -> (tempfile::TempDir, Store) {
@@ -15,13 +15,6 @@ fn store() -> (tempfile::TempDir, Store) {
     let store = Store::new(&folder.path().join("out"));
     fs::create_dir(store.folder()).unwrap();
     (folder, store)
-}
-
-fn other_settings() -> Settings {
-    Settings {
-        exam_hash: "other".to_owned(),
-        ..run().settings
-    }
 }
 
 #[test]

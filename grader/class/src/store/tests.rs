@@ -71,6 +71,14 @@ pub(crate) fn run() -> Run {
     })
 }
 
+/// Returns settings with another exam.
+pub(crate) fn other_settings() -> Settings {
+    Settings {
+        exam_hash: "other".to_owned(),
+        ..run().settings
+    }
+}
+
 #[test]
 fn a_new_folder_has_no_run_and_no_results() {
     let folder = tempfile::tempdir().unwrap();

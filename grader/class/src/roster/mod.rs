@@ -110,9 +110,18 @@ fn read_members(path: &Path, list: ListKind) -> Result<Vec<Member>, Error> {
 
 fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
-    let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
-    let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
-    let [group, extension] = [column(&GROUP), column(&EXTENSION)];
+    let columns = [
+        &NAME[..],
+        &FIRST,
+        &LAST,
+        &EMAIL,
+        &SID,
+        &LOGIN,
+        &GROUP,
+        &EXTENSION,
+    ];
+    let columns = columns.map(column);
+    let [name, _, _, email, sid, login, ..] = columns;
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
     // Moodle writes a word in the site's language before the number.
     let identifier = table.column("Identifier");
@@ -130,24 +139,19 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
             let cell = column.and_then(|column| row.get(column));
             cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
         };
-        let full = match cell(name) {
-            name if name.is_empty() => format!("{} {}", cell(first), cell(last)).trim().to_owned(),
-            name => name,
-        };
+        let [name, first, last, email, sid, login, group, extension] = columns.map(cell);
+        let parts = format!("{first} {last}").trim().to_owned();
         // With blind marking, nobody has a name.
-        let full = if full.is_empty() {
-            cell(identifier)
-        } else {
-            full
-        };
+        let names = [name, parts, cell(identifier)];
+        let name = names.into_iter().find(|name| !name.is_empty());
         let person = Person {
-            name: full,
-            email: cell(email),
-            sid: cell(sid),
-            login: cell(login),
+            name: name.unwrap_or_default(),
+            email,
+            sid,
+            login,
             number: number_at_end(&cell(number)).to_owned(),
-            group: cell(group),
-            extension: cell(extension),
+            group,
+            extension,
             status: cell(status),
             is_named_by_file: false,
             is_from_group: false,

@@ -1,16 +1,41 @@
-//! Several submissions of one person: which of them counts, by the policy's rule.
+//! Counts the points of all submissions, by the policy, with the points by hand. Of several submissions
+//! of one person, the policy's rule says which one counts.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
+use crate::error::Error;
 use crate::graded_class::{ClassRow, GradeProblem};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
-use crate::outcome::EntryOutcome;
+use crate::manual_points::{ManualPoints, ManualPointsList};
+use crate::outcome::{EntryOutcome, EntryResult};
+
+/// Applies the policy and the manual points to all results.
+pub fn count_points(
+    results: Vec<EntryResult>,
+    policy: &Policy,
+    manual: &ManualPointsList,
+    tasks: &BTreeMap<String, u32>,
+) -> Result<Vec<ClassRow>, Error> {
+    let mut rows = Vec::new();
+    for result in results {
+        let people = result.info.people.iter();
+        let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
+        rows.push(ClassRow::new(result, policy, own, tasks.values().sum()));
+    }
+    apply_rule(policy, &mut rows);
+    for row in &rows {
+        for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
+            manual.check_range(&grade.manual, &row.result.outcome, tasks)?;
+        }
+    }
+    Ok(rows)
+}
 
 /// Applies the policy's rule: of several attempts, only one keeps its points.
-pub fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
+fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
     let people = rows.iter().map(|row| row.result.info.people.as_slice());
     for attempts in attempts_by_person(people) {
         // A submission may list a person twice, or several people with one email address.

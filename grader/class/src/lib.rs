@@ -13,7 +13,7 @@
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
 //! | grading of entries, and changes of scores | [`entry_grader`], [`regrade_diff`] |
-//! | what is made of grades; the input | [`counting`], [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
+//! | what is made of grades; the input | [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
 //! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
@@ -24,7 +24,6 @@
 pub mod archive;
 pub mod attempts;
 pub mod cli;
-pub mod counting;
 pub mod distribution;
 pub mod entry;
 pub mod entry_grader;

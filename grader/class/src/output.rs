@@ -3,8 +3,8 @@
 use grader::policy::Policy;
 use grader::printing::{print, print_line};
 
+use crate::attempts::count_points;
 use crate::cli::Lists;
-use crate::counting::count_points;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};

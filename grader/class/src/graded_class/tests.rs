@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::counting::count_points;
+use crate::attempts::count_points;
 use crate::entry::EntryInfo;
 use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};

@@ -8,8 +8,6 @@ mod handing_back;
 mod harness;
 mod identity;
 mod layouts;
-mod machine_faults;
-mod merging;
 mod numbers;
 mod page;
 mod people;

@@ -25,8 +25,8 @@ const FOLDER: &str = "lists";
 /// The lists that a command uses: those on its command line and the copies of others.
 #[derive(Debug, Default)]
 pub struct UsedLists {
-    /// The files, which may be copies.
-    pub files: ListFiles,
+    /// The lists, which may be copies.
+    pub lists: Lists,
     /// The lists to keep.
     pub kept: KeptLists,
     /// Sentences for staff.
@@ -34,55 +34,23 @@ pub struct UsedLists {
     copies: BTreeMap<ListKind, Vec<u8>>,
 }
 
-/// An output folder and the lists in it.
-#[derive(Clone, Copy, Debug)]
-pub struct KeptIn<'a> {
-    /// The folder.
-    pub folder: &'a Path,
-    /// The lists.
-    pub lists: &'a KeptLists,
-}
-
-/// The files of a command's lists.
-#[derive(Clone, Debug, Default)]
-pub struct ListFiles {
-    /// The policy file; `None` for the default policy.
-    pub policy: Option<PathBuf>,
-    /// The other lists.
-    pub lists: Lists,
-}
-
-impl ListFiles {
-    /// Returns the path of a list, to read or replace it.
-    pub fn path(&mut self, kind: ListKind) -> &mut Option<PathBuf> {
-        match kind {
-            ListKind::Policy => &mut self.policy,
-            ListKind::Roster => &mut self.lists.roster,
-            ListKind::ManualPoints => &mut self.lists.manual_points,
-            ListKind::Canvas => &mut self.lists.canvas,
-            ListKind::Moodle => &mut self.lists.moodle,
-            ListKind::Gradescope => &mut self.lists.gradescope,
-        }
-    }
-}
+/// An output folder and the lists that it has copies of.
+pub type KeptIn<'a> = (&'a Path, &'a KeptLists);
 
 impl UsedLists {
     /// Chooses each list: the one on the command line or else, unless it is dropped, the one that
     /// the output folder `out` has, or else the one that all merged parts were graded with. Prints
     /// where lists come from, and which have changed.
-    pub fn choose(given: ListFiles, out: Option<&Path>, parts: &[KeptIn]) -> Result<Self, Error> {
+    pub fn choose(given: Lists, out: Option<&Path>, parts: &[KeptIn]) -> Result<Self, Error> {
         let mut used = UsedLists {
-            files: given,
+            lists: given,
             ..UsedLists::default()
         };
         let run = out
             .map(|out| Store::new(out).read_run())
             .transpose()?
             .flatten();
-        let last = out.zip(run.as_ref()).map(|(folder, run)| KeptIn {
-            folder,
-            lists: &run.lists,
-        });
+        let last = out.zip(run.as_ref().map(|run| &run.lists));
         for kind in ListKind::value_variants() {
             used.choose_list(*kind, last, parts)?;
         }
@@ -99,10 +67,10 @@ impl UsedLists {
         parts: &[KeptIn],
     ) -> Result<(), Error> {
         let (name, title) = (kind.name(), kind.title());
-        let last = out.and_then(|out| Some((out.folder, out.lists.get(&kind)?)));
-        let (list, bytes) = if let Some(path) = self.files.path(kind).clone() {
+        let last = out.and_then(|(folder, lists)| Some((folder, lists.get(&kind)?)));
+        let (list, bytes) = if let Some(path) = self.lists.path(kind).clone() {
             let bytes = read(kind, &path)?;
-            let column = self.files.lists.column.clone();
+            let column = self.lists.column.clone();
             let list = KeptList {
                 hash: file_hash(&bytes),
                 given_as: path.display().to_string(),
@@ -115,7 +83,7 @@ impl UsedLists {
                 ));
             }
             (list, bytes)
-        } else if self.files.lists.drop_list.contains(&kind) {
+        } else if self.lists.drop_list.contains(&kind) {
             let dropped = last.map(|_| format!("{title} of the last run no longer counts"));
             self.notes.extend(dropped);
             return Ok(());
@@ -136,10 +104,10 @@ impl UsedLists {
                 if is_of_parts { "parts" } else { "last run" },
                 list.given_as
             ));
-            if kind == ListKind::Canvas && self.files.lists.column.is_none() {
-                self.files.lists.column.clone_from(&list.column);
+            if kind == ListKind::Canvas && self.lists.column.is_none() {
+                self.lists.column.clone_from(&list.column);
             }
-            *self.files.path(kind) = Some(path);
+            *self.lists.path(kind) = Some(path);
             let list = KeptList {
                 is_of_parts,
                 ..list.clone()
@@ -178,24 +146,24 @@ fn one_of_parts<'a>(
     kind: ListKind,
     parts: &[KeptIn<'a>],
 ) -> Result<Option<(&'a Path, &'a KeptList)>, Error> {
-    let Some(first) = parts.first() else {
+    let Some((first, lists)) = parts.first() else {
         return Ok(None);
     };
-    let list = first.lists.get(&kind);
-    let is_other = |part: &&KeptIn| match (list, part.lists.get(&kind)) {
+    let list = lists.get(&kind);
+    let is_other = |(_, lists): &&KeptIn| match (list, lists.get(&kind)) {
         (Some(one), Some(other)) => !one.is_same(other),
         (one, other) => one.is_some() != other.is_some(),
     };
     match parts.iter().find(is_other) {
-        Some(other) => {
-            let (one, other) = (first.folder.display(), other.folder.display());
+        Some((other, _)) => {
+            let (one, other) = (first.display(), other.display());
             let (name, title) = (kind.name(), kind.title());
             Err(Error::User(format!(
                 "{one} and {other} were not graded with the same list: {title} differs, or only \
                  one has it; choose one with --{name}, or none with --drop-list {name}"
             )))
         }
-        None => Ok(list.map(|list| (first.folder, list))),
+        None => Ok(list.map(|list| (*first, list))),
     }
 }
 

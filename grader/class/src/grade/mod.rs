@@ -17,7 +17,7 @@ use crate::entry_grader::EntryGrader;
 use crate::error::Error;
 use crate::input::Input;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
-use crate::list_memory::{ListFiles, UsedLists};
+use crate::list_memory::UsedLists;
 use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
@@ -54,15 +54,15 @@ pub fn grade_class_with(
     options: &GradeOptions,
     prepare: &PrepareGrader,
 ) -> Result<Completion, Error> {
-    let lists = ListFiles {
+    let lists = Lists {
         policy: options.policy.clone(),
-        lists: arguments.lists.clone(),
+        ..arguments.lists.clone()
     };
     let used = UsedLists::choose(lists, arguments.out.as_deref(), &[])?;
-    let given = &used.files.lists;
+    let given = &used.lists;
     check_lists(given)?;
     let options = &GradeOptions {
-        policy: used.files.policy.clone(),
+        policy: given.policy.clone(),
         ..options.clone()
     };
     let workspace = Workspace::find().map_err(GraderError::from)?;

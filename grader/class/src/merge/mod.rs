@@ -8,10 +8,10 @@ use grader::policy::Policy;
 use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
-use crate::cli::MergeArguments;
+use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
 use crate::error::Error;
-use crate::list_memory::{KeptIn, ListFiles, UsedLists};
+use crate::list_memory::{KeptIn, UsedLists};
 use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, Completion};
@@ -48,9 +48,17 @@ pub fn merge_shards(
         )));
     }
     let out = Store::new(&arguments.out);
-    let used = choose_lists(arguments, &shards)?;
-    let lists = &used.files.lists;
-    let policy = match &used.files.policy {
+    let given = Lists {
+        policy: arguments.policy.clone(),
+        ..arguments.lists.clone()
+    };
+    let parts = shards
+        .iter()
+        .map(|(folder, run)| (folder.as_path(), &run.lists));
+    let parts: Vec<KeptIn> = parts.collect();
+    let used = UsedLists::choose(given, Some(&arguments.out), &parts)?;
+    let lists = &used.lists;
+    let policy = match &lists.policy {
         Some(path) => Policy::read(path)?,
         None => Policy::default(),
     };
@@ -127,23 +135,6 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
         ))),
         None => Ok(()),
     }
-}
-
-/// Returns the lists on the command line, those that were given to the last merge, and those that all
-/// shards were graded with.
-fn choose_lists(
-    arguments: &MergeArguments,
-    shards: &[(&PathBuf, Run)],
-) -> Result<UsedLists, Error> {
-    let given = ListFiles {
-        policy: arguments.policy.clone(),
-        lists: arguments.lists.clone(),
-    };
-    let parts = shards.iter().map(|(folder, run)| KeptIn {
-        folder,
-        lists: &run.lists,
-    });
-    UsedLists::choose(given, Some(&arguments.out), &parts.collect::<Vec<_>>())
 }
 
 fn read_finished_run(path: &Path) -> Result<Run, Error> {

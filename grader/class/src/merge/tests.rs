@@ -5,7 +5,6 @@ use std::fs;
 use grader::handed_out::RAYS;
 
 use super::*;
-use crate::cli::Lists;
 use crate::entry::ListedTime;
 use crate::graded_class::tests::{graded, result};
 use crate::list_kind::ListKind;
@@ -55,10 +54,10 @@ impl Shards {
     }
 
     /// Writes a list, and returns its path.
-    fn list(&self, kind: ListKind, text: &str) -> ListFiles {
+    fn list(&self, kind: ListKind, text: &str) -> Lists {
         let path = self.path("given");
         fs::write(&path, text).unwrap();
-        let mut given = ListFiles::default();
+        let mut given = Lists::default();
         *given.path(kind) = Some(path);
         given
     }
@@ -82,9 +81,9 @@ impl Shards {
 
     /// Returns the arguments of a merge that is given a list.
     fn given(&self, kind: ListKind, text: &str) -> MergeArguments {
-        let ListFiles { policy, lists } = self.list(kind, text);
+        let lists = self.list(kind, text);
         MergeArguments {
-            policy,
+            policy: lists.policy.clone(),
             lists,
             ..self.arguments()
         }

@@ -1,7 +1,7 @@
 //! Compares the scores of a regrade with the earlier ones: whose points changed, in which items,
 //! and why.
 
-use std::fmt;
+use std::collections::BTreeSet;
 
 use serde::Serialize;
 
@@ -18,8 +18,8 @@ pub struct Changes {
     pub regrade: Option<RegradeChanges>,
     /// The scores that changed because the submission did.
     pub resubmitted: Vec<Drift>,
-    /// The entries that are no longer in the input.
-    pub removed: Vec<RemovedEntry>,
+    /// Sentences about the entries that are no longer in the input.
+    pub removed: Vec<String>,
     /// The final grades that changed; `None` if there are none to compare with.
     pub grades: Option<GradeChanges>,
 }
@@ -31,27 +31,6 @@ pub struct RegradeChanges {
     pub drifts: Vec<Drift>,
     /// The settings that changed.
     pub causes: Vec<&'static str>,
-}
-
-/// An entry with a result in the output folder, but without a submission in the input.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RemovedEntry {
-    /// The entry's id.
-    pub id: String,
-    /// The names of its people.
-    pub names: String,
-    /// Its points, if it was graded.
-    pub points: Option<u32>,
-}
-
-impl fmt::Display for RemovedEntry {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&id_and_names(&self.id, &self.names))?;
-        match self.points {
-            Some(points) => write!(f, ": {points} points"),
-            None => f.write_str(": no score"),
-        }
-    }
 }
 
 /// Returns the scores that changed because their submission did.
@@ -87,21 +66,22 @@ fn find_drifts(
     Ok(drifts)
 }
 
-/// Returns the entries in the stores that are not among `ids`, each once.
-pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<RemovedEntry>, Error> {
-    let mut removed: Vec<RemovedEntry> = Vec::new();
+/// Returns sentences about the entries in the stores that are not among `ids`, each with its people and
+/// points. An entry that is in several stores is named once.
+pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Error> {
+    let mut known: BTreeSet<String> = ids.iter().map(|id| (*id).to_owned()).collect();
+    let mut removed = Vec::new();
     for store in stores {
         for id in store.ids()? {
-            if ids.contains(&id.as_str()) || removed.iter().any(|entry| entry.id == id) {
+            let Some(result) = store.result(&id)?.filter(|_| !known.contains(&id)) else {
                 continue;
-            }
-            if let Some(result) = store.result(&id)? {
-                removed.push(RemovedEntry {
-                    names: result.info.display_names(),
-                    points: result.score().map(|score| score.points),
-                    id,
-                });
-            }
+            };
+            let who = id_and_names(&id, &result.info.display_names());
+            removed.push(match result.score() {
+                Some(score) => format!("{who}: {} points", score.points),
+                None => format!("{who}: no score"),
+            });
+            known.insert(id);
         }
     }
     Ok(removed)
@@ -320,33 +300,23 @@ mod tests {
     }
 
     #[test]
-    fn a_removed_entry_is_named_with_its_people_and_points() {
-        let text = |id: &str, names: &str, points| {
-            let (id, names) = (id.to_owned(), names.to_owned());
-            RemovedEntry { id, names, points }.to_string()
-        };
-        assert_eq!(text("ann", "ann", Some(7)), "ann: 7 points");
-        assert_eq!(
-            text("7001", "Ann + Bob", Some(7)),
-            "7001 (Ann + Bob): 7 points"
-        );
-        assert_eq!(text("ann", "ann", None), "ann: no score");
-    }
-
-    #[test]
     fn entries_that_left_the_class_are_found_with_their_scores() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::new(folder.path());
         let nothing = EntryOutcome::NothingToGrade("empty".to_owned());
-        for (id, outcome) in [("a", graded(80)), ("b", graded(70)), ("c", nothing)] {
-            store.save_graded(&result(id, &["Ann"], outcome), "key", 1);
+        for (id, name, outcome) in [
+            ("a", "Ann", graded(80)),
+            ("b", "Ann", graded(70)),
+            ("c", "c", nothing),
+        ] {
+            store.save_graded(&result(id, &[name], outcome), "key", 1);
         }
         // A folder without a result, such as that of a killed run.
         std::fs::create_dir(store.entry_folder("d")).unwrap();
         let removed = find_removed(&[&store], &["a", "e"]).unwrap();
-        let removed: Vec<String> = removed.iter().map(ToString::to_string).collect();
-        assert_eq!(removed, ["b (Ann): 70 points", "c (Ann): no score"]);
-        assert_eq!(find_removed(&[&store], &["a", "b", "c"]).unwrap(), []);
+        assert_eq!(removed, ["b (Ann): 70 points", "c: no score"]);
+        let none = find_removed(&[&store], &["a", "b", "c"]).unwrap();
+        assert_eq!(none, Vec::<String>::new());
     }
 
     #[test]

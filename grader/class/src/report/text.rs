@@ -9,7 +9,7 @@ use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
 use crate::plural::count;
-use crate::regrade_diff::{Drift, RegradeChanges, RemovedEntry};
+use crate::regrade_diff::{Drift, RegradeChanges};
 use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
@@ -187,21 +187,17 @@ pub fn render_grade_changes(grades: &GradeChanges) -> String {
         count_or_no(grades.changes.len(), "final grade")
     );
     // A grade that changes unnoticed is found weeks later, so all of them are listed.
-    let changes = grades.changes.iter();
-    section(
-        &title,
-        &causes,
-        changes.map(|change| one_line(&change.to_string())),
-    )
+    let changes = grades.changes.iter().map(|change| one_line(change));
+    section(&title, &causes, changes)
 }
 
 /// Renders the entries that are no longer in the input.
-pub fn render_removed(removed: &[RemovedEntry]) -> String {
+pub fn render_removed(removed: &[String]) -> String {
     if removed.is_empty() {
         return String::new();
     }
     let rest = " (not in the tables; their folders are kept)";
-    let removed = removed.iter().map(|entry| one_line(&entry.to_string()));
+    let removed = removed.iter().map(|entry| one_line(entry));
     section("no longer in the input", rest, removed)
 }
 

@@ -25,7 +25,7 @@ pub(super) fn sections(changes: &Changes) -> Markup {
                     h2 #grades { "Final grades that changed" }
                     @if !grades.causes.is_empty() { p { "Changed: " (grades.causes.join(", ")) "." } }
                     @if grades.changes.is_empty() { p { "No final grade changed." } }
-                    ul { @for change in &grades.changes { li { (sanitized(&change.to_string())) } } }
+                    ul { @for change in &grades.changes { li { (sanitized(change)) } } }
                 }
             }
         }
@@ -39,7 +39,7 @@ pub(super) fn sections(changes: &Changes) -> Markup {
         @if !changes.removed.is_empty() {
             section aria-labelledby="removed" {
                 h2 #removed { "No longer in the input" }
-                ul { @for entry in &changes.removed { li { (sanitized(&entry.to_string())) } } }
+                ul { @for entry in &changes.removed { li { (sanitized(entry)) } } }
             }
         }
     }

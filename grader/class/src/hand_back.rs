@@ -89,7 +89,7 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
 
 /// Returns the error of an archive that would be too large, for example.
 fn cannot_write(error: io::Error) -> Error {
-    Error::Machine(format!("cannot write {ARCHIVE}: {error}"))
+    Error::machine(format!("cannot write {ARCHIVE}: {error}"))
 }
 
 /// Returns the sentences on a person's own page, which do not mention the rest of the group.

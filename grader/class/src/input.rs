@@ -41,7 +41,7 @@ impl Input {
         known: &[Member],
     ) -> Result<Self, Error> {
         remove_abandoned(parent);
-        let refused = |why: &str| Err(Error::User(format!("{} {why}", path.display())));
+        let refused = |why: &str| Err(Error::user(format!("{} {why}", path.display())));
         let unpacked = match fs::metadata(path) {
             Err(_) => {
                 return refused(

@@ -158,7 +158,7 @@ fn one_of_parts<'a>(
         Some((other, _)) => {
             let (one, other) = (first.display(), other.display());
             let (name, title) = (kind.name(), kind.title());
-            Err(Error::User(format!(
+            Err(Error::user(format!(
                 "{one} and {other} were not graded with the same list: {title} differs, or only \
                  one has it; choose one with --{name}, or none with --drop-list {name}"
             )))
@@ -183,7 +183,7 @@ fn read_copy(kind: ListKind, path: &Path, list: &KeptList) -> Result<Vec<u8>, Er
         Err(error) if error.source.kind() != ErrorKind::NotFound => Err(Error::user(error)),
         Ok(_) | Err(_) => {
             let (path, name, title) = (path.display(), kind.name(), kind.title());
-            Err(Error::User(format!(
+            Err(Error::user(format!(
                 "{path} is missing or has changed, and {title} of the last run is still needed: \
                  pass it again with --{name}, or drop it with --drop-list {name}"
             )))

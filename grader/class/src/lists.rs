@@ -90,7 +90,7 @@ impl ListFindings {
             Some(example) if 2 * self.unlisted.len() > all && !lists.accept_unlisted => {
                 let unlisted = self.unlisted.len();
                 let example = sanitize_line(example, MAX_CHARS);
-                Err(Error::User(format!(
+                Err(Error::user(format!(
                     "{unlisted} of {all} submissions match nobody on the lists, such as \
                      {example:?}: check that the roster or gradebook is this class's, and that \
                      --dry-run shows the right names; if everything is right, add --accept-unlisted"

@@ -157,7 +157,7 @@ impl ManualPointsList {
     }
 
     fn error(&self, row: usize, problem: impl Display) -> Error {
-        Error::User(format!("{}, row {row}: {problem}", self.path.display()))
+        Error::user(format!("{}, row {row}: {problem}", self.path.display()))
     }
 }
 

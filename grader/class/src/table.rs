@@ -31,7 +31,7 @@ impl Table {
         let bytes = files::read(path).map_err(Error::user)?;
         Table::parse(&bytes).map_err(|why| {
             let path = path.display();
-            Error::User(format!("{path}: {why}; export it again, as CSV in UTF-8"))
+            Error::user(format!("{path}: {why}; export it again, as CSV in UTF-8"))
         })
     }
 
@@ -154,7 +154,7 @@ impl Table {
 /// Returns an error about a column, with a remedy.
 pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
     let path = path.display();
-    Error::User(format!("{path} has no column {column}: {remedy}"))
+    Error::user(format!("{path} has no column {column}: {remedy}"))
 }
 
 /// Returns the number of blank lines after a row, which the reader skips. `read` is the number of bytes

@@ -49,7 +49,7 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
     unpack_files(path, parent, handed_out).map_err(|error| match error {
         UnpackError::Archive(why) => {
             let path = path.display();
-            Error::User(format!(
+            Error::user(format!(
                 "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
             ))
         }

@@ -180,7 +180,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
     let run = match (store.read_run()?, regrade) {
         (None, true) => {
             let out = store.folder().display();
-            return Err(Error::User(format!(
+            return Err(Error::user(format!(
                 "{out} holds no scores yet: leave out --regrade"
             )));
         }
@@ -192,7 +192,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         }
         (Some(run), true) => run.next_round(settings),
         (Some(run), false) => {
-            return Err(Error::User(format!(
+            return Err(Error::user(format!(
                 "{} has scores that cannot be compared with new ones: {} changed; use --regrade to \
                  grade everything again and list the changes, or name a new folder",
                 store.folder().display(),
@@ -223,7 +223,7 @@ fn save_previous_scores(store: &Store, run: Run) -> Result<Run, Error> {
 fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Error> {
     let out = store.folder();
     if input.is_dir() && contains(input, out) {
-        return Err(Error::User(format!(
+        return Err(Error::user(format!(
             "{} is in {}: the results would be taken for submissions; choose another folder for --out",
             out.display(),
             input.display()
@@ -234,7 +234,7 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
         None => "the whole class".to_owned(),
     };
     match store.read_run()? {
-        Some(run) if run.shard != shard => Err(Error::User(format!(
+        Some(run) if run.shard != shard => Err(Error::user(format!(
             "{} has the results of {}, and not of {}: name another folder, or remove this one",
             out.display(),
             title(run.shard),

@@ -41,7 +41,7 @@ pub fn merge_shards(
     let missing = Shard::missing(&parts);
     if !missing.is_empty() {
         let missing: Vec<String> = missing.iter().map(Shard::to_string).collect();
-        return Err(Error::User(format!(
+        return Err(Error::user(format!(
             "results are missing for {}: name the output folders of all parts, or the merged grades \
              would lack submissions",
             missing.join(", ")
@@ -69,7 +69,7 @@ pub fn merge_shards(
         let current = |id: &String| run.entries.contains(id);
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), path) {
-                return Err(Error::User(format!(
+                return Err(Error::user(format!(
                     "{id} is in {} and in {}: were both given the same --shard?",
                     other.display(),
                     path.display()
@@ -128,7 +128,7 @@ pub fn merge_shards(
 fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {
-        Some(shard) => Err(Error::User(format!(
+        Some(shard) => Err(Error::user(format!(
             "{} is, or is in, the results of the shard {}: choose another folder for --out",
             arguments.out.display(),
             shard.display()
@@ -142,10 +142,10 @@ fn read_finished_run(path: &Path) -> Result<Run, Error> {
     let path = path.display();
     match run {
         Some(run) if run.state == RoundState::Finished => Ok(run),
-        Some(_) => Err(Error::User(format!(
+        Some(_) => Err(Error::user(format!(
             "{path} is not finished: run its `cargo class --shard` again"
         ))),
-        None => Err(Error::User(format!(
+        None => Err(Error::user(format!(
             "{path} contains no results of `cargo class --shard`"
         ))),
     }
@@ -171,7 +171,7 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
         return Ok(());
     };
     let (one, other) = (one.0.display(), other.0.display());
-    Err(Error::User(format!(
+    Err(Error::user(format!(
         "{one} and {other} cannot be merged{why}"
     )))
 }

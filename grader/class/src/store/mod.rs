@@ -39,7 +39,7 @@ pub struct Store {
 /// Returns the error of a file with invalid contents.
 fn damaged(path: &Path, why: &serde_json::Error) -> Error {
     let path = path.display();
-    Error::Machine(format!(
+    Error::machine(format!(
         "{path} is damaged ({why}): delete it and grade again"
     ))
 }

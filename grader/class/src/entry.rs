@@ -1,5 +1,6 @@
 //! The entries of a class, in a form that does not depend on the layout.
 
+use std::ops::Not;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -31,7 +32,7 @@ pub struct EntryInfo {
     pub late: bool,
     /// Whether the platform's export marks every late submission, so that one without a mark is on
     /// time.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "Not::not")]
     pub marks_late: bool,
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -92,22 +93,14 @@ pub struct Person {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
     /// Whether `name` comes from the name of a file or folder, so that a name in a list is better.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
     /// Whether the person is known to belong to the submission only from the roster's groups.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
     /// Whether a list has the person, so that `number` is not a group's.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub is_listed: bool,
-}
-
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde passes a reference"
-)]
-fn is_false(flag: &bool) -> bool {
-    !flag
 }
 
 impl Entry {

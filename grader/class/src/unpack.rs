@@ -94,7 +94,7 @@ fn unpack_files(
         .members
         .iter()
         .filter(|member| is_wanted(&member.path));
-    let selected = select(members, MAX_TOTAL_BYTES + MAX_EXPANSION * bytes, handed_out);
+    let (read, not_read) = select(members, MAX_TOTAL_BYTES + MAX_EXPANSION * bytes, handed_out);
     let mut incomplete = Vec::new();
     let mut put = |member: &Member, bytes: Result<&[u8], String>| {
         if let Err(why) = &bytes {
@@ -107,13 +107,13 @@ fn unpack_files(
         problems.extend(put?.map(unmatched));
         Ok::<_, UnpackError>(())
     };
-    for (member, why) in &selected.not_read {
-        put(member, why.clone().map_or(Ok(&[]), Err))?;
+    for (member, why) in not_read {
+        put(member, why.map_or(Ok(&[]), Err))?;
     }
-    archive.read_each(&selected.read, |slot, bytes| {
+    archive.read_each(&read, |slot, bytes| {
         let bytes = bytes.map_err(|why| why.to_string());
         let bytes = bytes.as_deref().map_err(Clone::clone);
-        put(selected.read[slot].0, bytes)
+        put(read[slot].0, bytes)
     })?;
     Ok(Unpacked {
         build_dir,
@@ -122,13 +122,9 @@ fn unpack_files(
     })
 }
 
-/// The members of an archive that are unpacked.
-struct Selection<'a> {
-    /// The members that are read, with the maximum number of bytes.
-    read: Vec<(&'a Member, u64)>,
-    /// The members that become empty files, with the reason if they are needed.
-    not_read: Vec<(&'a Member, Option<String>)>,
-}
+/// The members of an archive that are read, with the maximum number of bytes, and those that become empty
+/// files, with the reason if they are needed.
+type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
 /// Selects the members whose contents are needed, the smallest first, so that those that do not fit
 /// are the largest, whosever they are. No member can have more bytes than it claims.
@@ -141,32 +137,29 @@ fn select<'a>(
         |member: &'a Member| (member, max_bytes(&member.path, handed_out).min(member.size));
     let mut needed: Vec<_> = members.map(needed).collect();
     needed.sort_by_key(|(_, bytes)| *bytes);
-    let mut selection = Selection {
-        read: Vec::new(),
-        not_read: Vec::new(),
-    };
+    let (mut read, mut not_read) = (Vec::new(), Vec::new());
     let mut total = 0;
     for (member, bytes) in needed {
         total += bytes;
         let size = member.size >> 20;
         if bytes == 0 {
-            selection.not_read.push((member, None));
+            not_read.push((member, None));
         } else if bytes == MAX_FILE_BYTES && member.size > MAX_FILE_BYTES {
             let most = MAX_FILE_BYTES >> 20;
             let why = format!(
                 "it has {size} MiB, and more than {most} MiB are not unpacked: ask for the task files alone"
             );
-            selection.not_read.push((member, Some(why)));
+            not_read.push((member, Some(why)));
         } else if total > max_total {
             let why = format!(
                 "it has {size} MiB, for which there is no room beside the smaller files of the class: unpack the archive yourself, and pass the folder"
             );
-            selection.not_read.push((member, Some(why)));
+            not_read.push((member, Some(why)));
         } else {
-            selection.read.push((member, bytes));
+            read.push((member, bytes));
         }
     }
-    selection
+    (read, not_read)
 }
 
 fn is_wanted(path: &str) -> bool {

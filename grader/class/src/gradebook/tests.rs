@@ -133,22 +133,6 @@ fn a_namesake_with_another_id_gets_no_points() {
 }
 
 #[test]
-fn rejects_ambiguous_and_ignored_columns() {
-    let nobody = class(&[]);
-    let error = |text: &str, column: Option<&str>| {
-        fill_canvas(list(text).path(), column, &nobody)
-            .unwrap_err()
-            .to_string()
-    };
-    assert!(error(CANVAS, None).contains("choose one with --column: Path (7); Quiz (8)"));
-    assert!(error(CANVAS, Some("Exam")).contains("has no column Exam"));
-    let dropped = CANVAS.replace("Path (7)", "Path Final Score (7)");
-    assert!(error(&dropped, Some("7")).contains("Canvas ignores columns"));
-    assert!(error("a,b\n", None).contains("export the gradebook from Canvas"));
-    assert!(fill_canvas(list(CANVAS).path(), Some("Quiz (8)"), &nobody).is_ok());
-}
-
-#[test]
 fn an_equal_grade_in_another_format_is_not_a_change() {
     let moodles = "Identifier;Full name;Grade;Maximum Grade\nTeilnehmer/in 5;Doe;80,00;50,00\n";
     let filled = moodle(moodles, &class(&[("x", person("", "", "", "5"))]));
@@ -281,43 +265,42 @@ fn rows_that_are_not_of_people_match_nobody() {
 fn a_canvas_column_is_named_by_its_title_or_its_number() {
     let nobody = class(&[]);
     let find = |header: &str, column: Option<&str>| {
-        let text = format!("Student,ID,Section,{header}\n");
-        let filled = fill_canvas(list(&text).path(), column, &nobody);
-        filled
-            .map(|filled| filled.title)
-            .map_err(|error| error.to_string())
+        let file = list(&format!("Student,ID,Section,{header}\n"));
+        match fill_canvas(file.path(), column, &nobody) {
+            Ok(filled) => filled.title,
+            Err(error) => error.to_string(),
+        }
     };
     let two = "Path (7),Quiz (8),Notes";
-    for name in ["Path", "7", "Path (7)"] {
-        assert_eq!(
-            find(two, Some(name)),
-            Ok("Canvas, Path (7)".to_owned()),
-            "{name}"
-        );
+    for (header, column, expected) in [
+        (two, Some("Path"), "Canvas, Path (7)"),
+        (two, Some("7"), "Canvas, Path (7)"),
+        (two, Some("Path (7)"), "Canvas, Path (7)"),
+        (two, Some("Notes"), "Canvas, Notes"),
+        ("Lab (a) (7)", Some("Lab (a)"), "Canvas, Lab (a) (7)"),
+        (two, Some("P"), "has no column P: "),
+        (two, Some("(7)"), "has no column (7): "),
+        (two, Some("Section"), "has no column Section: "),
+        (two, Some(""), "has no column : "),
+        ("Path Final Score (7)", Some("7"), "Canvas ignores columns"),
+        // Without a name, there must be one column of an assignment.
+        ("Notes,Path (7)", None, "Canvas, Path (7)"),
+        ("Notes,Path (a7)", None, "--column"),
+        (two, None, "choose one with --column: Path (7); Quiz (8)"),
+    ] {
+        let found = find(header, column);
+        assert!(found.contains(expected), "{header} {column:?}: {found}");
     }
-    assert_eq!(find(two, Some("Notes")), Ok("Canvas, Notes".to_owned()));
-    for name in ["P", "(7)", "Section", ""] {
-        assert!(find(two, Some(name)).is_err(), "{name}");
-    }
-    // Without a name, there must be one column of an assignment.
-    assert_eq!(
-        find("Notes,Path (7)", None),
-        Ok("Canvas, Path (7)".to_owned())
-    );
+    let error = fill_canvas(list("a,b\n").path(), None, &nobody).unwrap_err();
     assert!(
-        find("Notes,Path (a7)", None)
-            .unwrap_err()
-            .contains("--column")
-    );
-    assert!(find(two, None).unwrap_err().contains("Path (7); Quiz (8)"));
-    assert_eq!(
-        find("Lab (a) (7)", Some("Lab (a)")),
-        Ok("Canvas, Lab (a) (7)".to_owned())
+        error
+            .to_string()
+            .contains("export the gradebook from Canvas")
     );
 }
 
 #[test]
-fn an_unknown_or_equal_maximum_needs_no_warning() {
+fn only_a_known_maximum_that_differs_needs_a_warning() {
     let one = class(&[("x", person("", "", "", "5"))]);
     let warnings = |maximum: &str, class: &GradedClass| {
         let text = format!("Identifier;Grade;Maximum Grade\nP 5;;{maximum}\n");
@@ -327,19 +310,13 @@ fn an_unknown_or_equal_maximum_needs_no_warning() {
     assert_eq!(warnings(" ", &one), Vec::<String>::new());
     assert_eq!(warnings("99", &one).len(), 1);
     assert_eq!(warnings("99", &class(&[])), Vec::<String>::new());
-}
-
-#[test]
-fn canvass_maximum_is_in_the_row_of_possible_points() {
+    // Canvas has it in the row of possible points.
     let jane = class(&[("x", person("", "", "", "7001"))]);
-    let warnings = |text: &str| canvas(text, &jane).warnings;
-    assert_eq!(warnings(CANVAS), Vec::<String>::new());
-    assert_eq!(
-        warnings(&CANVAS.replace(",100,", ",50,")),
-        [
-            "the gradebook's maximum is 50, but these points are out of 100: set out_of in the policy"
-        ]
-    );
+    assert_eq!(canvas(CANVAS, &jane).warnings, Vec::<String>::new());
+    let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of in the \
+                   policy";
+    let filled = canvas(&CANVAS.replace(",100,", ",50,"), &jane);
+    assert_eq!(filled.warnings, [warning]);
 }
 
 #[test]

@@ -126,7 +126,7 @@ impl Store {
     pub fn has_nothing_to_grade(&self, id: &str, why: &str) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
         stamp.is_some_and(
-            |stamp| matches!(stamp.outcome, EntryOutcome::NothingToGrade(stored) if stored == why),
+            |stamp| matches!(stamp.result.outcome, EntryOutcome::NothingToGrade(stored) if stored == why),
         )
     }
 
@@ -144,8 +144,7 @@ impl Store {
         let stamp = Stamp {
             key: key.to_owned(),
             round,
-            info: result.info.clone(),
-            outcome: result.outcome.clone(),
+            result: result.clone(),
         };
         Ok(atomic_write::write(json(&stamp), &folder.join(STAMP))?)
     }
@@ -250,8 +249,7 @@ impl Store {
         };
         let mut result = EntryResult {
             id: id.to_owned(),
-            info: stamp.info,
-            outcome: stamp.outcome,
+            ..stamp.result
         };
         if let EntryOutcome::Graded(score) = &mut result.outcome {
             **score = self.read_score(id)?;
@@ -265,7 +263,7 @@ impl Store {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
-            let last = match self.read_stamp(&id)?.map(|stamp| stamp.outcome) {
+            let last = match self.read_stamp(&id)?.map(|stamp| stamp.result.outcome) {
                 Some(EntryOutcome::Graded(_)) => Some(files::read_to_string(folder.join(SCORE))?),
                 Some(EntryOutcome::NothingToGrade(_)) => {
                     files::remove_if_exists(&path)?;

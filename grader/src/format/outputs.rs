@@ -10,7 +10,7 @@ use judging::sanitize::sanitize_line;
 
 use crate::files::{self, PathError};
 use crate::format::{FormatContext, FormatSpec, MethodLocation, OutputSpec, StudentView};
-use crate::handed_out::HandedOut;
+use crate::handed_out::{HandedOut, method_line};
 use crate::report::atomic_write;
 use crate::report::text::HintDetail;
 use crate::submission::Submission;
@@ -185,10 +185,7 @@ fn find_methods(submission: &Submission) -> BTreeMap<Task, MethodLocation> {
     let line = |task: &TaskInfo| {
         let mut files = submission.files.iter();
         let (_, text) = files.find(|(file, _)| file.name == task.file)?;
-        let head = format!("pub fn {}(", task.method);
-        let mut lines = (1..).zip(text.as_ref().ok()?.lines());
-        let (line, _) = lines.find(|(_, line)| line.trim_start().starts_with(&head))?;
-        Some(line)
+        method_line(text.as_ref().ok()?, task.method)
     };
     let location = |task: &TaskInfo| {
         let (file, line) = (task.file, line(task));

@@ -26,6 +26,8 @@ pub enum MethodSpanError {
 pub struct MethodSpan {
     /// The tokens between `impl` and the block's brace, separated by spaces, such as `Sphere`.
     pub implemented: String,
+    /// The position of the method's name.
+    pub name: usize,
     /// The method's bytes in the text, from its documentation to its closing brace.
     pub bytes: Range<usize>,
 }
@@ -54,7 +56,7 @@ pub fn methods_named(text: &str, method: &str) -> Result<Vec<MethodSpan>, Method
         header: None,
         block: None,
         item: None,
-        is_method: false,
+        name: None,
         after_fn: false,
         found: Vec::new(),
     };
@@ -82,8 +84,8 @@ struct Scan<'a> {
     block: Option<String>,
     /// The start of the item in the block that is being read, with its documentation.
     item: Option<usize>,
-    /// Whether this item is a method with the name.
-    is_method: bool,
+    /// The position of the name, if this item is a method with it.
+    name: Option<usize>,
     /// Whether the last token was `fn`.
     after_fn: bool,
     found: Vec<MethodSpan>,
@@ -134,7 +136,9 @@ impl Scan<'_> {
             ";" if in_block => self.end_item(bytes.end),
             ";" if self.open.is_empty() => self.header = None,
             word if in_block => {
-                self.is_method |= is_after_fn && word == self.method;
+                if is_after_fn && word == self.method {
+                    self.name = Some(bytes.start);
+                }
                 self.after_fn = word == "fn";
             }
             _ => {}
@@ -145,10 +149,11 @@ impl Scan<'_> {
     /// Ends the item that is being read, and records it if it is the method.
     fn end_item(&mut self, end: usize) {
         let start = self.item.take();
-        let is_method = std::mem::take(&mut self.is_method);
-        if let (Some(start), Some(implemented), true) = (start, &self.block, is_method) {
+        let name = self.name.take();
+        if let (Some(start), Some(implemented), Some(name)) = (start, &self.block, name) {
             self.found.push(MethodSpan {
                 implemented: implemented.clone(),
+                name,
                 bytes: start..end,
             });
         }

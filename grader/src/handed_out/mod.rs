@@ -15,7 +15,7 @@ use judging::assignment::{Assignment, TaskInfo};
 use tokens::{contains, tokens};
 
 pub use fresh::{ChangedDeclaration, FreshMethod, FreshMethodError, changed_declaration};
-pub use method_span::MethodSpanError;
+pub use method_span::{MethodSpanError, find_method};
 pub use rays::RAYS;
 pub use tokens::without_comments;
 
@@ -166,6 +166,14 @@ impl fmt::Debug for HandedOut {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(self.assignment.id)
     }
+}
+
+/// Returns the number of the line in which a public method is declared.
+pub fn method_line(text: &str, method: &str) -> Option<u32> {
+    let head = format!("pub fn {method}(");
+    let mut lines = (1..).zip(text.lines());
+    let found = lines.find(|(_, line)| line.trim_start().starts_with(&head));
+    found.map(|(line, _)| line)
 }
 
 /// Returns the methods that are complete in a starter file, as pairs of name and text. The text

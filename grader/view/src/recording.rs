@@ -4,7 +4,7 @@
 //! The method is renamed, and a method with its old name calls it and reports the result. Types and
 //! line numbers stay as they are.
 
-use ra_ap_rustc_lexer::{FrontmatterAllowed, TokenKind, tokenize};
+use grader::handed_out::find_method;
 
 /// A method whose calls are recorded.
 #[derive(Clone, Copy, Debug)]
@@ -41,49 +41,13 @@ impl RecordedMethod {
     /// Returns the text of the file in which calls of the method are recorded, or `None` if it has
     /// no such method.
     pub fn apply(&self, text: &str) -> Option<String> {
-        let name = find_hit(text, self.type_name)?;
+        let name = find_method(text, self.type_name, "hit").ok()?.name;
         let (before, after) = (&text[..name], &text[name + "hit".len()..]);
         Some(format!(
             "{before}hit{} fn hit_as_written{after}",
             self.wrapper
         ))
     }
-}
-
-/// Returns the position of the name of the method `hit` in the type's own `impl` block.
-fn find_hit(text: &str, type_name: &str) -> Option<usize> {
-    let mut position = 0;
-    let tokens = tokenize(text, FrontmatterAllowed::No).filter_map(|token| {
-        let start = position;
-        position += token.len as usize;
-        let is_code = !matches!(
-            token.kind,
-            TokenKind::Whitespace | TokenKind::LineComment { .. } | TokenKind::BlockComment { .. }
-        );
-        is_code.then_some((start, text.get(start..position)?))
-    });
-    let tokens: Vec<(usize, &str)> = tokens.collect();
-    let mut depth = 0_usize;
-    let mut is_inside = false;
-    for (index, (_, token)) in tokens.iter().enumerate() {
-        let texts = |from: usize, count: usize| -> Vec<&str> {
-            let range = tokens.iter().skip(from).take(count);
-            range.map(|(_, token)| *token).collect()
-        };
-        match *token {
-            "impl" if depth == 0 => is_inside = texts(index + 1, 2) == [type_name, "{"],
-            "{" => depth += 1,
-            "}" => {
-                depth = depth.saturating_sub(1);
-                is_inside &= depth > 0;
-            }
-            "fn" if is_inside && depth == 1 && texts(index + 1, 2) == ["hit", "("] => {
-                return Some(tokens[index + 1].0);
-            }
-            _ => {}
-        }
-    }
-    None
 }
 
 #[cfg(test)]
@@ -104,13 +68,12 @@ mod tests {
     }
 
     #[test]
-    fn finds_only_the_method_of_the_type_itself() {
-        let text = "// impl BBox { fn hit(\nimpl Other for BBox { fn hit(&self) {} }\n\
-            impl BBox { fn a() { fn hit() {} } }\nmod m { impl BBox { fn hit() {} } }\n\
-            impl BBox { fn b() -> &'static str { \"fn hit(\" } #[inline] pub fn /* x */ hit (self) {} }";
-        let found = find_hit(text, "BBox").unwrap();
-        assert!(text[found..].starts_with("hit (self)"));
-        assert_eq!(find_hit("impl BBox { fn hits(&self) {} }", "BBox"), None);
-        assert_eq!(find_hit("impl BBox { } } } fn hit(", "BBox"), None);
+    fn only_the_method_of_the_type_itself_is_renamed() {
+        let text = "impl Other for BBox { fn hit(&self) {} }\n\
+            impl BBox { fn b() { \"fn hit(\"; } #[inline] pub fn /* x */ hit (self) {} }";
+        let recorded = RECORDED[0].apply(text).unwrap();
+        assert!(recorded.contains("#[inline] pub fn /* x */ hit(&self, ray: "));
+        assert!(recorded.ends_with("fn hit_as_written (self) {} }"));
+        assert_eq!(RECORDED[0].apply("impl BBox { fn hits(&self) {} }"), None);
     }
 }

@@ -15,7 +15,7 @@
 //! | steps of an exam run | [`item_outcome`], [`clue`], [`select_isolation`], [`build`], [`probe`] |
 //! | results | [`score`], [`rerun_command`], [`source_paths`], [`bundle_version`], [`given_files`], [`stage_times`] |
 //! | inputs | [`policy`], [`submission`], [`exam_source`], [`question_ref`], [`task_selection`], [`book`], [`workspace`], [`handed_out`] |
-//! | the machine | `backup`, [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`], [`files`], [`disk`], [`system`], [`alone`], [`nearest_name`] |
+//! | the machine | `backup`, [`sandbox`], [`capture`], [`desktop`], [`printing`], [`zipfile`], [`png_file`], [`files`], [`disk`], [`system`], [`alone`], [`nearest_name`] |
 //!
 //! The package [`judging`] is below all of them: exams, their keys, and the comparison of answers
 //! with keys.
@@ -47,6 +47,7 @@ pub mod item_outcome;
 pub mod kept_state;
 pub mod nearest_name;
 pub mod options;
+pub mod png_file;
 pub mod policy;
 pub mod printing;
 pub mod probe;

@@ -1,12 +1,14 @@
 //! Remarks about the submission: tasks that are not written yet, panics, and faults.
 
-use grader::handed_out::RAYS;
+use glam::UVec2;
+use grader::handed_out::{RAYS, method_line};
+use judging::assignment::TaskInfo;
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
 use view_probe::messages::{Part, TreeSize};
 
-use super::{BuildState, Session, View};
-use crate::program::FileError;
+use super::{Session, View};
+use crate::program::{BuildState, FileError};
 
 /// The maximum number of panics that are listed.
 const MAX_PANICS: usize = 20;
@@ -28,7 +30,7 @@ pub struct PanicNote {
     /// The file and line.
     pub location: String,
     /// The first pixel, from the bottom left.
-    pub pixel: [u32; 2],
+    pub pixel: UVec2,
     /// The number of pixels.
     pub count: u64,
 }
@@ -50,28 +52,27 @@ impl Session {
                 None,
             );
         }
-        if let (View::Tests, Some(BuildState::Failed(errors))) = (self.view, &self.recording) {
+        if let (View::Tests, Some(BuildState::Failed(errors))) = (self.shown.view, &self.recording)
+        {
             add(recording_failed(errors), None);
         }
         let Some(opened) = &self.opened else {
             return notes;
         };
         for (part, panic) in &opened.missing {
-            let (task, effect) = match part {
+            let (id, effect) = match part {
                 Part::Camera => ("camera", "the viewer's own camera is used"),
                 Part::Triangle => ("triangle", "triangles are left out"),
                 Part::Sphere => ("sphere", "spheres are left out"),
                 Part::BBox => ("bbox", "boxes cannot be tested"),
             };
-            let title = title(task);
-            add(
-                format!("{title}: not written yet, so {effect}."),
-                Some(panic.location.clone()),
-            );
+            let text = format!("{}: not written yet, so {effect}.", task(id).title);
+            add(text, Some(panic.location.clone()));
         }
+        let build = task("build");
         match &opened.tree {
             ElementOutcome::Panicked(panic) => add(
-                format!("{}: panicked: {}", title("build"), panic.message),
+                format!("{}: panicked: {}", build.title, panic.message),
                 Some(panic.location.clone()),
             ),
             ElementOutcome::Value(size) => self.add_notes_about_tree(*size, &mut add),
@@ -79,7 +80,7 @@ impl Session {
         }
         if let Some(why) = &self.tree_fault {
             let text = format!("The tree cannot be shown: {why}");
-            add(text, self.line_of("bvh.rs", "pub fn build"));
+            add(text, self.line_of(build));
         }
         if self.invalid_paths > 0 {
             add(
@@ -95,21 +96,20 @@ impl Session {
     }
 
     fn add_notes_about_tree(&self, size: TreeSize, mut add: impl FnMut(String, Option<String>)) {
-        let (build, hit) = ("pub fn build", "pub fn hit");
         let effect = match size.primitives {
             0 => String::new(),
             count => format!(", so each ray tests all {count} primitives"),
         };
-        if size.nodes == 0 && self.is_from_starter("bvh.rs", build) {
-            let text = format!("{}: not written yet{effect}.", title("build"));
-            add(text, self.line_of("bvh.rs", build));
+        let not_written = |task: &TaskInfo| format!("{}: not written yet{effect}.", task.title);
+        let (build, traverse) = (task("build"), task("traverse"));
+        if size.nodes == 0 && self.is_from_starter(build) {
+            add(not_written(build), self.line_of(build));
         } else if size.nodes == 0 && size.primitives > 0 {
-            let text = format!("{}: the tree has no nodes.", title("build"));
-            add(text, self.line_of("bvh.rs", build));
+            let text = format!("{}: the tree has no nodes.", build.title);
+            add(text, self.line_of(build));
         }
-        if self.is_from_starter("bvh.rs", hit) {
-            let text = format!("{}: not written yet{effect}.", title("traverse"));
-            add(text, self.line_of("bvh.rs", hit));
+        if self.is_from_starter(traverse) {
+            add(not_written(traverse), self.line_of(traverse));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` of triangles or spheres first.";
@@ -117,12 +117,12 @@ impl Session {
         }
     }
 
-    /// Returns whether a method of the submission is that of the starter.
-    fn is_from_starter(&self, file: &str, declaration: &str) -> bool {
-        let starter = RAYS.task_file(file).map(|file| file.starter);
-        let starter = starter.and_then(|text| method(text, declaration));
-        let own = self.text(file).and_then(|text| method(text, declaration));
-        own.is_some() && own == starter
+    /// Returns whether a task's method is that of the starter.
+    fn is_from_starter(&self, task: &TaskInfo) -> bool {
+        let fresh = self
+            .text(task.file)
+            .map(|text| RAYS.with_fresh_method(task.task(), text));
+        matches!(fresh, Some(Ok(fresh)) if !fresh.is_changed)
     }
 
     fn text(&self, file: &str) -> Option<&str> {
@@ -131,21 +131,20 @@ impl Session {
         text.as_deref().ok()
     }
 
-    /// Returns the file and line in which a declaration of the submission begins.
-    fn line_of(&self, file: &str, declaration: &str) -> Option<String> {
-        let mut lines = self.text(file)?.lines();
-        let number = lines.position(|line| line.trim_start().starts_with(declaration))?;
-        Some(format!("{file}:{}", number + 1))
+    /// Returns the file and line in which a task's method is declared.
+    fn line_of(&self, task: &TaskInfo) -> Option<String> {
+        let line = method_line(self.text(task.file)?, task.method)?;
+        Some(format!("{}:{line}", task.file))
     }
 
     /// Adds the panics of some pixels.
-    pub(super) fn add_panic(&mut self, panic: &Panic, pixel: [u32; 2], count: u64) {
-        let mut known = self.panics.iter();
+    pub(super) fn add_panic(&mut self, panic: &Panic, pixel: UVec2, count: u64) {
+        let mut known = self.shown.panics.iter();
         match known.position(|known| known.location == panic.location) {
-            Some(known) => self.panics[known].count += count,
+            Some(known) => self.shown.panics[known].count += count,
             // The first ones are enough to start with.
-            None if self.panics.len() == MAX_PANICS => {}
-            None => self.panics.push(PanicNote {
+            None if self.shown.panics.len() == MAX_PANICS => {}
+            None => self.shown.panics.push(PanicNote {
                 message: panic.message.clone(),
                 location: panic.location.clone(),
                 pixel,
@@ -153,21 +152,6 @@ impl Session {
             }),
         }
     }
-}
-
-/// Returns the lines of a method, without indentation and empty lines. It ends with the first line
-/// that is a brace as far to the left as its declaration.
-fn method<'a>(text: &'a str, declaration: &str) -> Option<Vec<&'a str>> {
-    let mut lines = text
-        .lines()
-        .skip_while(|line| !line.trim_start().starts_with(declaration))
-        .peekable();
-    let indentation = |line: &str| line.len() - line.trim_start().len();
-    let depth = indentation(lines.peek()?);
-    let end = format!("{}}}", " ".repeat(depth));
-    let body = lines.take_while(|line| line.trim_end() != end);
-    let lines = body.map(str::trim).filter(|line| !line.is_empty());
-    Some(lines.collect())
 }
 
 /// Returns the reason why tests cannot be recorded.
@@ -179,10 +163,7 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the title of a task.
-fn title(id: &str) -> &'static str {
-    let mut tasks = RAYS.assignment.tasks.iter();
-    tasks
-        .find(|task| task.id == id)
-        .map_or("this task", |task| task.title)
+/// Returns the task with this id.
+fn task(id: &str) -> &'static TaskInfo {
+    RAYS.assignment.find(id).expect("the viewer's tasks exist")
 }

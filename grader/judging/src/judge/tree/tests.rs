@@ -45,13 +45,14 @@ fn judge(
     max_leaf_size: u32,
     tree: Tree,
 ) -> Judgement {
-    let built = TreeAnswer {
+    let criteria = TreeCriteria {
         checks,
         sweep_cost,
         shapes: &row(count),
         max_leaf_size,
-        answer: &ElementOutcome::Value(tree),
     };
+    let answer = &ElementOutcome::Value(tree);
+    let built = TreeAnswer { criteria, answer };
     let judgement = built.judge();
     let mut measured = built.measure().into_iter();
     let is_right = measured.all(|measured| measured.deciding_deviation().is_right());
@@ -240,14 +241,14 @@ fn an_empty_tree_has_no_node_or_one_empty_leaf() {
 #[test]
 fn measures_box_excess_and_cost() {
     let measured = |tree: Tree, sweep_cost| {
-        let built = TreeAnswer {
+        let criteria = TreeCriteria {
             checks: &ALL_CHECKS,
             sweep_cost,
             shapes: &row(4),
             max_leaf_size: 2,
-            answer: &ElementOutcome::Value(tree),
         };
-        built.measure()
+        let answer = &ElementOutcome::Value(tree);
+        TreeAnswer { criteria, answer }.measure()
     };
     let value = |measured: &[Measurement], threshold| {
         let mut offs = measured.iter().map(|measured| measured.deviation);

@@ -15,7 +15,7 @@
 //! | steps of an exam run | [`build`], [`probe`] |
 //! | results | [`score`] |
 //! | inputs | [`policy`], [`submission`], `inputs`, [`workspace`], [`handed_out`] |
-//! | the machine | [`sandbox`], [`error`], `machine` |
+//! | the machine | [`sandbox`], [`error`], [`png_file`], `machine` |
 //!
 //! Other packages find some modules of these folders at the top.
 //!
@@ -33,6 +33,7 @@ pub mod hand_in;
 pub mod handed_out;
 mod inputs;
 mod machine;
+pub mod png_file;
 pub mod policy;
 pub mod probe;
 pub mod replay;

@@ -1,7 +1,7 @@
 """Converts a scene file of this project to a scene for Mitsuba 3.
 
-The format is described in scenes/README.md. Meshes are read and subdivided here again, so that the
-comparison also covers the project's loader.
+The format is described in scenes/README.md. Meshes are read here again, so that the comparison
+also covers the project's loader.
 """
 
 import mitsuba as mi
@@ -117,11 +117,6 @@ def polygon(entry):
 
 def mesh(entry, folder):
     positions, faces, normals, uv = read_obj(folder / entry["file"])
-    if levels := entry.get("subdivide", 0):
-        for _ in range(levels):
-            positions, faces = subdivide(positions, faces)
-        normals = smooth_normals(positions, faces)[faces].reshape(-1, 3)
-        uv = None
     rotation = rotate(entry.get("rotate", [0, 0, 0]))
     positions = positions * entry.get("scale", 1.0) @ rotation.T + entry.get("translate", 0)
     normals = None if normals is None else normals @ rotation.T
@@ -137,61 +132,16 @@ def read_obj(path):
         if kind == "f":
             if len(words) != 3:
                 raise ValueError(f"{path}: only triangles are supported")
-            corners = [[int(index) for index in word.split("/")] for word in words]
+            corners = [[int(index or 0) for index in word.split("/")] for word in words]
             lists["f"].append(corners)
         elif kind in lists:
             lists[kind].append([float(word) for word in words])
     faces = np.array(lists["f"]) - 1
     def at_corners(kind, column):
         return np.array(lists[kind])[faces[..., column]].reshape(len(faces) * 3, -1)
-    has_more = faces.shape[2] == 3
-    uv = at_corners("vt", 1) if has_more else None
-    normals = at_corners("vn", 2) if has_more else None
+    uv = at_corners("vt", 1) if lists["vt"] else None
+    normals = at_corners("vn", 2) if lists["vn"] else None
     return np.array(lists["v"]), faces[..., 0], normals, uv
-
-
-def subdivide(positions, faces):
-    """Splits each triangle into four by Loop's scheme."""
-    count = len(positions)
-    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    across = np.concatenate([faces[:, 2], faces[:, 0], faces[:, 1]])
-    edges, index, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True,
-                                   return_counts=True)
-    index = index.ravel()
-    smooth = uses == 2
-
-    opposite = np.zeros((len(edges), 3))
-    np.add.at(opposite, index, positions[across])
-    ends = positions[edges].sum(axis=1)
-    middles = np.where(smooth[:, None], 0.375 * ends + 0.125 * opposite, 0.5 * ends)
-
-    def ring(edges):
-        total, number = np.zeros((count, 3)), np.zeros(count)
-        for here, there in (edges.T, edges.T[::-1]):
-            np.add.at(total, here, positions[there])
-            np.add.at(number, here, 1)
-        return total, number[:, None]
-    total, number = ring(edges)
-    weight = np.where(number == 3, 3 / 16, 3 / (8 * np.maximum(number, 1)))
-    inside = (1 - number * weight) * positions + weight * total
-    total, number = ring(edges[~smooth])
-    border = 0.75 * positions + 0.125 * total
-    moved = np.where(number == 0, inside, np.where(number == 2, border, positions))
-
-    ab, bc, ca = (index + count).reshape(3, -1)
-    a, b, c = faces.T
-    split = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    faces = np.concatenate([np.stack(corners, axis=1) for corners in split])
-    return np.concatenate([moved, middles]), faces
-
-
-def smooth_normals(positions, faces):
-    """Returns the normal of each position, the mean of those around it, weighted by area."""
-    a, b, c = positions[faces].transpose(1, 0, 2)
-    normals = np.zeros_like(positions)
-    for corner in faces.T:
-        np.add.at(normals, corner, np.cross(b - a, c - a))
-    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
 def rotate(degrees):

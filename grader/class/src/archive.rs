@@ -1,25 +1,47 @@
 //! Writes archives.
 
-use std::io::{Cursor, Write};
+use std::collections::BTreeSet;
+use std::io::{self, Cursor, Write};
 
-use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
+use zip::{DateTime, ZipWriter};
 
-/// Returns the options of a file in an archive. Without a time, the archive depends only on the
-/// files.
-pub fn options() -> SimpleFileOptions {
-    SimpleFileOptions::default().last_modified_time(zip::DateTime::default())
+/// An archive that is being written in memory.
+pub struct ArchiveWriter {
+    writer: ZipWriter<Cursor<Vec<u8>>>,
+    /// The names in the archive, in lower case.
+    used: BTreeSet<String>,
 }
 
-/// Returns an archive with these files, by their names.
-pub fn pack<'a>(files: impl Iterator<Item = (&'a str, &'a str)>) -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, text) in files {
-        let started = writer.start_file(name, options());
-        started.expect("the names of task files are short and differ");
-        let written = writer.write_all(text.as_bytes());
-        written.expect("writing to memory succeeds");
+impl ArchiveWriter {
+    /// Returns an archive without files.
+    pub fn new() -> Self {
+        ArchiveWriter {
+            writer: ZipWriter::new(Cursor::new(Vec::new())),
+            used: BTreeSet::new(),
+        }
     }
-    let archive = writer.finish().expect("writing to memory succeeds");
-    archive.into_inner()
+
+    /// Adds a file, with a number in its name if there is already one of that name. It has no time, so
+    /// that the archive depends only on the files.
+    pub fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
+        let numbered = (2..).map(|number| format!("{stem}-{number}.{end}"));
+        let mut names = std::iter::once(name.to_owned()).chain(numbered);
+        let free = names.find(|name| self.used.insert(name.to_lowercase()));
+        let free = free.expect("there are enough numbers");
+        let options = SimpleFileOptions::default().last_modified_time(DateTime::default());
+        self.writer.start_file(free, options)?;
+        self.writer.write_all(bytes)
+    }
+
+    /// Returns the number of files.
+    pub fn count(&self) -> usize {
+        self.used.len()
+    }
+
+    /// Returns the bytes of the archive.
+    pub fn finish(self) -> io::Result<Vec<u8>> {
+        Ok(self.writer.finish()?.into_inner())
+    }
 }

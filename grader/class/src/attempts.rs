@@ -1,16 +1,41 @@
-//! Several submissions of one person: which of them counts, by the policy's rule.
+//! Counts the points of all submissions, by the policy, with the points by hand. Of several submissions
+//! of one person, the policy's rule says which one counts.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
+use crate::error::Error;
 use crate::graded_class::{ClassRow, GradeProblem};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
-use crate::outcome::EntryOutcome;
+use crate::manual_points::{ManualPoints, ManualPointsList};
+use crate::outcome::{EntryOutcome, EntryResult};
+
+/// Applies the policy and the manual points to all results.
+pub fn count_points(
+    results: Vec<EntryResult>,
+    policy: &Policy,
+    manual: &ManualPointsList,
+    tasks: &BTreeMap<String, u32>,
+) -> Result<Vec<ClassRow>, Error> {
+    let mut rows = Vec::new();
+    for result in results {
+        let people = result.info.people.iter();
+        let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
+        rows.push(ClassRow::new(result, policy, own, tasks.values().sum()));
+    }
+    apply_rule(policy, &mut rows);
+    for row in &rows {
+        for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
+            manual.check_range(&grade.manual, &row.result.outcome, tasks)?;
+        }
+    }
+    Ok(rows)
+}
 
 /// Applies the policy's rule: of several attempts, only one keeps its points.
-pub fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
+fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
     let people = rows.iter().map(|row| row.result.info.people.as_slice());
     for attempts in attempts_by_person(people) {
         // A submission may list a person twice, or several people with one email address.
@@ -92,9 +117,11 @@ fn choose(
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
     use crate::entry::Person;
-    use crate::graded_class::tests::{graded, policy, result};
+    use crate::graded_class::tests::{graded, person, policy, result};
 
     /// Returns a row for each submission: its id, its outcome and its time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
@@ -134,86 +161,70 @@ mod tests {
     }
 
     #[test]
-    fn without_a_rule_a_person_chooses_among_all_attempts() {
-        assert_eq!(counted("ask", &three()), ["or b, c", "or a, c", "or a, b"]);
-        let with_nothing = [("a", graded(80), None), ("b", nothing(), None)];
-        assert_eq!(counted("ask", &with_nothing), ["or b", "or a"]);
-        assert_eq!(counted("ask", &three()[..1]), ["80"]);
-    }
-
-    #[test]
-    fn the_latest_attempt_counts_if_all_times_are_known() {
-        assert_eq!(counted("latest", &three()), ["see b", "60", "see b"]);
-        let [a, b, _] = three();
-        let undated = [a, b, ("c", graded(80), None)];
-        assert_eq!(
-            counted("latest", &undated),
-            ["or b, c", "or a, c", "or a, b"]
-        );
-    }
-
-    #[test]
-    fn of_two_attempts_at_the_latest_time_a_person_chooses() {
+    fn the_rule_decides_if_everything_that_it_needs_is_known() {
         let [a, b, c] = three();
         let at = |attempt: &(&'static str, EntryOutcome, _), time| {
             (attempt.0, attempt.1.clone(), Some(time))
         };
-        let latest = [a.clone(), b.clone(), at(&c, "2026-11-22T11:00:00+01:00")];
-        assert_eq!(
-            counted("latest", &latest),
-            ["or b, c", "or a, c", "or a, b"]
-        );
-        let earliest = [a, b, at(&c, "2026-11-20T10:00:00Z")];
-        assert_eq!(counted("latest", &earliest), ["see b", "60", "see b"]);
-    }
-
-    #[test]
-    fn the_first_of_the_best_attempts_counts() {
-        assert_eq!(counted("best", &three()), ["80", "see a", "see a"]);
-        let [a, b, c] = three();
+        let fault = EntryOutcome::Fault("disk".to_owned());
+        let is_open = ["or b, c", "or a, c", "or a, b"];
+        let last_at_once = at(&c, "2026-11-22T11:00:00+01:00");
+        let first_at_once = at(&c, "2026-11-20T10:00:00Z");
+        let undated = ("c", graded(80), None);
+        let failed = ("c", fault, Some("2026-11-19T10:00:00Z"));
+        for (rule, third, expected) in [
+            ("ask", &c, is_open),
+            ("latest", &c, ["see b", "60", "see b"]),
+            ("latest", &undated, is_open),
+            // Of two attempts at the latest time, a person chooses.
+            ("latest", &last_at_once, is_open),
+            ("latest", &first_at_once, ["see b", "60", "see b"]),
+            // The first of the best counts.
+            ("best", &c, ["80", "see a", "see a"]),
+            // It is graded in the next run.
+            ("best", &failed, is_open),
+            ("latest", &failed, is_open),
+        ] {
+            let attempts = [a.clone(), b.clone(), third.clone()];
+            assert_eq!(counted(rule, &attempts), expected, "{rule} {third:?}");
+        }
+        assert_eq!(counted("ask", &three()[..1]), ["80"]);
         assert_eq!(counted("best", &[b, c, a]), ["see c", "80", "see c"]);
     }
 
     #[test]
-    fn an_attempt_that_was_not_graded_keeps_the_others_waiting() {
-        let fault = EntryOutcome::Fault("disk".to_owned());
-        let [a, b, _] = three();
-        let attempts = [a, b, ("c", fault, Some("2026-11-19T10:00:00Z"))];
-        for rule in ["best", "latest"] {
-            assert_eq!(counted(rule, &attempts), ["or b, c", "or a, c", "or a, b"]);
+    fn of_two_attempts_one_may_be_without_files_or_a_time() {
+        let is_open = ["or b", "or a"];
+        let nothing = |time| ("a", nothing(), time);
+        let graded_at = |time| ("a", graded(80), time);
+        let empty = ("b", super::tests::nothing(), None);
+        let undated = ("b", graded(60), None);
+        let future = ("b", graded(60), Some("2062-11-20T10:00:00Z"));
+        for (rule, attempts, expected) in [
+            ("ask", [graded_at(None), empty.clone()], is_open),
+            // With a rule, an attempt without files does not count.
+            (
+                "best",
+                [nothing(Some("2026-11-23T10:00:00Z")), undated.clone()],
+                ["see b", "60"],
+            ),
+            (
+                "latest",
+                [nothing(Some("2026-11-23T10:00:00Z")), undated.clone()],
+                ["see b", "60"],
+            ),
+            ("best", [nothing(None), empty], is_open),
+            // Points whose time is unclear are not compared.
+            ("best", [graded_at(Some("yesterday")), undated], is_open),
+            // One of the years must be wrong.
+            (
+                "latest",
+                [graded_at(Some("2026-11-20T10:00:00Z")), future],
+                is_open,
+            ),
+        ] {
+            assert_eq!(counted(rule, &attempts), expected, "{rule} {attempts:?}");
         }
-    }
-
-    #[test]
-    fn with_a_rule_an_attempt_without_files_does_not_count() {
-        let attempts = [
-            ("a", nothing(), Some("2026-11-23T10:00:00Z")),
-            ("b", graded(60), None),
-        ];
-        for rule in ["best", "latest"] {
-            assert_eq!(counted(rule, &attempts), ["see b", "60"]);
-        }
-        let nothing_at_all = [("a", nothing(), None), ("b", nothing(), None)];
-        assert_eq!(counted("best", &nothing_at_all), ["or b", "or a"]);
-    }
-
-    #[test]
-    fn points_whose_time_is_unclear_are_not_compared() {
-        let attempts = [
-            ("a", graded(80), Some("yesterday")),
-            ("b", graded(60), None),
-        ];
-        assert_eq!(counted("best", &attempts), ["or b", "or a"]);
-    }
-
-    /// One of the years must be wrong.
-    #[test]
-    fn none_is_the_latest_of_times_that_are_far_apart() {
-        let attempts = [
-            ("a", graded(80), Some("2026-11-20T10:00:00Z")),
-            ("b", graded(60), Some("2062-11-20T10:00:00Z")),
-        ];
-        assert_eq!(counted("latest", &attempts), ["or b", "or a"]);
     }
 
     #[test]
@@ -229,10 +240,7 @@ mod tests {
     #[test]
     fn a_submission_that_lists_a_person_twice_is_one_attempt() {
         let twice = |mut row: ClassRow| {
-            let person = Person {
-                email: "a@x.edu".to_owned(),
-                ..Person::named("Ann")
-            };
+            let person = person(json!({ "name": "Ann", "email": "a@x.edu" }));
             let partner = Person {
                 name: "Bob".to_owned(),
                 ..person.clone()

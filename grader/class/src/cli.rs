@@ -116,6 +116,11 @@ pub struct GradingArguments {
 /// The roster and the gradebooks of a class, as CSV files, and what is made of the grades.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Lists {
+    /// The policy file, for which grading and merging have options of their own; `None` for the default
+    /// policy.
+    #[arg(skip)]
+    pub policy: Option<PathBuf>,
+
     /// Roster, with columns such as name, email, sid, username; optional columns are group (one
     /// submission counts for the whole group) and datetime (the submission time)
     #[arg(long, value_name = "CSV")]
@@ -174,6 +179,20 @@ pub struct MergeArguments {
     /// The roster and the gradebooks.
     #[command(flatten)]
     pub lists: Lists,
+}
+
+impl Lists {
+    /// Returns the path of a list, to read or replace it.
+    pub fn path(&mut self, kind: ListKind) -> &mut Option<PathBuf> {
+        match kind {
+            ListKind::Policy => &mut self.policy,
+            ListKind::Roster => &mut self.roster,
+            ListKind::ManualPoints => &mut self.manual_points,
+            ListKind::Canvas => &mut self.canvas,
+            ListKind::Moodle => &mut self.moodle,
+            ListKind::Gradescope => &mut self.gradescope,
+        }
+    }
 }
 
 impl GradingArguments {

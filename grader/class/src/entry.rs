@@ -1,5 +1,6 @@
 //! The entries of a class, in a form that does not depend on the layout.
 
+use std::ops::Not;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -31,7 +32,7 @@ pub struct EntryInfo {
     pub late: bool,
     /// Whether the platform's export marks every late submission, so that one without a mark is on
     /// time.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "Not::not")]
     pub marks_late: bool,
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -92,22 +93,27 @@ pub struct Person {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
     /// Whether `name` comes from the name of a file or folder, so that a name in a list is better.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
     /// Whether the person is known to belong to the submission only from the roster's groups.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
     /// Whether a list has the person, so that `number` is not a group's.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub is_listed: bool,
 }
 
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde passes a reference"
-)]
-fn is_false(flag: &bool) -> bool {
-    !flag
+impl Entry {
+    /// Returns the entry of one person. `from` is the file or folder that it was read from.
+    pub fn new(id: impl Into<String>, person: Person, from: &str, source: Source) -> Self {
+        let info = EntryInfo {
+            people: vec![person],
+            from: from.to_owned(),
+            ..EntryInfo::default()
+        };
+        let id = id.into();
+        Entry { id, info, source }
+    }
 }
 
 /// The location of an entry's files.
@@ -265,7 +271,10 @@ impl EntryInfo {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
+    use crate::graded_class::tests::person;
 
     #[test]
     fn people_match_by_identifier_and_not_by_name() {
@@ -281,10 +290,7 @@ mod tests {
 
     #[test]
     fn a_number_counts_only_with_the_name() {
-        let with_number = |name: &str| Person {
-            number: "51".to_owned(),
-            ..Person::named(name)
-        };
+        let with_number = |name: &str| person(json!({ "name": name, "number": "51" }));
         for (one, other) in [
             ("Ann Lee", "Lee, Ann"),
             ("", "Ann Lee"),
@@ -302,25 +308,15 @@ mod tests {
 
     #[test]
     fn what_is_not_known_identifies_nobody() {
-        let ann = Person {
-            sid: "17".to_owned(),
-            ..Person::named("Ann")
-        };
+        let ann = person(json!({ "name": "Ann", "sid": "17" }));
         assert_eq!(ann.identifiers().collect::<Vec<_>>(), ["17", "Ann"]);
         assert_eq!(Person::default().identifiers().next(), None);
     }
 
     #[test]
     fn another_roster_counts_for_groups_and_extensions() {
-        let listed = Person {
-            group: "Team A".to_owned(),
-            extension: "2".to_owned(),
-            ..Person::named("Ann")
-        };
-        let of_group = Person {
-            is_from_group: true,
-            ..Person::named("Bob")
-        };
+        let listed = person(json!({ "name": "Ann", "group": "Team A", "extension": "2" }));
+        let of_group = person(json!({ "name": "Bob", "is_from_group": true }));
         let mut info = EntryInfo {
             people: vec![listed, of_group],
             ..EntryInfo::default()

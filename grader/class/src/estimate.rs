@@ -1,7 +1,8 @@
 //! `--estimate`: how long a class takes, from the first submissions that are graded.
 
-use std::fmt::Write;
 use std::time::Duration;
+
+use crate::plural::count;
 
 /// The numbers of machines for which the time is given.
 const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
@@ -38,35 +39,24 @@ impl Estimate {
         let Some(mean) = self.mean() else {
             return "\n  nothing to estimate: every submission is graded\n\n".to_owned();
         };
-        let mut text = String::new();
         let seconds = mean.as_secs_f64();
-        let count = match self.times.len() {
-            1 => "1 submission".to_owned(),
-            count => format!("{count} submissions"),
-        };
-        let mut line =
-            |line: String| writeln!(text, "  {line}").expect("writing to a string succeeds");
-        line(format!(
-            "\n  estimate from {count}: {seconds:.1} s per submission on one core"
-        ));
-        line(format!(
-            "{} more submissions, {} at a time:",
+        let sample = count(self.times.len(), "submission");
+        let mut text = format!(
+            "  \n  estimate from {sample}: {seconds:.1} s per submission on one core\n  \
+             {} more submissions, {} at a time:\n",
             self.remaining, self.slots
-        ));
+        );
         for machines in MACHINES {
             let time = format_duration(self.remaining_time(mean, machines));
             let machines = match machines {
                 1 => "this machine".to_owned(),
                 machines => format!("{machines} machines like this"),
             };
-            line(format!("  {machines:24} {time}"));
+            text += &format!("    {machines:24} {time}\n");
         }
-        line(format!(
-            "a million submissions: {:.0} core-hours",
-            MANY * seconds / 3600.0
-        ));
-        line("the results are kept: without --estimate, the rest is graded\n".to_owned());
-        text
+        let hours = MANY * seconds / 3600.0;
+        text += &format!("  a million submissions: {hours:.0} core-hours\n");
+        text + "  the results are kept: without --estimate, the rest is graded\n\n"
     }
 }
 

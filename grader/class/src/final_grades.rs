@@ -2,7 +2,6 @@
 //! lateness, points by hand and the policy.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
@@ -56,35 +55,8 @@ struct FinalGrade {
 pub struct GradeChanges {
     /// The settings and lists that changed.
     pub causes: Vec<&'static str>,
-    /// The changes.
-    pub changes: Vec<GradeChange>,
-}
-
-/// A final grade that changed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct GradeChange {
-    /// The submission's id.
-    pub id: String,
-    /// The person's name.
-    pub who: String,
-    /// The points before the change, or why there were none.
-    pub was: String,
-    /// The points after the change, or why there are none.
-    pub now: String,
-    /// The parts of the grade that changed.
-    pub why: String,
-}
-
-impl fmt::Display for GradeChange {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let GradeChange { was, now, why, .. } = self;
-        let who = id_and_names(&self.id, &self.who);
-        write!(f, "{who}: {was} → {now}")?;
-        match why.as_str() {
-            "" => Ok(()),
-            why => write!(f, ": {why}"),
-        }
-    }
+    /// Sentences about the changes, each with its submission, its person and its cause.
+    pub changes: Vec<String>,
 }
 
 impl GradeHistory {
@@ -92,21 +64,20 @@ impl GradeHistory {
     pub fn after(earlier: Option<GradeHistory>, run: &Run, class: &GradedClass) -> Self {
         let last = earlier.as_ref().map(|earlier| &earlier.now);
         let now = FinalGrades::new(run, class, last);
-        match earlier {
-            Some(earlier) if earlier.now == now => earlier,
+        let Some(earlier) = earlier else {
+            return GradeHistory { before: None, now };
+        };
+        if earlier.now == now {
+            return earlier;
+        }
+        let before = match earlier.before {
             // The comparison lasts until all submissions are graded.
-            Some(GradeHistory {
-                before: Some(before),
-                now: last,
-            }) if last.is_incomplete => GradeHistory {
-                before: Some(before),
-                now,
-            },
-            Some(GradeHistory { now: before, .. }) => GradeHistory {
-                before: Some(before),
-                now,
-            },
-            None => GradeHistory { before: None, now },
+            Some(before) if earlier.now.is_incomplete => before,
+            Some(_) | None => earlier.now,
+        };
+        GradeHistory {
+            before: Some(before),
+            now,
         }
     }
 
@@ -158,30 +129,23 @@ impl FinalGrades {
     }
 
     /// Returns the change to a later grade. A new submission is none.
-    fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<GradeChange> {
+    fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
         self.of(&now.submission).next()?;
         match self.find(now) {
-            Some(was) if was.counts == now.counts => None,
-            Some(was) => Some(now.change(was, causes)),
-            None => now.counts.map(|_| GradeChange {
-                id: now.submission.clone(),
-                who: now.person.display_name().to_owned(),
-                was: "–".to_owned(),
-                now: now.value(false),
-                why: "the submission now counts for this person as well".to_owned(),
+            Some(was) => (was.counts != now.counts).then(|| now.change(was, causes)),
+            None => now.counts.map(|_| {
+                let why = "the submission now counts for this person as well";
+                now.changed("–", &now.value(false), why)
             }),
         }
     }
 
     /// Returns the change of an earlier grade that is not among these, whose submission still is.
-    fn loss(&self, was: &FinalGrade) -> Option<GradeChange> {
+    fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
-        (was.counts.is_some() && self.find(was).is_none()).then(|| GradeChange {
-            id: was.submission.clone(),
-            who: was.person.display_name().to_owned(),
-            was: was.value(false),
-            now: "–".to_owned(),
-            why: "the submission no longer counts for this person".to_owned(),
+        (was.counts.is_some() && self.find(was).is_none()).then(|| {
+            let why = "the submission no longer counts for this person";
+            was.changed(&was.value(false), "–", why)
         })
     }
 
@@ -222,7 +186,7 @@ impl FinalGrade {
         }
     }
 
-    fn change(&self, was: &FinalGrade, causes: &[&str]) -> GradeChange {
+    fn change(&self, was: &FinalGrade, causes: &[&str]) -> String {
         let maximum = |grade: &FinalGrade| grade.counts.map(|[_, of]| of);
         let maxima = [was, self].map(maximum);
         let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
@@ -241,13 +205,19 @@ impl FinalGrade {
         if why.is_empty() {
             why = causes.iter().map(|cause| (*cause).to_owned()).collect();
         }
-        GradeChange {
-            id: self.submission.clone(),
-            who: self.person.display_name().to_owned(),
-            was: was.value(with_maximum),
-            now: self.value(with_maximum),
-            why: why.join(", "),
-        }
+        let (was, now) = (was.value(with_maximum), self.value(with_maximum));
+        self.changed(&was, &now, &why.join(", "))
+    }
+
+    /// Returns a sentence about a change: the points, or why there are none, and the cause.
+    fn changed(&self, was: &str, now: &str, why: &str) -> String {
+        let who = id_and_names(&self.submission, self.person.display_name());
+        let why = if why.is_empty() {
+            ""
+        } else {
+            &format!(": {why}")
+        };
+        format!("{who}: {was} → {now}{why}")
     }
 }
 

@@ -3,23 +3,14 @@
 
 use std::collections::BTreeSet;
 
-use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
-use crate::error::Error;
+use crate::list_kind::ListKind;
 use crate::names::are_equal;
-use crate::roster::{self, Member};
+use crate::roster::Member;
 
 /// Gives an entry that is named after a group, and matches nobody, to the members of the group: those
 /// in the roster or, if it does not have the group, in another list. Returns whether there are any.
-pub fn resolve_teams(
-    lists: &Lists,
-    rows: &[Member],
-    entries: &mut [&mut EntryInfo],
-) -> Result<bool, Error> {
-    let roster = match &lists.roster {
-        Some(path) => roster::read_members(path)?,
-        None => Vec::new(),
-    };
+pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let mut has_teams = false;
     for info in entries {
         let [person] = info.people.as_slice() else {
@@ -29,22 +20,19 @@ pub fn resolve_teams(
         if team.is_empty() || rows.iter().any(|row| row.matches(person)) {
             continue;
         }
-        let of = |rows: &[Member]| -> Vec<Person> {
-            let members = rows.iter().map(|row| &row.person);
-            let members = members.filter(|member| are_equal(&member.group, &team));
-            members.cloned().collect()
-        };
-        let mut members = of(&roster);
-        if members.is_empty() {
-            members = of(rows);
-        }
+        let members = rows
+            .iter()
+            .filter(|row| are_equal(&row.person.group, &team));
+        let has_roster = members.clone().any(|row| row.list == ListKind::Roster);
+        let members = members.filter(|row| !has_roster || row.list == ListKind::Roster);
+        let members: Vec<Person> = members.map(|row| row.person.clone()).collect();
         if !members.is_empty() {
             has_teams = true;
             info.people = members;
             info.team = Some(team);
         }
     }
-    Ok(has_teams)
+    has_teams
 }
 
 /// Joins the records of people who are listed twice.
@@ -67,21 +55,18 @@ pub fn remove_repetitions(people: &mut Vec<Person>) {
 
 /// Adds the other members of a group to the entry of the member who submitted, except those who
 /// made a submission of their own. Returns whether there are any.
-pub fn add_group_members(lists: &Lists, entries: &mut [&mut EntryInfo]) -> Result<bool, Error> {
-    let Some(path) = &lists.roster else {
-        return Ok(false);
-    };
-    let members = roster::read_members(path)?;
+pub fn add_group_members(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
+    let members = rows.iter().filter(|row| row.list == ListKind::Roster);
     let people = entries.iter().flat_map(|info| info.people.clone());
     let people: Vec<Person> = people.collect();
     let is_there = |member: &Member| people.iter().any(|person| member.matches(person));
     let mut has_added = false;
     for info in entries {
         let theirs = members
-            .iter()
+            .clone()
             .filter(|member| info.people.iter().any(|person| member.matches(person)));
         let groups: BTreeSet<&str> = theirs.map(|member| member.person.group.as_str()).collect();
-        let others = members.iter().filter(|member| {
+        let others = members.clone().filter(|member| {
             let is_in_group =
                 !member.person.group.is_empty() && groups.contains(member.person.group.as_str());
             is_in_group && !is_there(member)
@@ -95,19 +80,21 @@ pub fn add_group_members(lists: &Lists, entries: &mut [&mut EntryInfo]) -> Resul
         has_added |= !others.is_empty();
         info.people.extend(others);
     }
-    Ok(has_added)
+    has_added
 }
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
+    use crate::cli::Lists;
+    use crate::graded_class::tests::person;
+    use crate::roster::read_lists;
 
     fn submitted_by(login: &str) -> EntryInfo {
         EntryInfo {
-            people: vec![Person {
-                login: login.to_owned(),
-                ..Person::default()
-            }],
+            people: vec![person(json!({ "login": login }))],
             ..EntryInfo::default()
         }
     }
@@ -122,9 +109,10 @@ mod tests {
             roster: Some(roster),
             ..Lists::default()
         };
+        let rows = read_lists(&lists).unwrap();
         let mut entries = ["ann", "carl", "dora"].map(submitted_by);
         let mut entries: Vec<&mut EntryInfo> = entries.iter_mut().collect();
-        assert!(add_group_members(&lists, &mut entries).unwrap());
+        assert!(add_group_members(&rows, &mut entries));
         let names: Vec<String> = entries.iter().map(|info| info.display_names()).collect();
         let added = entries.iter().flat_map(|info| &info.people);
         let added = added.filter(|person| person.is_from_group);
@@ -135,11 +123,11 @@ mod tests {
         // Two members of Bob's group submitted, so Bob is in both entries. The preview reports
         // that.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
-        assert!(!add_group_members(&lists, &mut entries).unwrap());
+        assert!(!add_group_members(&rows, &mut entries));
         // It is enough that one of those who submitted together is in the list.
         let mut pair = submitted_by("ann");
         pair.people.extend(submitted_by("guest").people);
-        assert!(add_group_members(&lists, &mut [&mut pair]).unwrap());
+        assert!(add_group_members(&rows, &mut [&mut pair]));
         assert_eq!(pair.display_names(), "ann + guest + Bob + Carl");
     }
 }

@@ -6,14 +6,12 @@
 //! zip. Moodle splits a name at its underscores into full name, participant, plug-in type, plug-in
 //! and file name, so the full name must not contain any.
 
-use std::collections::BTreeSet;
-use std::io::{self, Cursor, Write};
+use std::io;
 
 use grader::report::html::with_counted;
 use judging::sanitize::safe_folder_name;
-use zip::ZipWriter;
 
-use crate::archive;
+use crate::archive::ArchiveWriter;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
@@ -42,10 +40,9 @@ pub struct HandBack {
 /// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left
 /// out.
 pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> {
-    let mut files = Files::new();
+    let mut archive = ArchiveWriter::new();
     let mut left_out = Vec::new();
     for row in &class.rows {
-        let id = &row.result.id;
         // Without a score, there is no page.
         let has_page = row.result.score().is_some();
         let ready = |(_, grade): &(&Person, &PersonGrade)| has_page && grade.counted.is_some();
@@ -57,58 +54,42 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         if ready.is_empty() {
             continue;
         }
-        let page = store.read_feedback(id)?;
-        match &row.result.info.hand_back_as {
-            Some(name) if name.contains(NUMBER) => {
-                for (person, grade) in ready {
-                    if person.own_number().is_empty() {
-                        let name = person.display_name();
-                        left_out.push(format!("{name}: {NO_NUMBER}"));
-                        continue;
-                    }
-                    let name = name.replace(NUMBER, person.own_number());
-                    let own = with_counted(&page, &own_texts(row, person, grade));
-                    let added = files.add_as(&name, &file_name(person), &own);
-                    added.map_err(cannot_write)?;
-                }
-            }
+        let page = store.read_feedback(&row.result.id)?;
+        let name = row.result.info.hand_back_as.as_deref();
+        if let Some(name) = name.filter(|name| !name.contains(NUMBER)) {
             // The platform passes the page on to the members of a group.
-            Some(name) => {
-                let added = files.add_as(name, &safe_folder_name(&names(&ready)), &page);
-                added.map_err(cannot_write)?;
-            }
-            None => {
-                for (person, grade) in ready {
-                    let own = with_counted(&page, &own_texts(row, person, grade));
-                    let added = files.add(&format!("{}_{PAGE}", file_name(person)), own.as_bytes());
-                    added.map_err(cannot_write)?;
+            let names = ready.iter().map(|(person, _)| person.display_name());
+            let names = safe_folder_name(&names.collect::<Vec<_>>().join(" + "));
+            add_as(&mut archive, name, &names, &page).map_err(cannot_write)?;
+            continue;
+        }
+        for (person, grade) in ready {
+            let who = safe_folder_name(person.display_name());
+            let own = with_counted(&page, &own_texts(row, person, grade));
+            let added = match name {
+                Some(_) if person.own_number().is_empty() => {
+                    left_out.push(format!("{}: {NO_NUMBER}", person.display_name()));
+                    continue;
                 }
-            }
+                Some(name) => {
+                    let name = name.replace(NUMBER, person.own_number());
+                    add_as(&mut archive, &name, &who, &own)
+                }
+                None => archive.add(&format!("{who}_{PAGE}"), own.as_bytes()),
+            };
+            added.map_err(cannot_write)?;
         }
     }
-    let pages = files.used.len();
     Ok(HandBack {
-        archive: files.finish().map_err(cannot_write)?,
-        pages,
+        pages: archive.count(),
+        archive: archive.finish().map_err(cannot_write)?,
         left_out,
     })
 }
 
 /// Returns the error of an archive that would be too large, for example.
 fn cannot_write(error: io::Error) -> Error {
-    Error::Machine(format!("cannot write {ARCHIVE}: {error}"))
-}
-
-fn names(people: &[(&Person, &PersonGrade)]) -> String {
-    let names: Vec<&str> = people
-        .iter()
-        .map(|(person, _)| person.display_name())
-        .collect();
-    names.join(" + ")
-}
-
-fn file_name(person: &Person) -> String {
-    safe_folder_name(person.display_name())
+    Error::machine(format!("cannot write {ARCHIVE}: {error}"))
 }
 
 /// Returns the sentences on a person's own page, which do not mention the rest of the group.
@@ -118,45 +99,14 @@ fn own_texts(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Vec<String
     name.into_iter().chain(grade.explanation()).collect()
 }
 
-/// The archive that is being written.
-struct Files {
-    writer: ZipWriter<Cursor<Vec<u8>>>,
-    /// The names in the archive, in lower case.
-    used: BTreeSet<String>,
-}
-
-impl Files {
-    fn new() -> Self {
-        Files {
-            writer: ZipWriter::new(Cursor::new(Vec::new())),
-            used: BTreeSet::new(),
-        }
+/// Adds a page under the name that the platform expects. `who` is the names of the people, as part of a
+/// file name.
+fn add_as(archive: &mut ArchiveWriter, name: &str, who: &str, page: &str) -> io::Result<()> {
+    let name = name.replace(WHO, &who.replace('_', " "));
+    if !name.to_lowercase().ends_with(".zip") {
+        return archive.add(&name, page.as_bytes());
     }
-
-    /// Adds a page under the name that the platform expects. `who` is the names of the people, as
-    /// part of a file name.
-    fn add_as(&mut self, name: &str, who: &str, page: &str) -> io::Result<()> {
-        let name = name.replace(WHO, &who.replace('_', " "));
-        if !name.to_lowercase().ends_with(".zip") {
-            return self.add(&name, page.as_bytes());
-        }
-        let mut inner = Files::new();
-        inner.add(&format!("{who}_{PAGE}"), page.as_bytes())?;
-        self.add(&name, &inner.finish()?)
-    }
-
-    /// Adds a file, with a number in its name if there is already one of that name.
-    fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
-        let numbered = (2..).map(|number| format!("{stem}-{number}.{end}"));
-        let mut names = std::iter::once(name.to_owned()).chain(numbered);
-        let free = names.find(|name| self.used.insert(name.to_lowercase()));
-        let free = free.expect("there are enough numbers");
-        self.writer.start_file(free, archive::options())?;
-        self.writer.write_all(bytes)
-    }
-
-    fn finish(self) -> io::Result<Vec<u8>> {
-        Ok(self.writer.finish()?.into_inner())
-    }
+    let mut inner = ArchiveWriter::new();
+    inner.add(&format!("{who}_{PAGE}"), page.as_bytes())?;
+    archive.add(&name, &inner.finish()?)
 }

@@ -41,13 +41,12 @@ impl Input {
         known: &[Member],
     ) -> Result<Self, Error> {
         remove_abandoned(parent);
+        let refused = |why: &str| Err(Error::user(format!("{} {why}", path.display())));
         let unpacked = match fs::metadata(path) {
             Err(_) => {
-                return Err(Error::User(format!(
-                    "{} does not exist: pass the folder or archive that you downloaded from the \
-                     platform",
-                    path.display()
-                )));
+                return refused(
+                    "does not exist: pass the folder or archive that you downloaded from the platform",
+                );
             }
             Ok(kind) if kind.is_dir() => None,
             Ok(_) => Some(unpack(path, parent, handed_out)?),
@@ -72,12 +71,11 @@ impl Input {
             unpacked.build_dir
         });
         let hidden = hidden_names(&root.path).map_err(Error::user)?;
-        class
-            .unmatched
-            .extend(hidden.into_iter().map(|name| UnmatchedPath {
-                name,
-                why: "its name begins with a dot, so it is hidden".to_owned(),
-            }));
+        let hidden = hidden.into_iter().map(|name| UnmatchedPath {
+            name,
+            why: "its name begins with a dot, so it is hidden".to_owned(),
+        });
+        class.unmatched.extend(hidden);
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {
@@ -86,23 +84,20 @@ impl Input {
             class.mixtures.first().filter(|_| is_most).cloned()
         };
         if let Some(why) = of_several {
-            let unpack = if path.is_dir() {
+            let is_unpacked = path.is_dir();
+            let unpack = if is_unpacked {
                 ""
             } else {
                 "; unpack the archive first"
             };
-            return Err(Error::User(format!(
-                "{} cannot be read as a class: {}{unpack}",
-                path.display(),
-                sanitize_line(&why, MAX_CHARS)
-            )));
+            let why = sanitize_line(&why, MAX_CHARS);
+            return refused(&format!("cannot be read as a class: {why}{unpack}"));
         }
         if class.entries.is_empty() {
-            return Err(Error::User(format!(
-                "{} contains no submissions: pass the folder of a class; to grade a single \
-                 submission, use `cargo grade`",
-                path.display()
-            )));
+            return refused(
+                "contains no submissions: pass the folder of a class; to grade a single submission, \
+                 use `cargo grade`",
+            );
         }
         Ok(Input {
             class,

@@ -18,57 +18,34 @@ use crate::names::{are_equal, fold};
 /// The reason why it is unclear how late a submission is. Nobody's points may depend on a guess, so
 /// the submission has no final points until a person corrects the time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum UnclearTime {
-    /// A submission time that decides about points, but cannot be read.
-    #[error("the submission time {text:?} cannot be used: {why}")]
-    Submitted {
-        /// The time as the platform or roster writes it.
-        text: String,
-        /// The reason why it cannot be used.
-        why: TimeError,
-    },
-    /// An extension in a list that cannot be read.
-    #[error(
-        "the extension {text:?} is neither a number of days nor a time that can be used: {why}"
-    )]
-    Extension {
-        /// The extension as the list writes it.
-        text: String,
-        /// The reason why it cannot be used.
-        why: TimeError,
-    },
-    /// The platform says only that the submission is late, and the person has an extension.
-    #[error(
-        "the platform says that it is late, but an extension can be applied only if the submission \
-         time and the due time are known: add a column `datetime` to the roster, and `due` to the \
-         policy"
-    )]
-    OnlyAFlag,
-    /// A list has a time that is on time, but the platform says that the submission is late.
-    #[error(
-        "a list has the submission time {0:?}, which is on time, but the platform marks the \
-         submission as late: write the time of the last attempt into the list, or leave it empty"
-    )]
-    LateByFlag(String),
-    /// A list has a late time, but the platform says that the submission is on time.
-    #[error(
-        "a list has the submission time {0:?}, which is late, but the platform does not mark the \
-         submission as late: correct the time, or add the extension that the platform granted to \
-         the roster or the policy"
-    )]
-    LateByList(String),
-    /// Moodle says that the student has not submitted the files.
-    #[error(
-        "the status in Moodle's worksheet is {0:?}: if the files count, change it to \"Submitted \
-         for grading\" there, or else remove them from the input"
-    )]
-    Unsubmitted(String),
-    /// A status in Moodle's worksheet that cannot be read.
-    #[error(
-        "the status {0:?} in Moodle's worksheet is unknown, and could be a draft or an extension: \
-         set Moodle's language to English, and download the worksheet again"
-    )]
-    UnknownStatus(String),
+#[error("{why}")]
+pub struct UnclearTime {
+    /// The reason, and what to do.
+    pub why: String,
+    /// Whether the student has not submitted the files, as Moodle says.
+    pub is_draft: bool,
+}
+
+/// The platform says only that the submission is late, and the person has an extension.
+pub const ONLY_A_FLAG: &str = "the platform says that it is late, but an extension can be applied only \
+    if the submission time and the due time are known: add a column `datetime` to the roster, and `due` \
+    to the policy";
+
+impl UnclearTime {
+    /// Returns the error of a submission that has a time, or should have one.
+    pub fn new(why: impl Into<String>) -> Self {
+        UnclearTime {
+            why: why.into(),
+            is_draft: false,
+        }
+    }
+
+    /// Returns the error of a submission time that decides about points, and cannot be used.
+    fn submitted(text: &str, why: TimeError) -> Self {
+        UnclearTime::new(format!(
+            "the submission time {text:?} cannot be used: {why}"
+        ))
+    }
 }
 
 /// Returns how late a submission is for one of its people. If its submission time is known and the
@@ -89,7 +66,7 @@ pub fn lateness(
     };
     match exact {
         Some(lateness) => Ok(lateness),
-        None if info.is_late() && !extensions.is_empty() => Err(UnclearTime::OnlyAFlag),
+        None if info.is_late() && !extensions.is_empty() => Err(UnclearTime::new(ONLY_A_FLAG)),
         // Without both times, a submission with a late flag counts as one second past the grace
         // period.
         None if info.is_late() => {
@@ -108,12 +85,9 @@ fn check_plausible(
     time: Timestamp,
     due: Timestamp,
 ) -> Result<(), UnclearTime> {
-    let text = || info.submitted().unwrap_or_default().to_owned();
+    let text = info.submitted().unwrap_or_default();
     if are_far_apart(time, due) {
-        return Err(UnclearTime::Submitted {
-            text: text(),
-            why: TimeError::FarFromDue,
-        });
+        return Err(UnclearTime::submitted(text, TimeError::FarFromDue));
     }
     if info.submitted.is_some() {
         return Ok(());
@@ -125,9 +99,16 @@ fn check_plausible(
         .map(|due| time.duration_since(due).as_secs());
     let grace = i64::from(policy.late.grace_minutes) * 60;
     if info.late && without_extension.is_some_and(|seconds| seconds <= 0) {
-        Err(UnclearTime::LateByFlag(text()))
+        Err(UnclearTime::new(format!(
+            "a list has the submission time {text:?}, which is on time, but the platform marks the \
+             submission as late: write the time of the last attempt into the list, or leave it empty"
+        )))
     } else if info.marks_late && !info.late && time.duration_since(due).as_secs() > grace {
-        Err(UnclearTime::LateByList(text()))
+        Err(UnclearTime::new(format!(
+            "a list has the submission time {text:?}, which is late, but the platform does not mark the \
+             submission as late: correct the time, or add the extension that the platform granted to \
+             the roster or the policy"
+        )))
     } else {
         Ok(())
     }
@@ -143,10 +124,7 @@ pub fn submission_time(
         .filter(|_| policy.late.due.is_some() || policy.attempts.counts != AttemptRule::Ask);
     let read = |text: &str| {
         let time = read_time(text, policy.late.timezone.as_ref());
-        time.map_err(|why| UnclearTime::Submitted {
-            text: text.to_owned(),
-            why,
-        })
+        time.map_err(|why| UnclearTime::submitted(text, why))
     };
     needed.map(read).transpose()
 }
@@ -159,11 +137,19 @@ fn extensions(
 ) -> Result<Vec<Extension>, UnclearTime> {
     let status = MoodleStatus::parse(&person.status);
     if let Some(unknown) = status.unknown {
-        return Err(UnclearTime::UnknownStatus(unknown.to_owned()));
+        return Err(UnclearTime::new(format!(
+            "the status {unknown:?} in Moodle's worksheet is unknown, and could be a draft or an \
+             extension: set Moodle's language to English, and download the worksheet again"
+        )));
     }
     // A partner's draft is another submission.
     if let Some(unsubmitted) = status.unsubmitted.filter(|_| !person.is_from_group) {
-        return Err(UnclearTime::Unsubmitted(unsubmitted.to_owned()));
+        let why = format!(
+            "the status in Moodle's worksheet is {unsubmitted:?}: if the files count, change it to \
+             \"Submitted for grading\" there, or else remove them from the input"
+        );
+        let is_draft = true;
+        return Err(UnclearTime { why, is_draft });
     }
     let names = person.identifiers().chain([person.group.as_str()]);
     let mut extensions: Vec<Extension> = policy.extensions_of(names).collect();
@@ -182,9 +168,10 @@ fn extensions(
                 Ok(own)
             }
         });
-        extensions.push(own.map_err(|why| UnclearTime::Extension {
-            text: text.to_owned(),
-            why,
+        extensions.push(own.map_err(|why| {
+            UnclearTime::new(format!(
+                "the extension {text:?} is neither a number of days nor a time that can be used: {why}"
+            ))
         })?);
     }
     Ok(extensions)
@@ -193,17 +180,16 @@ fn extensions(
 /// Prints a warning for each of the policy's extensions that belongs to none of these people, or to
 /// several who have the same name.
 pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
-    for name in unmatched_extensions(policy, people) {
+    let unmatched = unmatched_extensions(policy, people).into_iter();
+    let unmatched = unmatched.map(|name| (name, "who is not in this class"));
+    let shared = extensions_of_namesakes(policy, people).into_iter();
+    let advice = "and several people with this name get it: write an email address or student number \
+                  in its place";
+    let shared = shared.map(|name| (name, advice));
+    for (name, problem) in unmatched.chain(shared) {
         let name = sanitize(name, 200);
         print_error_line(format_args!(
-            "the policy has an extension for {name:?}, who is not in this class"
-        ));
-    }
-    for name in extensions_of_namesakes(policy, people) {
-        let name = sanitize(name, 200);
-        print_error_line(format_args!(
-            "the policy has an extension for {name:?}, and several people with this name get it: \
-             write an email address or student number in its place"
+            "the policy has an extension for {name:?}, {problem}"
         ));
     }
 }
@@ -243,13 +229,10 @@ pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
+    use serde_json::json;
 
     use super::*;
-
-    fn policy(text: &str) -> Policy {
-        Policy::from_text(Path::new("policy.toml"), text).unwrap()
-    }
+    use crate::graded_class::tests::{person, policy};
 
     fn late_flag() -> EntryInfo {
         EntryInfo {
@@ -276,7 +259,7 @@ mod tests {
         let policy = policy("[late]\ndue = 2026-11-20T23:59:59Z\n[late.extensions]\nann = 2");
         let ann = Person::named("Ann");
         let unclear = lateness(&policy, &late_flag(), &ann);
-        assert_eq!(unclear, Err(UnclearTime::OnlyAFlag));
+        assert_eq!(unclear, Err(UnclearTime::new(ONLY_A_FLAG)));
         assert!(lateness(&policy, &late_flag(), &Person::named("Bob")).is_ok());
         assert!(unmatched_extensions(&policy, &[&ann]).is_empty());
         assert_eq!(unmatched_extensions(&policy, &[]), ["ann"]);
@@ -285,20 +268,15 @@ mod tests {
     #[test]
     fn an_extension_for_a_group_or_in_other_letters_belongs_to_somebody() {
         let policy = policy("[late.extensions]\n'Ann LEE' = 2\n'Team A' = 1\n'Team B' = 1");
-        let ann = Person {
-            group: "team a".to_owned(),
-            ..Person::named("ann lee")
-        };
+        let ann = person(json!({ "name": "ann lee", "group": "team a" }));
         assert_eq!(unmatched_extensions(&policy, &[&ann]), ["Team B"]);
     }
 
     #[test]
     fn an_extension_by_name_should_be_for_one_person() {
         let policy = policy("[late.extensions]\n'ann lee' = 2\nu1 = 2\n'team a' = 1");
-        let ann = |sid: &str, group: &str| Person {
-            sid: sid.to_owned(),
-            group: group.to_owned(),
-            ..Person::named("Ann Lee")
+        let ann = |sid: &str, group: &str| {
+            person(json!({ "name": "Ann Lee", "sid": sid, "group": group }))
         };
         let shared = |people: &[&Person]| extensions_of_namesakes(&policy, people);
         let (one, other) = (ann("u1", "team a"), ann("u2", "team a"));
@@ -336,7 +314,7 @@ mod tests {
         let info = submitted("2026-11-20T12:00:07Z", false);
         assert!(!is_undated(&policy, &info));
         let unclear = seconds("yesterday", false).unwrap_err();
-        assert!(matches!(unclear, UnclearTime::Submitted { text, .. } if text == "yesterday"));
+        assert!(unclear.why.contains("the submission time \"yesterday\""));
     }
 
     #[test]
@@ -360,11 +338,7 @@ mod tests {
         let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z\n[late.extensions]\n'team a' = 1");
         let info = submitted("2026-11-22T12:00:00Z", false);
         let hours = |group: &str, extension: &str| {
-            let person = Person {
-                group: group.to_owned(),
-                extension: extension.to_owned(),
-                ..Person::named("Ann")
-            };
+            let person = person(json!({ "name": "Ann", "group": group, "extension": extension }));
             let late = lateness(&policy, &info, &person);
             late.map(|late| late.seconds / 3600)
         };
@@ -372,6 +346,6 @@ mod tests {
         assert_eq!(hours("Team A", ""), Ok(24));
         assert_eq!(hours("Team A", "2"), Ok(0));
         let unclear = hours("", "some").unwrap_err();
-        assert!(matches!(unclear, UnclearTime::Extension { text, .. } if text == "some"));
+        assert!(unclear.why.contains("the extension \"some\""));
     }
 }

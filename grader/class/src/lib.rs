@@ -13,18 +13,17 @@
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
 //! | grading of entries, and changes of scores | [`entry_grader`], [`regrade_diff`] |
-//! | what is made of grades; the input | [`counting`], [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
+//! | what is made of grades; the input | [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
 //! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
-//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
+//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`plural`], [`queue`], [`shard`] |
 
 pub mod archive;
 pub mod attempts;
 pub mod cli;
-pub mod counting;
 pub mod distribution;
 pub mod entry;
 pub mod entry_grader;
@@ -51,6 +50,7 @@ pub mod names;
 pub mod outcome;
 pub mod output;
 pub mod paths;
+pub mod plural;
 pub mod progress;
 pub mod queue;
 pub mod regrade_diff;

@@ -27,15 +27,9 @@ pub enum ListKind {
 
 impl ListKind {
     /// Returns the name on the command line: the option without its dashes.
-    pub fn name(self) -> &'static str {
-        match self {
-            ListKind::Policy => "policy",
-            ListKind::Roster => "roster",
-            ListKind::ManualPoints => "manual-points",
-            ListKind::Canvas => "canvas",
-            ListKind::Moodle => "moodle",
-            ListKind::Gradescope => "gradescope",
-        }
+    pub fn name(self) -> String {
+        let value = self.to_possible_value().expect("no list is hidden");
+        value.get_name().to_owned()
     }
 
     /// Returns the title for messages.

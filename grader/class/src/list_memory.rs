@@ -16,6 +16,7 @@ use judging::sanitize::sanitize_line;
 use crate::cli::Lists;
 use crate::error::Error;
 use crate::list_kind::{KeptList, KeptLists, ListKind};
+use crate::run::Run;
 use crate::store::Store;
 
 /// The folder of the copies, in the output folder.
@@ -24,73 +25,37 @@ const FOLDER: &str = "lists";
 /// The lists that a command uses: those on its command line and the copies of others.
 #[derive(Debug, Default)]
 pub struct UsedLists {
-    /// The files, which may be copies.
-    pub files: ListFiles,
+    /// The lists, which may be copies.
+    pub lists: Lists,
     /// The lists to keep.
     pub kept: KeptLists,
     /// Sentences for staff.
-    pub notes: Vec<String>,
+    notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
 }
 
-/// An output folder and the lists in it.
-#[derive(Clone, Copy, Debug)]
-pub struct KeptIn<'a> {
-    /// The folder.
-    pub folder: &'a Path,
-    /// The lists.
-    pub lists: &'a KeptLists,
-}
-
-/// The files of a command's lists.
-#[derive(Clone, Debug, Default)]
-pub struct ListFiles {
-    /// The policy file; `None` for the default policy.
-    pub policy: Option<PathBuf>,
-    /// The other lists.
-    pub lists: Lists,
-}
-
-impl ListFiles {
-    /// Returns the file of a list.
-    pub fn get(&self, kind: ListKind) -> Option<&Path> {
-        let lists = &self.lists;
-        let path = match kind {
-            ListKind::Policy => &self.policy,
-            ListKind::Roster => &lists.roster,
-            ListKind::ManualPoints => &lists.manual_points,
-            ListKind::Canvas => &lists.canvas,
-            ListKind::Moodle => &lists.moodle,
-            ListKind::Gradescope => &lists.gradescope,
-        };
-        path.as_deref()
-    }
-
-    /// Replaces the file of a list.
-    pub fn set(&mut self, kind: ListKind, path: PathBuf) {
-        let lists = &mut self.lists;
-        let place = match kind {
-            ListKind::Policy => &mut self.policy,
-            ListKind::Roster => &mut lists.roster,
-            ListKind::ManualPoints => &mut lists.manual_points,
-            ListKind::Canvas => &mut lists.canvas,
-            ListKind::Moodle => &mut lists.moodle,
-            ListKind::Gradescope => &mut lists.gradescope,
-        };
-        *place = Some(path);
-    }
-}
+/// An output folder and the lists that it has copies of.
+pub type KeptIn<'a> = (&'a Path, &'a KeptLists);
 
 impl UsedLists {
     /// Chooses each list: the one on the command line or else, unless it is dropped, the one that
-    /// the output folder has, or else the one that all merged parts were graded with.
-    pub fn choose(given: ListFiles, out: Option<KeptIn>, parts: &[KeptIn]) -> Result<Self, Error> {
+    /// the output folder `out` has, or else the one that all merged parts were graded with. Prints
+    /// where lists come from, and which have changed.
+    pub fn choose(given: Lists, out: Option<&Path>, parts: &[KeptIn]) -> Result<Self, Error> {
         let mut used = UsedLists {
-            files: given,
+            lists: given,
             ..UsedLists::default()
         };
+        let run = out
+            .map(|out| Store::new(out).read_run())
+            .transpose()?
+            .flatten();
+        let last = out.zip(run.as_ref().map(|run| &run.lists));
         for kind in ListKind::value_variants() {
-            used.choose_list(*kind, out, parts)?;
+            used.choose_list(*kind, last, parts)?;
+        }
+        for note in &used.notes {
+            print_error_line(sanitize_line(note, 300));
         }
         Ok(used)
     }
@@ -102,13 +67,14 @@ impl UsedLists {
         parts: &[KeptIn],
     ) -> Result<(), Error> {
         let (name, title) = (kind.name(), kind.title());
-        let last = out.and_then(|out| Some((out.folder, out.lists.get(&kind)?)));
-        if let Some(path) = self.files.get(kind) {
-            let bytes = read(kind, path)?;
+        let last = out.and_then(|(folder, lists)| Some((folder, lists.get(&kind)?)));
+        let (list, bytes) = if let Some(path) = self.lists.path(kind).clone() {
+            let bytes = read(kind, &path)?;
+            let column = self.lists.column.clone();
             let list = KeptList {
                 hash: file_hash(&bytes),
                 given_as: path.display().to_string(),
-                column: self.column(kind),
+                column: column.filter(|_| kind == ListKind::Canvas),
                 is_of_parts: false,
             };
             if last.is_some_and(|(_, last)| !last.is_same(&list)) {
@@ -116,100 +82,62 @@ impl UsedLists {
                     "{title} differs from the last run's, so final points may change"
                 ));
             }
-            self.copies.insert(kind, bytes);
-            self.kept.insert(kind, list);
+            (list, bytes)
+        } else if self.lists.drop_list.contains(&kind) {
+            let dropped = last.map(|_| format!("{title} of the last run no longer counts"));
+            self.notes.extend(dropped);
             return Ok(());
-        }
-        if self.files.lists.drop_list.contains(&kind) {
-            if last.is_some() {
-                self.notes
-                    .push(format!("{title} of the last run no longer counts"));
-            }
-            return Ok(());
-        }
-        let (folder, list) = match last {
-            Some((folder, list)) if !list.is_of_parts || parts.is_empty() => (folder, list.clone()),
-            Some(_) | None => match one_of_parts(kind, parts)? {
-                Some((folder, list)) => (
-                    folder,
-                    KeptList {
-                        is_of_parts: true,
-                        ..list.clone()
-                    },
-                ),
-                None => return Ok(()),
-            },
-        };
-        let path = copy_path(folder, kind, &list);
-        let bytes = match files::read(&path) {
-            Ok(bytes) if file_hash(&bytes) == list.hash => bytes,
-            Err(error) if error.source.kind() != ErrorKind::NotFound => {
-                return Err(Error::user(error));
-            }
-            Ok(_) | Err(_) => {
-                let path = path.display();
-                return Err(Error::User(format!(
-                    "{path} is missing or has changed, and {title} of the last run is still \
-                     needed: pass it again with --{name}, or drop it with --drop-list {name}"
-                )));
-            }
-        };
-        let of = if list.is_of_parts {
-            "parts"
         } else {
-            "last run"
+            let own = last.filter(|(_, list)| !list.is_of_parts || parts.is_empty());
+            let of_parts = match own {
+                Some(_) => None,
+                None => one_of_parts(kind, parts)?,
+            };
+            let Some((folder, list)) = own.or(of_parts) else {
+                return Ok(());
+            };
+            let is_of_parts = list.is_of_parts || of_parts.is_some();
+            let path = copy_path(folder, kind, list);
+            let bytes = read_copy(kind, &path, list)?;
+            self.notes.push(format!(
+                "using {title} of the {}, {}; --drop-list {name} drops it",
+                if is_of_parts { "parts" } else { "last run" },
+                list.given_as
+            ));
+            if kind == ListKind::Canvas && self.lists.column.is_none() {
+                self.lists.column.clone_from(&list.column);
+            }
+            *self.lists.path(kind) = Some(path);
+            let list = KeptList {
+                is_of_parts,
+                ..list.clone()
+            };
+            (list, bytes)
         };
-        self.notes.push(format!(
-            "using {title} of the {of}, {}; --drop-list {name} drops it",
-            list.given_as
-        ));
-        if kind == ListKind::Canvas && self.files.lists.column.is_none() {
-            self.files.lists.column.clone_from(&list.column);
-        }
-        self.files.set(kind, path);
         self.copies.insert(kind, bytes);
         self.kept.insert(kind, list);
         Ok(())
     }
 
-    fn column(&self, kind: ListKind) -> Option<String> {
-        let column = self.files.lists.column.clone();
-        column.filter(|_| kind == ListKind::Canvas)
-    }
-
-    /// Writes the copies into an output folder. Their names have the hash, so that those of the last
-    /// run stay until `run.json` no longer names them.
-    pub fn save(&self, store: &Store) -> Result<(), Error> {
+    /// Writes the copies and `run.json` into an output folder, and removes copies that it does not
+    /// name. The names have the hash, so that those of the last run stay until `run.json` is written.
+    pub fn save(&self, store: &Store, run: &Run) -> Result<(), Error> {
+        let mut paths = Vec::new();
         for (kind, list) in &self.kept {
             let path = copy_path(store.folder(), *kind, list);
-            if files::read(&path).is_ok_and(|bytes| bytes == self.copies[kind]) {
-                continue;
-            }
             let name = Path::new(FOLDER).join(path.file_name().unwrap_or_default());
-            store.write(name, &self.copies[kind])?;
+            if !files::read(&path).is_ok_and(|bytes| bytes == self.copies[kind]) {
+                store.write(name, &self.copies[kind])?;
+            }
+            paths.push(path);
         }
-        Ok(())
-    }
-
-    /// Removes copies that `run.json` does not name, and what a killed run has left.
-    pub fn remove_others(&self, store: &Store) -> Result<(), Error> {
-        let kept = self.kept.iter();
-        let kept: Vec<PathBuf> = kept
-            .map(|(kind, list)| copy_path(store.folder(), *kind, list))
-            .collect();
+        store.write_run(run)?;
         for path in store.list(FOLDER)? {
-            if !kept.contains(&path) {
+            if !paths.contains(&path) {
                 files::remove_if_exists(path)?;
             }
         }
         Ok(())
-    }
-
-    /// Prints the notes.
-    pub fn print_notes(&self) {
-        for note in &self.notes {
-            print_error_line(sanitize_line(note, 300));
-        }
     }
 }
 
@@ -218,24 +146,24 @@ fn one_of_parts<'a>(
     kind: ListKind,
     parts: &[KeptIn<'a>],
 ) -> Result<Option<(&'a Path, &'a KeptList)>, Error> {
-    let Some(first) = parts.first() else {
+    let Some((first, lists)) = parts.first() else {
         return Ok(None);
     };
-    let list = first.lists.get(&kind);
-    let is_other = |part: &&KeptIn| match (list, part.lists.get(&kind)) {
+    let list = lists.get(&kind);
+    let is_other = |(_, lists): &&KeptIn| match (list, lists.get(&kind)) {
         (Some(one), Some(other)) => !one.is_same(other),
         (one, other) => one.is_some() != other.is_some(),
     };
     match parts.iter().find(is_other) {
-        Some(other) => {
-            let (one, other) = (first.folder.display(), other.folder.display());
+        Some((other, _)) => {
+            let (one, other) = (first.display(), other.display());
             let (name, title) = (kind.name(), kind.title());
-            Err(Error::User(format!(
+            Err(Error::user(format!(
                 "{one} and {other} were not graded with the same list: {title} differs, or only \
                  one has it; choose one with --{name}, or none with --drop-list {name}"
             )))
         }
-        None => Ok(list.map(|list| (first.folder, list))),
+        None => Ok(list.map(|list| (*first, list))),
     }
 }
 
@@ -246,6 +174,21 @@ fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
     folder
         .join(FOLDER)
         .join(format!("{}-{hash}.{extension}", kind.name()))
+}
+
+/// Reads a copy, which must be as it was written.
+fn read_copy(kind: ListKind, path: &Path, list: &KeptList) -> Result<Vec<u8>, Error> {
+    match files::read(path) {
+        Ok(bytes) if file_hash(&bytes) == list.hash => Ok(bytes),
+        Err(error) if error.source.kind() != ErrorKind::NotFound => Err(Error::user(error)),
+        Ok(_) | Err(_) => {
+            let (path, name, title) = (path.display(), kind.name(), kind.title());
+            Err(Error::user(format!(
+                "{path} is missing or has changed, and {title} of the last run is still needed: \
+                 pass it again with --{name}, or drop it with --drop-list {name}"
+            )))
+        }
+    }
 }
 
 fn read(kind: ListKind, path: &Path) -> Result<Vec<u8>, Error> {

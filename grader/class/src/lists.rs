@@ -1,11 +1,15 @@
 //! Completes a class's entries from the roster and the platforms' gradebooks.
 
+use grader::handed_out::HandedOut;
+use grader::policy::Policy;
 use judging::sanitize::sanitize_line;
 
 use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::groups;
+use crate::late::warn_about_extensions;
+use crate::manual_points::ManualPointsList;
 use crate::roster::{self, Member};
 
 /// The maximum length of a name in a message, in characters.
@@ -18,14 +22,22 @@ pub struct ListFindings {
     pub missing: Vec<Person>,
     /// Sentences about entries whose people cannot be told for certain.
     pub warnings: Vec<String>,
+    /// The points by hand.
+    pub manual: ManualPointsList,
+    /// The people of all entries.
+    people: Vec<Person>,
+    /// The number of entries.
+    entries: usize,
     /// The names of the entries whose people are on no list; empty if there are no lists.
     unlisted: Vec<String>,
 }
 
 /// Fills in what the lists know about the entries: first unknown identifiers, then the members of
-/// groups, and last the times of submission, since the time of any member counts.
+/// groups, and last the times of submission, since the time of any member counts. Reads the points
+/// by hand, which must be for these people.
 pub fn complete_entries(
     lists: &Lists,
+    handed_out: &HandedOut,
     entries: &mut [&mut EntryInfo],
 ) -> Result<ListFindings, Error> {
     let rows = roster::read_lists(lists)?;
@@ -35,36 +47,50 @@ pub fn complete_entries(
         people.for_each(|person| person.status.clear());
     }
     fill_in(&rows, entries);
-    let has_teams = groups::resolve_teams(lists, &rows, entries)?;
-    if groups::add_group_members(lists, entries)? || has_teams {
+    let has_teams = groups::resolve_teams(&rows, entries);
+    if groups::add_group_members(&rows, entries) || has_teams {
         fill_in(&rows, entries);
     }
     for info in entries.iter_mut() {
         groups::remove_repetitions(&mut info.people);
     }
-    roster::set_submission_times(lists, entries)?;
-    let people = entries.iter().flat_map(|info| &info.people);
-    let missing = roster::missing(&rows, &people.collect::<Vec<_>>());
+    roster::set_submission_times(&rows, entries);
+    let people: Vec<&Person> = entries.iter().flat_map(|info| &info.people).collect();
+    let manual = match &lists.manual_points {
+        Some(path) => ManualPointsList::read(path, handed_out)?,
+        None => ManualPointsList::default(),
+    };
+    manual.check_students(&people)?;
     let unlisted = entries.iter().filter(|info| !is_listed(&rows, info));
     Ok(ListFindings {
-        missing,
+        missing: roster::missing(&rows, &people),
         warnings: entries
             .iter()
             .filter_map(|i| misleading_number(&rows, i))
             .collect(),
+        manual,
+        people: people.into_iter().cloned().collect(),
+        entries: entries.len(),
         unlisted: unlisted.map(|info| info.display_names()).collect(),
     })
 }
 
 impl ListFindings {
-    /// Rejects a class of this many entries if more than half of them match nobody on the lists: they
-    /// may be another class's, or the names may have been misread.
-    pub fn check(&self, lists: &Lists, all: usize) -> Result<(), Error> {
+    /// Prints a warning for each extension in the policy that does not belong to one person.
+    pub fn warn_about_extensions(&self, policy: &Policy) {
+        let people = self.people.iter().chain(&self.missing);
+        warn_about_extensions(policy, &people.collect::<Vec<_>>());
+    }
+
+    /// Rejects a class if more than half of its entries match nobody on the lists: they may be another
+    /// class's, or the names may have been misread.
+    pub fn check(&self, lists: &Lists) -> Result<(), Error> {
+        let all = self.entries;
         match self.unlisted.first() {
             Some(example) if 2 * self.unlisted.len() > all && !lists.accept_unlisted => {
                 let unlisted = self.unlisted.len();
                 let example = sanitize_line(example, MAX_CHARS);
-                Err(Error::User(format!(
+                Err(Error::user(format!(
                     "{unlisted} of {all} submissions match nobody on the lists, such as \
                      {example:?}: check that the roster or gradebook is this class's, and that \
                      --dry-run shows the right names; if everything is right, add --accept-unlisted"
@@ -111,7 +137,12 @@ fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
 mod tests {
     use std::path::PathBuf;
 
+    use grader::handed_out::RAYS;
+
+    use serde_json::json;
+
     use super::*;
+    use crate::graded_class::tests::person;
 
     /// Writes a list into the folder.
     fn list(folder: &tempfile::TempDir, name: &str, text: &str) -> Option<PathBuf> {
@@ -120,11 +151,15 @@ mod tests {
         Some(path)
     }
 
+    /// Returns the people on these lists who are not in the entry, and fills in the entry.
+    fn missing(lists: &Lists, entry: &mut EntryInfo) -> Vec<Person> {
+        complete_entries(lists, &RAYS, &mut [entry])
+            .unwrap()
+            .missing
+    }
+
     fn with_login(login: &str) -> Person {
-        Person {
-            login: login.to_owned(),
-            ..Person::default()
-        }
+        person(json!({ "login": login }))
     }
 
     fn entry(person: Person) -> EntryInfo {
@@ -149,11 +184,8 @@ mod tests {
             gradescope: list(&folder, "gradescope.csv", gradescope),
             ..Lists::default()
         };
-        let mut ann = entry(Person {
-            email: "ann@x.edu".to_owned(),
-            ..Person::default()
-        });
-        let missing = complete_entries(&lists, &mut [&mut ann]).unwrap().missing;
+        let mut ann = entry(person(json!({ "email": "ann@x.edu" })));
+        let missing = missing(&lists, &mut ann);
         let known = |person: &Person| (person.login.clone(), person.extension.clone());
         let known = [&ann.people[0], &missing[0]].map(known);
         let wanted = [("ann", "2"), ("bob", "3")];
@@ -176,7 +208,7 @@ mod tests {
                 submitted: by_platform.map(str::to_owned),
                 ..entry(Person::named("Ann"))
             };
-            complete_entries(&lists, &mut [&mut entry]).unwrap();
+            missing(&lists, &mut entry);
             assert_eq!(entry.listed.is_some(), by_platform.is_none());
             entry.submitted().unwrap().to_owned()
         };
@@ -201,7 +233,7 @@ mod tests {
             ..Lists::default()
         };
         let mut entry = entry(with_login("ann"));
-        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap().missing;
+        let missing = missing(&lists, &mut entry);
         let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
         assert_eq!(numbers, ["7001", "7002"]);
         assert_eq!(missing, []);
@@ -218,7 +250,7 @@ mod tests {
         };
         let mut entries = ["Ann", "Bob", "Eve"].map(|name| entry(Person::named(name)));
         entries[0].late = true;
-        complete_entries(&lists, &mut entries.iter_mut().collect::<Vec<_>>()).unwrap();
+        complete_entries(&lists, &RAYS, &mut entries.iter_mut().collect::<Vec<_>>()).unwrap();
         assert_eq!(entries.map(|info| info.is_late()), [true, true, false]);
     }
 
@@ -235,7 +267,7 @@ mod tests {
             ..Lists::default()
         };
         let mut entry = entry(with_login("ann"));
-        let missing = complete_entries(&lists, &mut [&mut entry]).unwrap().missing;
+        let missing = missing(&lists, &mut entry);
         let sids: Vec<&str> = entry
             .people
             .iter()

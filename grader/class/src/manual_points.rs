@@ -59,9 +59,20 @@ impl ManualPointsList {
         for (row, cells) in table.numbered_rows() {
             let [student, task, delta, comment, author] =
                 columns.map(|index| cells[index].trim().to_owned());
-            let points = parse_row(row, student, &task, &delta, comment, author, handed_out);
-            list.all
-                .push(points.map_err(|problem| list.error(row, problem))?);
+            check_row(&student, &task, &author, handed_out)
+                .map_err(|problem| list.error(row, problem))?;
+            let delta = delta.parse().map_err(|_| {
+                let advice = "it must be a whole number of points, such as 2 or -1";
+                list.error(row, format!("delta is {delta:?}: {advice}"))
+            })?;
+            list.all.push(ManualPoints {
+                row,
+                student,
+                task,
+                delta,
+                comment,
+                author,
+            });
         }
         Ok(list)
     }
@@ -146,7 +157,7 @@ impl ManualPointsList {
     }
 
     fn error(&self, row: usize, problem: impl Display) -> Error {
-        Error::User(format!("{}, row {row}: {problem}", self.path.display()))
+        Error::user(format!("{}, row {row}: {problem}", self.path.display()))
     }
 }
 
@@ -178,45 +189,32 @@ impl fmt::Display for ManualPoints {
     }
 }
 
-fn parse_row(
-    row: usize,
-    student: String,
+fn check_row(
+    student: &str,
     task: &str,
-    delta: &str,
-    comment: String,
-    author: String,
+    author: &str,
     handed_out: &HandedOut,
-) -> Result<ManualPoints, String> {
-    let mut tasks = handed_out.assignment.tasks.iter();
-    let Some(task) = tasks.find(|known| known.id == task) else {
-        let known = handed_out.assignment.tasks.iter().map(|task| task.id);
-        return Err(format!(
-            "there is no task {task:?}; the tasks are {}",
-            known.collect::<Vec<_>>().join(", ")
-        ));
-    };
+) -> Result<(), String> {
+    let tasks = handed_out.assignment.tasks.iter().map(|task| task.id);
+    let tasks: Vec<&str> = tasks.collect();
+    if !tasks.contains(&task) {
+        let tasks = tasks.join(", ");
+        return Err(format!("there is no task {task:?}; the tasks are {tasks}"));
+    }
     if student.is_empty() || author.is_empty() {
         return Err("the columns student and author must not be empty".to_owned());
     }
-    let delta: i32 = delta.parse().map_err(|_| {
-        format!("delta is {delta:?}: it must be a whole number of points, such as 2 or -1")
-    })?;
-    Ok(ManualPoints {
-        row,
-        student,
-        task: task.id.to_owned(),
-        delta,
-        comment,
-        author,
-    })
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use grader::handed_out::RAYS;
 
+    use serde_json::json;
+
     use super::*;
-    use crate::graded_class::tests::{graded, result};
+    use crate::graded_class::tests::{graded, person, result};
 
     /// Reads a list with these rows. The columns are in another order than in the documentation.
     fn read(rows: &[&str]) -> Result<ManualPointsList, String> {
@@ -234,10 +232,7 @@ mod tests {
     }
 
     fn ann() -> Person {
-        Person {
-            email: "ann@x.edu".to_owned(),
-            ..Person::named("Ann Lee")
-        }
+        person(json!({ "name": "Ann Lee", "email": "ann@x.edu" }))
     }
 
     #[test]

@@ -35,6 +35,17 @@ pub fn are_alike(file: &str, listed: &str) -> bool {
     .any(|name| letters(name) == wanted)
 }
 
+/// Returns whether a text consists of digits.
+pub fn is_number(text: &str) -> bool {
+    !text.is_empty() && number_at_end(text) == text
+}
+
+/// Returns the digits at the end of a text.
+pub fn number_at_end(text: &str) -> &str {
+    let rest = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    &text[rest.len()..]
+}
+
 /// Returns the letters and digits in order, without accents, which some platforms leave out.
 fn letters(name: &str) -> Vec<char> {
     let name = without_invisible(name).to_lowercase();

@@ -6,13 +6,16 @@ use serde::{Deserialize, Serialize};
 use crate::entry::EntryInfo;
 
 /// The result of an entry.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EntryResult {
-    /// The entry's id.
+    /// The entry's id, which is the name of its folder.
+    #[serde(skip)]
     pub id: String,
     /// Information about the submission, such as its people.
+    #[serde(rename = "about")]
     pub info: EntryInfo,
     /// The outcome of grading the entry.
+    #[serde(flatten)]
     pub outcome: EntryOutcome,
 }
 
@@ -21,34 +24,13 @@ pub struct EntryResult {
 #[serde(tag = "state", content = "why", rename_all = "snake_case")]
 pub enum EntryOutcome {
     /// The entry was graded. A stamp is stored without the score, which is in `score.json`.
-    Graded(#[serde(with = "without_score")] Box<ScoreSummary>),
+    Graded(#[serde(skip)] Box<ScoreSummary>),
     /// There was nothing to grade, for this reason. The teacher decides how many points the
     /// submission gets.
     #[serde(rename = "no_submission")]
     NothingToGrade(String),
     /// The grader or the machine failed, for this reason. The next run tries again.
     Fault(String),
-}
-
-/// Stores an outcome without its score.
-mod without_score {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    use super::ScoreSummary;
-
-    #[expect(clippy::borrowed_box, reason = "serde passes a reference")]
-    pub(super) fn serialize<S: Serializer>(
-        _: &Box<ScoreSummary>,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        serializer.serialize_unit()
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<Box<ScoreSummary>, D::Error> {
-        <()>::deserialize(deserializer).map(|()| Box::default())
-    }
 }
 
 /// The parts of `score.json` that the class's files need.
@@ -123,18 +105,15 @@ pub struct Stamp {
     pub key: String,
     /// The round of the run in which the entry was graded.
     pub round: u32,
-    /// Information about the submission, such as its people.
-    #[serde(rename = "about")]
-    pub info: EntryInfo,
-    /// The outcome of grading the entry. Its score is empty until it is read.
+    /// The result. Its id is empty, and so is its score, until they are read.
     #[serde(flatten)]
-    pub outcome: EntryOutcome,
+    pub result: EntryResult,
 }
 
 impl Stamp {
     /// Returns whether the entry was graded.
     pub fn is_graded(&self) -> bool {
-        matches!(self.outcome, EntryOutcome::Graded(_))
+        matches!(self.result.outcome, EntryOutcome::Graded(_))
     }
 }
 

@@ -3,16 +3,15 @@
 use grader::policy::Policy;
 use grader::printing::{print, print_line};
 
+use crate::attempts::count_points;
 use crate::cli::Lists;
-use crate::counting::count_points;
-use crate::entry::Person;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
 use crate::list_kind::ListKind;
-use crate::manual_points::ManualPointsList;
+use crate::lists::ListFindings;
 use crate::outcome::EntryResult;
 use crate::regrade_diff::Changes;
 use crate::report::{grades, page, text};
@@ -39,24 +38,36 @@ pub struct ClassContext<'a> {
     pub lists: &'a Lists,
     /// The course's policy.
     pub policy: &'a Policy,
-    /// The points by hand.
-    pub manual: &'a ManualPointsList,
-    /// The people on lists who submitted nothing.
-    pub missing: Vec<Person>,
+    /// The facts in the lists.
+    pub findings: ListFindings,
 }
 
 impl ClassContext<'_> {
     /// Counts the points, writes the files of the class and prints a summary.
     pub fn finish(self, results: Vec<EntryResult>, changes: Changes) -> Result<Completion, Error> {
-        let settings = &self.run.settings;
-        let class = GradedClass {
+        let ClassContext {
+            store, run, lists, ..
+        } = self;
+        let settings = &run.settings;
+        let rows = count_points(results, self.policy, &self.findings.manual, &run.tasks)?;
+        let class = &GradedClass {
             exam: settings.exam.clone(),
             exam_hash: settings.exam_hash.clone(),
             isolation: settings.isolation.clone(),
-            rows: count_points(results, self.policy, self.manual, &self.run.tasks)?,
-            missing: self.missing,
+            rows,
+            missing: self.findings.missing,
         };
-        write_results(&class, self.store, self.lists, self.run, changes)?;
+        // Written first: a run that is killed later is repeated, and lists the same changes again.
+        let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
+        store.write(final_grades::FILE, json(&history))?;
+        let grades = history.changes();
+        write_results(class, store, &Changes { grades, ..changes })?;
+        write_for_platforms(class, store, lists)?;
+        print_line("");
+        for name in ["grades.csv", "class.html"] {
+            print_path(store, name);
+        }
+        print_line("");
         Ok(match class.fault_count() {
             0 => Completion::Complete,
             _ => Completion::Incomplete,
@@ -64,20 +75,8 @@ impl ClassContext<'_> {
     }
 }
 
-fn write_results(
-    class: &GradedClass,
-    store: &Store,
-    lists: &Lists,
-    run: &Run,
-    changes: Changes,
-) -> Result<(), Error> {
-    // Written first: a run that is killed later is repeated, and lists the same changes again.
-    let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
-    store.write(final_grades::FILE, json(&history))?;
-    let changes = &Changes {
-        grades: history.changes(),
-        ..changes
-    };
+/// Writes the files about a class, and prints the summary and what has changed.
+fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Result<(), Error> {
     let summary = ClassSummary::new(class);
     for row in &class.rows {
         let id = &row.result.id;
@@ -90,7 +89,6 @@ fn write_results(
     store.write("class.html", page::render_page(class, &summary, changes))?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
     print(text::render_summary(&summary));
-
     if let Some(regrade) = &changes.regrade {
         store.write("drift.json", json(&regrade.drifts))?;
         print(text::render_regrade(regrade));
@@ -99,11 +97,16 @@ fn write_results(
     let grades = changes.grades.iter().map(text::render_grade_changes);
     print(grades.collect::<String>());
     print(text::render_removed(&changes.removed));
+    Ok(())
+}
+
+/// Writes the copies of gradebooks, and the archive to hand back.
+fn write_for_platforms(class: &GradedClass, store: &Store, lists: &Lists) -> Result<(), Error> {
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.
         print(text::render_gradebook(&filled));
         store.write(name, filled.table.to_csv())?;
-        print_line(format_args!("  {}", store.folder().join(name).display()));
+        print_path(store, name);
     }
     for kind in &lists.drop_list {
         // The copy of a gradebook that is dropped would have outdated points.
@@ -116,14 +119,13 @@ fn write_results(
         let hand_back = hand_back(class, store)?;
         store.write(ARCHIVE, &hand_back.archive)?;
         print(text::render_hand_back(&hand_back));
-        print_line(format_args!("  {}", store.folder().join(ARCHIVE).display()));
+        print_path(store, ARCHIVE);
     }
-    print_line("");
-    for name in ["grades.csv", "class.html"] {
-        print_line(format_args!("  {}", store.folder().join(name).display()));
-    }
-    print_line("");
     Ok(())
+}
+
+fn print_path(store: &Store, name: &str) {
+    print_line(format_args!("  {}", store.folder().join(name).display()));
 }
 
 /// Checks that the gradebooks can be filled in, before the class is graded.
@@ -136,18 +138,13 @@ fn fill_gradebooks(
     class: &GradedClass,
     lists: &Lists,
 ) -> Result<Vec<(&'static str, FilledGradebook)>, Error> {
-    let mut all = Vec::new();
-    if let Some(path) = &lists.canvas {
-        all.push((
-            "canvas.csv",
-            fill_canvas(path, lists.column.as_deref(), class)?,
-        ));
-    }
-    if let Some(path) = &lists.moodle {
-        all.push(("moodle.csv", fill_moodle(path, class)?));
-    }
-    if let Some(path) = &lists.gradescope {
-        all.push(("gradescope.csv", fill_gradescope(path, class)?));
-    }
-    Ok(all)
+    let column = lists.column.as_deref();
+    let canvas = lists.canvas.iter();
+    let canvas = canvas.map(|path| ("canvas.csv", fill_canvas(path, column, class)));
+    let moodle = lists.moodle.iter();
+    let moodle = moodle.map(|path| ("moodle.csv", fill_moodle(path, class)));
+    let gradescope = lists.gradescope.iter();
+    let gradescope = gradescope.map(|path| ("gradescope.csv", fill_gradescope(path, class)));
+    let all = canvas.chain(moodle).chain(gradescope);
+    all.map(|(name, filled)| Ok((name, filled?))).collect()
 }

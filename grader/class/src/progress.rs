@@ -55,11 +55,9 @@ impl Progress {
         let line = result_line(result);
         match &self.bars {
             Some(bars) => {
-                bars.slots
-                    .iter()
-                    .skip(slot)
-                    .take(1)
-                    .for_each(|bar| bar.set_message(""));
+                if let Some(bar) = bars.slots.get(slot) {
+                    bar.set_message("");
+                }
                 let failed = failed + usize::from(is_failed);
                 bars.all.set_message(format!("{failed} without a score"));
                 bars.all.inc(1);

@@ -5,7 +5,8 @@
 //! are graded in the order of the list, so that a run that is stopped has graded the first ones.
 //! `rayon` splits the list into halves, and `par_bridge` does not keep the order of the results.
 
-use std::sync::Mutex;
+use std::iter;
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
@@ -17,30 +18,22 @@ pub fn run<J: Sync, R: Send>(
     work: impl Fn(usize, &J) -> R + Sync,
 ) -> Vec<R> {
     let next = AtomicUsize::new(0);
-    let results: Vec<Mutex<Option<R>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
-    thread::scope(|scope| {
-        for slot in 0..slots.min(jobs.len()) {
-            let (next, results, work) = (&next, &results, &work);
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(job) = jobs.get(index) else { break };
-                    let result = work(slot, job);
-                    *results[index]
-                        .lock()
-                        .expect("no thread panics while holding the lock") = Some(result);
-                }
-            });
-        }
+    let take_jobs = |slot: usize| -> Vec<(usize, R)> {
+        let indices = iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        let taken = indices.map_while(|index| Some((index, jobs.get(index)?)));
+        taken.map(|(index, job)| (index, work(slot, job))).collect()
+    };
+    let take_jobs = &take_jobs;
+    let mut results: Vec<(usize, R)> = thread::scope(|scope| {
+        let slots = 0..slots.min(jobs.len());
+        let threads = slots.map(|slot| scope.spawn(move || take_jobs(slot)));
+        let threads: Vec<_> = threads.collect();
+        let results = threads.into_iter().map(|thread| thread.join());
+        let results = results.map(|result| result.unwrap_or_else(|panic| resume_unwind(panic)));
+        results.flatten().collect()
     });
-    let done = results.into_iter();
-    done.map(|result| {
-        result
-            .into_inner()
-            .expect("no thread panics while holding the lock")
-    })
-    .map(|result| result.expect("every job was run"))
-    .collect()
+    results.sort_unstable_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
 }
 
 #[cfg(test)]

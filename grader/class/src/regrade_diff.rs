@@ -1,13 +1,14 @@
 //! Compares the scores of a regrade with the earlier ones: whose points changed, in which items,
 //! and why.
 
-use std::fmt;
+use std::collections::BTreeSet;
 
 use serde::Serialize;
 
 use crate::error::Error;
 use crate::final_grades::GradeChanges;
 use crate::outcome::{EntryResult, ItemScore, ScoreSummary, id_and_names};
+use crate::run::Run;
 use crate::store::Store;
 
 /// The differences from earlier runs.
@@ -17,8 +18,8 @@ pub struct Changes {
     pub regrade: Option<RegradeChanges>,
     /// The scores that changed because the submission did.
     pub resubmitted: Vec<Drift>,
-    /// The entries that are no longer in the input.
-    pub removed: Vec<RemovedEntry>,
+    /// Sentences about the entries that are no longer in the input.
+    pub removed: Vec<String>,
     /// The final grades that changed; `None` if there are none to compare with.
     pub grades: Option<GradeChanges>,
 }
@@ -32,50 +33,55 @@ pub struct RegradeChanges {
     pub causes: Vec<&'static str>,
 }
 
-/// An entry with a result in the output folder, but without a submission in the input.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RemovedEntry {
-    /// The entry's id.
-    pub id: String,
-    /// The names of its people.
-    pub names: String,
-    /// Its points, if it was graded.
-    pub points: Option<u32>,
-}
-
-impl fmt::Display for RemovedEntry {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&id_and_names(&self.id, &self.names))?;
-        match self.points {
-            Some(points) => write!(f, ": {points} points"),
-            None => f.write_str(": no score"),
-        }
-    }
-}
-
 /// Returns the scores that changed because their submission did.
 pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, Error> {
+    find_drifts(results, |id| store.replaced_score(id))
+}
+
+/// Returns the changes that a regrade made, or `None` in a folder's first round.
+pub fn find_regrade_changes(
+    store: &Store,
+    run: &Run,
+    results: &[EntryResult],
+) -> Result<Option<RegradeChanges>, Error> {
+    let Some(before) = &run.before else {
+        return Ok(None);
+    };
+    Ok(Some(RegradeChanges {
+        drifts: find_drifts(results, |id| store.previous_score(id))?,
+        causes: before.differences(&run.settings),
+    }))
+}
+
+/// Compares each result with the score that was kept for its entry.
+fn find_drifts(
+    results: &[EntryResult],
+    kept_score: impl Fn(&str) -> Result<Option<ScoreSummary>, Error>,
+) -> Result<Vec<Drift>, Error> {
     let mut drifts = Vec::new();
     for result in results {
-        let was = store.replaced_score(&result.id)?;
+        let was = kept_score(&result.id)?;
         drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
     }
     Ok(drifts)
 }
 
-/// Returns the entries in the store that are not among `ids`.
-pub fn find_removed(store: &Store, ids: &[&str]) -> Result<Vec<RemovedEntry>, Error> {
+/// Returns sentences about the entries in the stores that are not among `ids`, each with its people and
+/// points. An entry that is in several stores is named once.
+pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Error> {
+    let mut known: BTreeSet<String> = ids.iter().map(|id| (*id).to_owned()).collect();
     let mut removed = Vec::new();
-    for id in store.ids()? {
-        if ids.contains(&id.as_str()) {
-            continue;
-        }
-        if let Some(result) = store.result(&id)? {
-            removed.push(RemovedEntry {
-                names: result.info.display_names(),
-                points: result.score().map(|score| score.points),
-                id,
+    for store in stores {
+        for id in store.ids()? {
+            let Some(result) = store.result(&id)?.filter(|_| !known.contains(&id)) else {
+                continue;
+            };
+            let who = id_and_names(&id, &result.info.display_names());
+            removed.push(match result.score() {
+                Some(score) => format!("{who}: {} points", score.points),
+                None => format!("{who}: no score"),
             });
+            known.insert(id);
         }
     }
     Ok(removed)
@@ -99,6 +105,12 @@ impl Drift {
     pub fn changes_points(&self) -> bool {
         self.now != Some(self.was)
     }
+
+    /// Returns the points after the regrade, for people.
+    pub fn now_text(&self) -> String {
+        self.now
+            .map_or("no score".to_owned(), |now| now.to_string())
+    }
 }
 
 /// A change in the points of an item.
@@ -115,8 +127,16 @@ pub struct ItemChange {
     pub why: String,
 }
 
+impl ItemChange {
+    /// Returns the points before and after the regrade, for people.
+    pub fn point_texts(&self) -> [String; 2] {
+        let text = |points: u32| points.to_string();
+        [self.was, self.now].map(|points| points.map_or("–".to_owned(), text))
+    }
+}
+
 /// Compares the scores of an entry; returns `None` if nothing changed.
-pub fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
+fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
     let items = match now {
         Some(now) => item_changes(was, now),
         None => Vec::new(),
@@ -170,6 +190,7 @@ mod tests {
     use super::*;
     use crate::graded_class::tests::{graded, result};
     use crate::outcome::{EntryOutcome, FileNotes, TaskScore};
+    use crate::store::tests::{other_settings, run};
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
@@ -195,6 +216,14 @@ mod tests {
                 items,
             }],
         }
+    }
+
+    /// Returns the ids and points of scores that changed.
+    fn points(drifts: &[Drift]) -> Vec<(&str, u32, Option<u32>)> {
+        let points = drifts.iter();
+        points
+            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
+            .collect()
     }
 
     #[test]
@@ -271,33 +300,23 @@ mod tests {
     }
 
     #[test]
-    fn a_removed_entry_is_named_with_its_people_and_points() {
-        let text = |id: &str, names: &str, points| {
-            let (id, names) = (id.to_owned(), names.to_owned());
-            RemovedEntry { id, names, points }.to_string()
-        };
-        assert_eq!(text("ann", "ann", Some(7)), "ann: 7 points");
-        assert_eq!(
-            text("7001", "Ann + Bob", Some(7)),
-            "7001 (Ann + Bob): 7 points"
-        );
-        assert_eq!(text("ann", "ann", None), "ann: no score");
-    }
-
-    #[test]
     fn entries_that_left_the_class_are_found_with_their_scores() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::new(folder.path());
         let nothing = EntryOutcome::NothingToGrade("empty".to_owned());
-        for (id, outcome) in [("a", graded(80)), ("b", graded(70)), ("c", nothing)] {
-            store.save_graded(&result(id, &["Ann"], outcome), "key", 1);
+        for (id, name, outcome) in [
+            ("a", "Ann", graded(80)),
+            ("b", "Ann", graded(70)),
+            ("c", "c", nothing),
+        ] {
+            store.save_graded(&result(id, &[name], outcome), "key", 1);
         }
         // A folder without a result, such as that of a killed run.
         std::fs::create_dir(store.entry_folder("d")).unwrap();
-        let removed = find_removed(&store, &["a", "e"]).unwrap();
-        let removed: Vec<String> = removed.iter().map(ToString::to_string).collect();
-        assert_eq!(removed, ["b (Ann): 70 points", "c (Ann): no score"]);
-        assert_eq!(find_removed(&store, &["a", "b", "c"]).unwrap(), []);
+        let removed = find_removed(&[&store], &["a", "e"]).unwrap();
+        assert_eq!(removed, ["b (Ann): 70 points", "c: no score"]);
+        let none = find_removed(&[&store], &["a", "b", "c"]).unwrap();
+        assert_eq!(none, Vec::<String>::new());
     }
 
     #[test]
@@ -311,10 +330,25 @@ mod tests {
             result(id, &["Ann"], graded(70))
         });
         let drifts = find_resubmitted(&store, &results).unwrap();
-        let drifts: Vec<_> = drifts
-            .iter()
-            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
-            .collect();
-        assert_eq!(drifts, [("a", 80, Some(70))]);
+        assert_eq!(points(&drifts), [("a", 80, Some(70))]);
+    }
+
+    #[test]
+    fn only_a_regrade_has_changes_and_causes() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path());
+        let first = find_regrade_changes(&store, &run(), &[]).unwrap();
+        assert!(first.is_none());
+        store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+        store.save_previous_scores().unwrap();
+        let second = run().next_round(other_settings());
+        let results = [
+            result("a", &["Ann"], graded(70)),
+            result("b", &["Bob"], graded(70)),
+        ];
+        let changes = find_regrade_changes(&store, &second, &results).unwrap();
+        let changes = changes.unwrap();
+        assert_eq!(points(&changes.drifts), [("a", 80, Some(70))]);
+        assert_eq!(changes.causes, ["the exam"]);
     }
 }

@@ -152,14 +152,7 @@ impl Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store::tests::run;
-
-    fn other_settings() -> Settings {
-        Settings {
-            exam_hash: "other".to_owned(),
-            ..run().settings
-        }
-    }
+    use crate::store::tests::{other_settings, run};
 
     #[test]
     fn a_regrade_is_compared_with_the_last_finished_round() {

@@ -44,14 +44,14 @@ impl OwnWork<'_> {
 /// Checks that the folder is empty, and apart from the input and the output.
 pub fn check_folder(folder: &Path, others: &[&Path]) -> Result<(), Error> {
     if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
-        return Err(Error::User(format!(
+        return Err(Error::user(format!(
             "{} is not empty: name a new folder for --similarity-input",
             folder.display()
         )));
     }
     for other in others {
         if contains(folder, other) || contains(other, folder) {
-            return Err(Error::User(format!(
+            return Err(Error::user(format!(
                 "{} and {} must not contain each other, or names and reports would get to the \
                  checker: choose another folder for --similarity-input",
                 folder.display(),
@@ -147,16 +147,12 @@ fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
     let mut table = Table::new(&["set", "submission", "names", "expected"]);
     for (number, works) in (1..).zip(groups) {
         for work in works {
-            let expected = if is_one_group(works) {
-                "same group"
-            } else {
-                ""
-            };
+            let expected = is_one_group(works).then(|| "same group".to_owned());
             table.rows.push(vec![
                 i32::to_string(&number),
                 safe_cell(&work.entry.id),
                 safe_cell(&work.entry.info.display_names()),
-                expected.to_owned(),
+                expected.unwrap_or_default(),
             ]);
         }
     }
@@ -180,13 +176,9 @@ fn render(
 ) -> String {
     let mut text = format!("\n  own lines of {count} submissions, for a similarity checker\n");
     for works in identical {
-        let names = works.iter().map(|work| work.entry.id.as_str());
-        let names: Vec<&str> = names.collect();
-        let expected = if is_one_group(works) {
-            " (same group)"
-        } else {
-            ""
-        };
+        let names: Vec<&str> = works.iter().map(|work| work.entry.id.as_str()).collect();
+        let is_expected = is_one_group(works);
+        let expected = if is_expected { " (same group)" } else { "" };
         text += &format!("  identical{expected}: {}\n", one_line(&names.join(", ")));
     }
     for path in [folder, key, list] {

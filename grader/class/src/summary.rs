@@ -113,24 +113,23 @@ impl ClassSummary {
         let max_points = scores.first().map_or(0, |score| score.max_points);
         let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
         let points = Distribution::new(points, max_points);
-        let not_graded = class.fault_count();
+        let count = |is_one: fn(&ClassRow) -> bool| {
+            let rows = class.rows.iter();
+            rows.filter(|row| is_one(row)).count()
+        };
         ClassSummary {
             schema: SCHEMA,
             exam: class.exam.clone(),
             exam_hash: class.exam_hash.clone(),
             isolation: class.isolation.clone(),
             graded: scores.len(),
-            nothing_to_grade: class.rows.iter().filter(|row| has_nothing(row)).count(),
-            not_graded,
+            nothing_to_grade: count(has_nothing),
+            not_graded: class.fault_count(),
             missing: class.missing.len(),
-            unclear_times: class
-                .rows
-                .iter()
-                .filter(|row| matches!(row.problem(), Some(GradeProblem::UnclearTime(_))))
-                .count(),
-            superseded: class.rows.iter().filter(|row| row.is_superseded()).count(),
-            undecided: class.rows.iter().filter(|row| is_undecided(row)).count(),
-            undated: class.rows.iter().filter(|row| is_undated(row)).count(),
+            unclear_times: count(|row| matches!(row.problem(), Some(GradeProblem::UnclearTime(_)))),
+            superseded: count(ClassRow::is_superseded),
+            undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
+            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated)),
             tasks: tasks(&scores),
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),
@@ -142,14 +141,6 @@ impl ClassSummary {
 
 fn has_nothing(row: &ClassRow) -> bool {
     matches!(row.result.outcome, EntryOutcome::NothingToGrade(_)) && !row.is_superseded()
-}
-
-fn is_undated(row: &ClassRow) -> bool {
-    row.grades.iter().any(|grade| grade.is_undated)
-}
-
-fn is_undecided(row: &ClassRow) -> bool {
-    matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))
 }
 
 fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {

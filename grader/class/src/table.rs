@@ -31,7 +31,7 @@ impl Table {
         let bytes = files::read(path).map_err(Error::user)?;
         Table::parse(&bytes).map_err(|why| {
             let path = path.display();
-            Error::User(format!("{path}: {why}; export it again, as CSV in UTF-8"))
+            Error::user(format!("{path}: {why}; export it again, as CSV in UTF-8"))
         })
     }
 
@@ -106,6 +106,11 @@ impl Table {
         column.ok_or_else(|| missing_column(path, name, remedy))
     }
 
+    /// Returns the cell of the first row in the column with this name.
+    pub fn first_cell(&self, name: &str) -> Option<String> {
+        self.rows.first()?.get(self.column(name)?).cloned()
+    }
+
     /// Returns the table with only these columns, in this order.
     pub fn select_columns(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| {
@@ -149,7 +154,7 @@ impl Table {
 /// Returns an error about a column, with a remedy.
 pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
     let path = path.display();
-    Error::User(format!("{path} has no column {column}: {remedy}"))
+    Error::user(format!("{path} has no column {column}: {remedy}"))
 }
 
 /// Returns the number of blank lines after a row, which the reader skips. `read` is the number of bytes

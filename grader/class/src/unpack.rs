@@ -46,21 +46,37 @@ pub struct Unpacked {
 
 /// Unpacks an archive into a temporary folder in `parent`.
 pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpacked, Error> {
-    let archive_error = |why: ArchiveError| {
-        let path = path.display();
-        Error::User(format!(
-            "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
-        ))
-    };
-    let bytes = fs::metadata(path)
-        .at("read", path)
-        .map_err(Error::user)?
-        .len();
-    let mut archive = Archive::open(path, ArchiveLimits::class()).map_err(archive_error)?;
-    let listing = archive.listing().map_err(archive_error)?;
-    let build_dir = BuildDir::new_in(parent).map_err(Error::user)?;
+    unpack_files(path, parent, handed_out).map_err(|error| match error {
+        UnpackError::Archive(why) => {
+            let path = path.display();
+            Error::user(format!(
+                "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
+            ))
+        }
+        UnpackError::File(error) => Error::user(error),
+    })
+}
+
+/// A reason why an archive cannot be unpacked.
+#[derive(Debug, thiserror::Error)]
+enum UnpackError {
+    #[error(transparent)]
+    Archive(#[from] ArchiveError),
+    #[error(transparent)]
+    File(#[from] PathError),
+}
+
+fn unpack_files(
+    path: &Path,
+    parent: &Path,
+    handed_out: &HandedOut,
+) -> Result<Unpacked, UnpackError> {
+    let bytes = fs::metadata(path).at("read", path)?.len();
+    let mut archive = Archive::open(path, ArchiveLimits::class())?;
+    let listing = archive.listing()?;
+    let build_dir = BuildDir::new_in(parent)?;
     let folder = &build_dir.path().join(CLASS_FOLDER);
-    files::create_dir_all(folder).map_err(Error::user)?;
+    files::create_dir_all(folder)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let unmatched = |why: String| UnmatchedPath {
         name: name.clone().into_owned(),
@@ -71,14 +87,14 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
     let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
     for path in wanted_folders {
         let put = extract_to(folder, path, |target| files::create_dir_all(target));
-        problems.extend(put.map_err(Error::user)?.map(unmatched));
+        problems.extend(put?.map(unmatched));
     }
 
     let members = listing
         .members
         .iter()
         .filter(|member| is_wanted(&member.path));
-    let selected = select(members, MAX_TOTAL_BYTES + MAX_EXPANSION * bytes, handed_out);
+    let (read, not_read) = select(members, MAX_TOTAL_BYTES + MAX_EXPANSION * bytes, handed_out);
     let mut incomplete = Vec::new();
     let mut put = |member: &Member, bytes: Result<&[u8], String>| {
         if let Err(why) = &bytes {
@@ -91,23 +107,13 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
         problems.extend(put?.map(unmatched));
         Ok::<_, UnpackError>(())
     };
-    let mut not_read = selected.not_read.iter();
-    let put_empty = not_read.try_for_each(|(member, why)| match why {
-        Some(why) => put(member, Err(why.clone())),
-        None => put(member, Ok(&[])),
-    });
-    let put_all = put_empty.and_then(|()| {
-        archive.read_each(&selected.read, |slot, bytes| {
-            let bytes = bytes.map_err(|why| why.to_string());
-            put(
-                selected.read[slot].0,
-                bytes.as_deref().map_err(Clone::clone),
-            )
-        })
-    });
-    put_all.map_err(|error| match error {
-        UnpackError::Archive(why) => archive_error(why),
-        UnpackError::File(error) => Error::user(error),
+    for (member, why) in not_read {
+        put(member, why.map_or(Ok(&[]), Err))?;
+    }
+    archive.read_each(&read, |slot, bytes| {
+        let bytes = bytes.map_err(|why| why.to_string());
+        let bytes = bytes.as_deref().map_err(Clone::clone);
+        put(read[slot].0, bytes)
     })?;
     Ok(Unpacked {
         build_dir,
@@ -116,31 +122,9 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
     })
 }
 
-/// A reason why the rest of an archive cannot be unpacked.
-enum UnpackError {
-    Archive(ArchiveError),
-    File(PathError),
-}
-
-impl From<ArchiveError> for UnpackError {
-    fn from(error: ArchiveError) -> Self {
-        UnpackError::Archive(error)
-    }
-}
-
-impl From<PathError> for UnpackError {
-    fn from(error: PathError) -> Self {
-        UnpackError::File(error)
-    }
-}
-
-/// The members of an archive that are unpacked.
-struct Selection<'a> {
-    /// The members that are read, with the maximum number of bytes.
-    read: Vec<(&'a Member, u64)>,
-    /// The members that become empty files, with the reason if they are needed.
-    not_read: Vec<(&'a Member, Option<String>)>,
-}
+/// The members of an archive that are read, with the maximum number of bytes, and those that become empty
+/// files, with the reason if they are needed.
+type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
 /// Selects the members whose contents are needed, the smallest first, so that those that do not fit
 /// are the largest, whosever they are. No member can have more bytes than it claims.
@@ -153,32 +137,29 @@ fn select<'a>(
         |member: &'a Member| (member, max_bytes(&member.path, handed_out).min(member.size));
     let mut needed: Vec<_> = members.map(needed).collect();
     needed.sort_by_key(|(_, bytes)| *bytes);
-    let mut selection = Selection {
-        read: Vec::new(),
-        not_read: Vec::new(),
-    };
+    let (mut read, mut not_read) = (Vec::new(), Vec::new());
     let mut total = 0;
     for (member, bytes) in needed {
         total += bytes;
         let size = member.size >> 20;
         if bytes == 0 {
-            selection.not_read.push((member, None));
+            not_read.push((member, None));
         } else if bytes == MAX_FILE_BYTES && member.size > MAX_FILE_BYTES {
             let most = MAX_FILE_BYTES >> 20;
             let why = format!(
                 "it has {size} MiB, and more than {most} MiB are not unpacked: ask for the task files alone"
             );
-            selection.not_read.push((member, Some(why)));
+            not_read.push((member, Some(why)));
         } else if total > max_total {
             let why = format!(
                 "it has {size} MiB, for which there is no room beside the smaller files of the class: unpack the archive yourself, and pass the folder"
             );
-            selection.not_read.push((member, Some(why)));
+            not_read.push((member, Some(why)));
         } else {
-            selection.read.push((member, bytes));
+            read.push((member, bytes));
         }
     }
-    selection
+    (read, not_read)
 }
 
 fn is_wanted(path: &str) -> bool {

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 const SCENE: &str = r#"{
     "camera": { "vertical_fov": 40, "film": [2, 2], "position": [0, 0, 4], "look_at": [0, 0, 0], "up": [0, 1, 0] },
     "materials": { "clay": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } } },
-    "shapes": [{ "mesh": { "file": "any.obj", "material": "clay", "subdivide": 1 } }]
+    "shapes": [{ "mesh": { "file": "any.obj", "material": "clay" } }]
 }"#;
 
 /// The folder that contains the scene and its mesh.

@@ -27,6 +27,7 @@ use protocol::{Answer, ElementOutcome, Question};
 
 use judging::drawing_data::DrawingData;
 use judging::exam::{ExamQuestion, Key};
+use judging::judge::tree::TreeCriteria;
 
 use bbox::BoxQuery;
 use camera::CameraQuery;
@@ -89,10 +90,12 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
                 return None;
             };
             let case = build::BuildCase {
-                shapes,
-                max_leaf_size: *max_leaf_size,
-                checks,
-                sweep_cost: *sweep_cost,
+                criteria: TreeCriteria {
+                    checks,
+                    sweep_cost: *sweep_cost,
+                    shapes,
+                    max_leaf_size: *max_leaf_size,
+                },
                 drawing_data: &question.drawing_data,
             };
             build::draw(&case, answer)

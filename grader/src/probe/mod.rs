@@ -6,66 +6,42 @@ mod culprit;
 mod fault;
 mod interrupt;
 mod limits;
+mod program;
 mod shrink;
 mod streams;
 
 use std::io;
 use std::mem;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::mpsc::RecvTimeoutError;
-use std::thread;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use protocol::wire::{Frame, WireError};
+use protocol::wire::{self, Frame, WireError};
 use protocol::{Answer, Question};
 
-use crate::machine::capture::Capture;
-use crate::machine::system::{self, Limits};
-use crate::sandbox::{ExitReason, Process, Profile, Sandbox};
+use crate::machine::system::Limits;
+use crate::sandbox::Sandbox;
 
 use limits::Stopwatch;
-use streams::{Batch, Streams};
 
 pub use budget::{Allowance, Budget};
 pub use culprit::Culprit;
 pub use fault::{Crash, Fault, TimeLimit};
 pub use interrupt::Interrupt;
 pub use limits::{ItemLimits, TimeUsed};
+pub use program::RunningProgram;
 pub use shrink::smallest_overflow;
+pub use streams::Batch;
 
-/// Maximum size of a submission's output that is stored, in bytes.
-const MAX_OUTPUT_BYTES: usize = 64 << 10;
 /// The time limits of starting. They are generous, because no code of the submission runs yet.
 pub const START_LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_secs(30),
     ..ItemLimits::from_cpu(Duration::from_secs(10))
 };
-/// Polling interval for a silent probe.
-const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// Time to wait for the remaining output of a probe that has ended.
-const OUTPUT_TIMEOUT: Duration = Duration::from_millis(200);
-
-/// Time to wait for a probe to end after it has closed its pipe. Freeing its memory may take a
-/// while on a busy machine.
-const EXIT_TIMEOUT: Duration = Duration::from_secs(2);
-
-// Parts of messages that the Rust runtime prints when it ends the process.
-const STACK_OVERFLOW: &str = "has overflowed its stack";
-const OUT_OF_MEMORY: &str = "memory allocation of ";
-const RUNTIME_MESSAGES: [&str; 4] = [
-    STACK_OVERFLOW,
-    OUT_OF_MEMORY,
-    "fatal runtime error",
-    "note: run with `RUST_BACKTRACE=1`",
-];
 
 /// A running probe.
 #[derive(Debug)]
 pub struct Probe {
-    process: Process,
-    streams: Streams,
-    output: Capture,
+    program: RunningProgram,
     /// Maximum memory use that was observed, in bytes.
     memory: u64,
     /// Time used for questions.
@@ -93,18 +69,14 @@ impl Launcher {
     /// Correct solutions use less than half of it.
     pub const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
-    /// Starts a probe that waits for questions. On Linux it ends with the thread that started it,
-    /// so that it does not outlive a killed grader. `cpu` is the CPU time that it may use in all;
-    /// this limit ends it even if the grader itself has been killed.
+    /// Starts a probe that waits for questions. `cpu` is the CPU time that it may use in all; this
+    /// limit ends it even if the grader itself has been killed.
     ///
     /// No code of the submission runs before the first question, but its variables may need too much
     /// memory. A program that fails up to then answers every question with [`Crash::NotStarted`].
     /// Returns an error if the launcher fails or the system cannot create a process, which no
     /// submission can bring about.
     pub fn start(&self, cpu: Duration) -> io::Result<Probe> {
-        let folder = self.program.parent().unwrap_or(Path::new("."));
-        let mut command = Command::new(&self.program);
-        system::clear_environment(&mut command);
         let limits = Limits {
             memory: Self::MEMORY_LIMIT,
             data: None,
@@ -112,23 +84,15 @@ impl Launcher {
             file: 0,
         }
         .within_available_memory(Self::LARGE_MEMORY);
-        let mut process = self
-            .sandbox
-            .start(command, folder, Profile::Probe, limits)?;
-        let stdin = process.child.stdin.take().expect("the stream is piped");
-        let stdout = process.child.stdout.take().expect("the stream is piped");
-        let stderr = process.child.stderr.take().expect("the stream is piped");
         let mut probe = Probe {
-            process,
-            streams: Streams::open(stdin, stdout),
-            output: Capture::start(stderr, MAX_OUTPUT_BYTES),
+            program: RunningProgram::start(&self.program, &self.sandbox, limits)?,
             memory: 0,
             used: TimeUsed::default(),
             interrupt: Interrupt::default(),
             not_started: None,
         };
         if probe.ask([], START_LIMITS).is_err() {
-            probe.process.kill();
+            probe.program.process.kill();
             probe.not_started = Some(Fault::Crashed(Crash::NotStarted));
         }
         // Only now, so that an interrupted start does not look like one that failed.
@@ -154,14 +118,13 @@ impl Probe {
         let nonces = nonces(questions.len());
         let mut batch = Batch::default();
         for (nonce, question) in nonces.iter().zip(questions) {
-            batch.add(*nonce, question).map_err(|error| {
-                Fault::Protocol(format!("the question cannot be encoded: {error}"))
-            })?;
+            let append = |frames| wire::append_question(frames, *nonce, question);
+            batch.add(question.max_answer_bytes(), append)?;
             if batch.is_full() {
-                self.streams.send(mem::take(&mut batch));
+                self.program.send(mem::take(&mut batch));
             }
         }
-        self.streams.send(batch);
+        self.program.send(batch);
 
         let mut stopwatch = Stopwatch::start(limits);
         let answers = self.receive(nonces, &mut stopwatch);
@@ -175,7 +138,7 @@ impl Probe {
         nonces: Vec<u64>,
         stopwatch: &mut Stopwatch,
     ) -> Result<Vec<Answer>, Fault> {
-        let printed_before = self.output.total();
+        let printed_before = self.program.printed();
         let mut answers = Vec::with_capacity(nonces.len());
         for nonce in nonces {
             let frame = self.next_frame(stopwatch, printed_before)?;
@@ -189,16 +152,8 @@ impl Probe {
 
     /// Ends the probe. Returns the beginning of what the submission printed, without the messages
     /// of the Rust runtime.
-    pub fn finish(mut self) -> String {
-        self.process.kill();
-        self.output.wait_for_end(OUTPUT_TIMEOUT);
-        let output = self.output.head();
-        let lines = output.lines().filter(|line| {
-            !RUNTIME_MESSAGES
-                .iter()
-                .any(|message| line.contains(message))
-        });
-        lines.collect::<Vec<_>>().join("\n")
+    pub fn finish(self) -> String {
+        self.program.finish()
     }
 
     /// Returns the time used since the last call, and forgets it.
@@ -212,62 +167,26 @@ impl Probe {
         printed_before: u64,
     ) -> Result<Frame, Fault> {
         loop {
-            match self.streams.next(POLL_INTERVAL) {
-                Ok(Ok(frame)) => return Ok(frame),
-                Ok(Err(WireError::EndOfStream | WireError::Io(_)))
-                | Err(RecvTimeoutError::Disconnected) => return Err(self.post_mortem()),
-                Ok(Err(error)) => return Err(protocol_fault(error)),
-                Err(RecvTimeoutError::Timeout) => {}
+            let asked_at = Instant::now();
+            match self.program.next_frame() {
+                Ok(Some(frame)) => return Ok(frame),
+                Ok(None) => {}
+                Err(fault) => {
+                    self.used.waiting += asked_at.elapsed();
+                    let is_killed = fault == Fault::Crashed(Crash::Killed);
+                    let is_memory = is_killed && self.memory > Launcher::LARGE_MEMORY;
+                    return Err(if is_memory { Fault::OutOfMemory } else { fault });
+                }
             }
-            self.memory = self.memory.max(self.process.memory().unwrap_or(0));
-            let exceeded =
-                stopwatch.exceeded(self.process.time(), self.output.total() - printed_before);
+            let printed = self.program.printed() - printed_before;
+            let process = &mut self.program.process;
+            self.memory = self.memory.max(process.memory().unwrap_or(0));
+            let exceeded = stopwatch.exceeded(process.time(), printed);
             let interrupted = (self.interrupt.is_requested()).then_some(TimeLimit::Wall);
             if let Some(over) = exceeded.or(interrupted) {
-                self.process.kill();
+                process.kill();
                 return Err(Fault::TimedOut(over));
             }
-            // A child process of the probe may keep the pipe open, so do not wait for it to close.
-            if self.process.exit_reason().is_some() {
-                return match self.streams.next(OUTPUT_TIMEOUT) {
-                    Ok(Ok(frame)) => Ok(frame),
-                    Ok(Err(_)) | Err(_) => Err(self.post_mortem()),
-                };
-            }
-        }
-    }
-
-    /// Determines why the probe ended. Its output is used for diagnosis only and cannot earn
-    /// points.
-    fn post_mortem(&mut self) -> Fault {
-        // The probe may have closed its pipe without ending.
-        let began = Instant::now();
-        let ended = loop {
-            match self.process.exit_reason() {
-                None if began.elapsed() < EXIT_TIMEOUT => thread::sleep(Duration::from_millis(1)),
-                ended => break ended,
-            }
-        };
-        self.used.waiting += began.elapsed();
-        if ended.is_some_and(ExitReason::is_external_kill) {
-            return if self.memory > Launcher::LARGE_MEMORY {
-                Fault::OutOfMemory
-            } else {
-                Fault::Crashed(Crash::Killed)
-            };
-        }
-        let exit_reason = self.process.kill();
-        self.output.wait_for_end(OUTPUT_TIMEOUT);
-        let output = self.output.head();
-        match exit_reason {
-            Some(ExitReason::Code(code)) => Fault::Crashed(Crash::Exited(code)),
-            // Messages of the Rust runtime.
-            Some(ExitReason::Signal(_)) if output.contains(STACK_OVERFLOW) => {
-                Fault::Crashed(Crash::StackOverflow)
-            }
-            Some(ExitReason::Signal(_)) if output.contains(OUT_OF_MEMORY) => Fault::OutOfMemory,
-            Some(ExitReason::Signal(signal)) => Fault::Crashed(Crash::Signal(signal)),
-            None => Fault::Crashed(Crash::Signal(0)),
         }
     }
 }
@@ -336,8 +255,8 @@ mod tests {
             "{fault:?}"
         );
         assert!(started_at.elapsed() < START_LIMITS.waiting);
-        assert!(probe.take_time_used().waiting >= EXIT_TIMEOUT);
-        assert!(probe.process.exit_reason().is_some());
+        assert!(probe.take_time_used().waiting >= program::EXIT_TIMEOUT);
+        assert!(probe.program.process.exit_reason().is_some());
     }
 
     #[test]

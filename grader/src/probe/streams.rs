@@ -11,25 +11,32 @@ use std::thread;
 use std::time::Duration;
 use std::vec;
 
-use protocol::Question;
 use protocol::wire::{self, Frame, WireError};
+
+use super::fault::Fault;
 
 /// Size in bytes at which a batch is sent. This is the capacity of a pipe.
 const BATCH_BYTES: usize = 1 << 16;
 
-/// A batch of questions, which are sent together.
+/// A batch of requests, which are sent together.
 #[derive(Debug, Default)]
-pub(super) struct Batch {
+pub struct Batch {
     frames: Vec<u8>,
-    /// Maximum size of the answer to each question.
+    /// Maximum size of the response to each request.
     limits: Vec<usize>,
 }
 
 impl Batch {
-    /// Adds a question.
-    pub(super) fn add(&mut self, nonce: u64, question: &Question) -> Result<(), WireError> {
-        self.frames = wire::append_question(mem::take(&mut self.frames), nonce, question)?;
-        self.limits.push(question.max_answer_bytes());
+    /// Adds a request, which `append` encodes and appends to the frames before it. Its response has
+    /// at most `limit` bytes.
+    pub fn add(
+        &mut self,
+        limit: usize,
+        append: impl FnOnce(Vec<u8>) -> Result<Vec<u8>, WireError>,
+    ) -> Result<(), Fault> {
+        self.frames = append(mem::take(&mut self.frames))
+            .map_err(|error| Fault::Protocol(format!("the question cannot be encoded: {error}")))?;
+        self.limits.push(limit);
         Ok(())
     }
 

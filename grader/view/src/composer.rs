@@ -7,13 +7,14 @@ use std::time::{Duration, Instant};
 use framework::harness::view::{self, ViewMode};
 use framework::render::film::Tone;
 use glam::{UVec2, Vec3};
+use grader::png_file;
 use protocol::{Trace, Tree};
 use view_probe::messages::TestCounts;
 
 use crate::model::layer::{Layer, Shown};
 use crate::model::tree::TreeModel;
 use crate::session::{Key, Session, View};
-use crate::studio::Studio;
+use crate::shared_session::{Picture, SharedSession};
 
 /// The time between two pictures, at first and later. A picture that is nearly complete changes
 /// little, and composing it takes time from drawing it.
@@ -25,60 +26,48 @@ const INTERVALS: [(Duration, Duration); 3] = [
 /// The colour of pixels whose code panicked.
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
 
-/// A composed picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// The PNG file.
-    pub png: Vec<u8>,
-    /// The key of the pixels.
-    pub key: Key,
-    /// Whether it has all samples.
-    pub is_complete: bool,
-}
-
 /// The values of a picture, copied so that drawing goes on while it is composed.
 struct Snapshot {
     key: Key,
     is_complete: bool,
-    film: UVec2,
     values: Values,
-    exposure: f32,
 }
 
 enum Values {
-    Light(Layer<Vec3>),
+    Light(Layer<Vec3>, f32),
     Hits(Layer<Option<Trace>>, ViewMode, Option<Arc<TreeModel>>, f32),
     Clay(Layer<Option<Trace>>, Vec3),
     Tests(Layer<TestCounts>),
 }
 
 /// Composes pictures until the process ends.
-pub fn run(studio: &Studio) {
+pub fn run(shared: &SharedSession) {
     let mut shown = None;
     let mut last = Instant::now();
     loop {
-        studio.wait_for_dirt();
+        shared.wait_for(|session, _| (session.is_dirty && session.has_picture()).then_some(()));
         let (age, is_complete) =
-            studio.read(|session, now| (session.age(now), session.is_complete()));
+            shared.read(|session, now| (session.age(now), session.is_complete()));
         let interval = INTERVALS
             .iter()
             .find(|(until, _)| age < *until)
             .map_or(Duration::ZERO, |(_, interval)| *interval);
         // The first picture after a change is shown at once, and so is the last.
-        let is_new = shown != Some(studio.read(|session, _| session.key()));
+        let is_new = shown != Some(shared.read(|session, _| session.key()));
         let wait = interval.saturating_sub(last.elapsed());
         if !is_new && !is_complete && !wait.is_zero() {
             thread::sleep(wait.min(Duration::from_millis(50)));
             continue;
         }
-        let snapshot = studio.update(|session, _| {
+        let snapshot = shared.update(|session, _| {
             session.is_dirty = false;
             snapshot(session)
         });
         shown = Some(snapshot.key);
-        let png = encode(snapshot.film, &snapshot.bytes());
+        let (film, bytes) = snapshot.values.colours();
+        let png = png_file::encode(film, bytes.as_flattened());
         last = Instant::now();
-        studio.show_picture(Picture {
+        shared.show_picture(Picture {
             png,
             key: snapshot.key,
             is_complete: snapshot.is_complete,
@@ -87,98 +76,78 @@ pub fn run(studio: &Studio) {
 }
 
 fn snapshot(session: &Session) -> Snapshot {
-    let values = match session.view {
-        View::Shaded => Values::Light(session.light.clone()),
+    let hits = |mode| {
+        let (tree, extent) = (session.tree.clone(), session.subject.extent);
+        Values::Hits(session.hits.clone(), mode, tree, extent)
+    };
+    let values = match session.shown.view {
+        View::Shaded => Values::Light(session.light.clone(), session.shown.exposure),
         View::Tests => Values::Tests(session.tests.clone()),
         View::Clay => Values::Clay(session.hits.clone(), session.camera().placement.position),
-        View::Normals => hits(session, ViewMode::Normals),
-        View::Depth => hits(session, ViewMode::Depth),
-        View::Uv => hits(session, ViewMode::Uv),
-        View::Bvh => hits(session, ViewMode::Bvh),
+        View::Normals => hits(ViewMode::Normals),
+        View::Depth => hits(ViewMode::Depth),
+        View::Uv => hits(ViewMode::Uv),
+        View::Bvh => hits(ViewMode::Bvh),
     };
     Snapshot {
         key: session.key(),
         is_complete: session.is_complete(),
-        film: session.light.film(),
         values,
-        exposure: session.exposure,
     }
 }
 
-fn hits(session: &Session, mode: ViewMode) -> Values {
-    Values::Hits(
-        session.hits.clone(),
-        mode,
-        session.tree.clone(),
-        session.subject.extent,
-    )
-}
-
-impl Snapshot {
-    /// Returns the bytes of the picture, row by row from the top.
-    fn bytes(&self) -> Vec<u8> {
-        let stops = self.exposure;
-        match &self.values {
-            Values::Light(layer) => {
-                let tone = ToneTable::new(stops);
-                self.each(|pixel| {
-                    layer.shown(pixel).map(|shown| match shown {
-                        Shown::Value(sum, count) => tone.to_bytes(sum / count as f32),
-                        Shown::Panicked => PANIC_COLOUR,
-                    })
-                })
+impl Values {
+    /// Returns the size of the picture and the colours of its pixels, row by row from the top.
+    fn colours(&self) -> (UVec2, Vec<[u8; 3]>) {
+        let data = |colour| Tone::Data.to_bytes(colour);
+        match self {
+            Values::Light(layer, stops) => {
+                let tone = ToneTable::new(*stops);
+                paint(layer, |_, sum, count| tone.to_bytes(sum / count as f32))
             }
             Values::Hits(layer, mode, tree, extent) => {
-                let pixels = self.pixels().map(|pixel| match layer.shown(pixel) {
+                let film = layer.tiles.film();
+                let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
+                let hit = |pixel| match layer.shown(pixel) {
                     Some(Shown::Value(hit, _)) => hit,
                     Some(Shown::Panicked) | None => None,
-                });
-                let pixels: Vec<Option<Trace>> = pixels.collect();
+                };
+                let hits: Vec<Option<Trace>> = pixels.map(hit).collect();
                 let nothing = Tree::default();
                 let tree = tree.as_ref().map_or(&nothing, |model| &model.tree);
-                let colours = view::picture(*mode, &pixels, tree, *extent);
-                self.each(|pixel| match layer.shown(pixel)? {
-                    Shown::Value(..) => {
-                        let index = pixel.y * self.film.x + pixel.x;
-                        Some(Tone::Data.to_bytes(colours[index as usize]))
-                    }
-                    Shown::Panicked => Some(PANIC_COLOUR),
-                })
+                let colours = view::picture(*mode, &hits, tree, *extent);
+                let index = |pixel: UVec2| (pixel.y * film.x + pixel.x) as usize;
+                paint(layer, |pixel, _, _| data(colours[index(pixel)]))
             }
-            Values::Clay(layer, eye) => self.each(|pixel| match layer.shown(pixel)? {
-                Shown::Value(hit, _) => Some(Tone::Data.to_bytes(clay(hit?, *eye))),
-                Shown::Panicked => Some(PANIC_COLOUR),
+            Values::Clay(layer, eye) => paint(layer, |_, hit, _| {
+                hit.map_or([0; 3], |hit| data(clay(hit, *eye)))
             }),
             Values::Tests(layer) => {
-                let total = |counts: TestCounts| counts.boxes.saturating_add(counts.primitives);
-                let most = layer
-                    .values()
-                    .flatten()
-                    .map(total)
-                    .max()
-                    .unwrap_or(0)
-                    .max(1);
-                self.each(|pixel| match layer.shown(pixel)? {
-                    Shown::Value(counts, _) => {
-                        Some(Tone::Data.to_bytes(view::heat_colour(total(counts), most)))
-                    }
-                    Shown::Panicked => Some(PANIC_COLOUR),
+                let most = layer.values().flatten().map(TestCounts::total).max();
+                let most = most.unwrap_or(0).max(1);
+                paint(layer, |_, counts, _| {
+                    data(view::heat_colour(counts.total(), most))
                 })
             }
         }
     }
+}
 
-    fn pixels(&self) -> impl Iterator<Item = UVec2> {
-        let film = self.film;
-        (0..film.y).flat_map(move |y| (0..film.x).map(move |x| UVec2::new(x, y)))
-    }
-
-    fn each(&self, colour: impl Fn(UVec2) -> Option<[u8; 3]>) -> Vec<u8> {
-        let rows = (0..self.film.y).rev();
-        rows.flat_map(|y| (0..self.film.x).map(move |x| UVec2::new(x, y)))
-            .flat_map(|pixel| colour(pixel).unwrap_or_default())
-            .collect()
-    }
+/// Returns the size of a layer, and the colours of its pixels, row by row from the top. `colour`
+/// returns that of a pixel with its value and number of samples.
+fn paint<T: Copy + Default>(
+    layer: &Layer<T>,
+    colour: impl Fn(UVec2, T, u32) -> [u8; 3],
+) -> (UVec2, Vec<[u8; 3]>) {
+    let film = layer.tiles.film();
+    let rows = (0..film.y).rev();
+    let pixels = rows.flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
+    let colours = pixels.map(|pixel| match layer.shown(pixel) {
+        Some(Shown::Value(value, count)) => colour(pixel, value, count),
+        Some(Shown::Panicked) => PANIC_COLOUR,
+        None => [0; 3],
+    });
+    (film, colours.collect())
 }
 
 /// Returns the colour of a hit as if everything were made of clay, and lit from the camera: the more
@@ -227,21 +196,6 @@ impl ToneTable {
         let byte = |x: f32| self.thresholds.partition_point(|threshold| *threshold <= x) as u8;
         pixel.to_array().map(byte)
     }
-}
-
-/// Encodes a picture as PNG. Speed counts more than size, because pictures are sent often, mostly
-/// within one machine.
-fn encode(film: UVec2, bytes: &[u8]) -> Vec<u8> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, film.x, film.y);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_compression(png::Compression::Fastest);
-    let mut writer = encoder.write_header().expect("writing to memory succeeds");
-    writer
-        .write_image_data(bytes)
-        .expect("writing to memory succeeds");
-    writer.finish().expect("writing to memory succeeds");
-    file
 }
 
 #[cfg(test)]

@@ -3,21 +3,21 @@
 
 use std::sync::Arc;
 
-use framework::scene::{Camera, Material, Placement, Scene};
-use glam::{Mat3, UVec2, Vec3};
+use framework::scene::{Camera, Material, Scene};
+use glam::{UVec2, Vec3};
 use grader::exam_source::ExamSource;
 use grader::handed_out::RAYS;
 use grader::nearest_name::suggestion;
 use grader::question_ref::QuestionRef;
 use judging::describe;
 use judging::exam::ExamQuestion;
-use protocol::{PinholeCamera, Question, Ray, Rays, Shape, Tree};
+use judging::judge::tree::bounds::Bounds;
+use protocol::{Interval, PinholeCamera, Question, Ray, Shape, Tree};
 use view_probe::scene_data::{SceneData, TreeSource};
 
 use crate::error::ViewError;
-use crate::model::bounds::{Bounds, corners};
 use crate::model::viewpoint::Viewpoint;
-use crate::subject::{ExamRay, PathSettings, Subject, aim};
+use crate::subject::{ExamRay, PathSettings, Subject, aim, bounds};
 
 /// The film on which a question is drawn.
 const FILM: UVec2 = UVec2::new(480, 360);
@@ -29,11 +29,14 @@ pub fn subject_of_question(
     reference: &QuestionRef,
     settings: PathSettings,
 ) -> Result<Subject, ViewError> {
-    let exam = ExamSource::Practice.load(&RAYS)?.exam;
+    let exam = ExamSource::Practice
+        .load(&RAYS)
+        .map_err(ViewError::machine)?
+        .exam;
     let item = exam.items.iter().find(|item| item.id == reference.item);
     let item = item.ok_or_else(|| {
         let ids = || exam.items.iter().map(|item| item.id.as_str());
-        ViewError::Question(format!(
+        ViewError::Usage(format!(
             "the practice exam has no item `{}`{}; it has: {}",
             reference.item,
             suggestion(&reference.item, ids()),
@@ -42,7 +45,7 @@ pub fn subject_of_question(
     })?;
     let number = reference.number.unwrap_or(1);
     let (question, element) = item.element(number).ok_or_else(|| {
-        ViewError::Question(format!(
+        ViewError::Usage(format!(
             "{} has {} questions, so there is no number {}",
             reference.item,
             item.count(),
@@ -66,80 +69,63 @@ fn subject(
     element: usize,
     settings: PathSettings,
 ) -> Result<Subject, ViewError> {
-    let (shapes, tree, ray, boxes, leaf) = match &question.question {
-        Question::Shapes { shapes, rays } => (
-            shapes.clone(),
-            TreeSource::List,
-            ray(rays, element),
-            Vec::new(),
-            1,
-        ),
+    let (shapes, tree, leaf) = match &question.question {
+        Question::Shapes { shapes, .. } => (shapes.as_slice(), TreeSource::List, 1),
         Question::Traverse {
             shapes,
             nodes,
             root,
-            rays,
+            ..
         } => {
             let tree = Tree {
                 nodes: nodes.clone(),
                 root: *root,
                 order: Vec::new(),
             };
-            (
-                shapes.clone(),
-                TreeSource::Prebuilt(tree),
-                ray(rays, element),
-                Vec::new(),
-                1,
-            )
+            (shapes.as_slice(), TreeSource::Prebuilt(tree), 1)
         }
         Question::BuildAndTraverse {
             shapes,
             max_leaf_size,
-            rays,
-        } => (
-            shapes.clone(),
-            TreeSource::Build,
-            ray(rays, element),
-            Vec::new(),
-            *max_leaf_size,
-        ),
-        Question::Build {
+            ..
+        }
+        | Question::Build {
             shapes,
             max_leaf_size,
-        } => (
-            shapes.clone(),
-            TreeSource::Build,
-            None,
-            Vec::new(),
-            *max_leaf_size,
-        ),
-        Question::BBox { min, max, queries } => {
-            let ray = queries.get(element).map(|(ray, times)| Ray {
-                range: *times,
-                ..*ray
-            });
-            let corners = vec![[min.to_array(), max.to_array()]];
-            (Vec::new(), TreeSource::List, ray, corners, 1)
-        }
+        } => (shapes.as_slice(), TreeSource::Build, *max_leaf_size),
+        Question::BBox { .. } => (&[][..], TreeSource::List, 1),
         Question::Radiance { scene, .. } => {
-            let scene = Scene::from_text(scene)?;
+            let scene = Scene::from_text(scene).map_err(ViewError::usage)?;
             return Ok(Subject::of_scene(name, &scene, settings));
         }
         Question::Camera { .. } | Question::Done => {
-            return Err(ViewError::Question(format!(
+            return Err(ViewError::Usage(format!(
                 "{name} is about the camera alone, so there is no scene to show: \
                  run `cargo grade --replay {name}`"
             )));
         }
     };
+    let mut boxes = Vec::new();
+    let ray = if let Question::BBox { min, max, queries } = &question.question {
+        boxes.push([*min, *max]);
+        let within = |(ray, times): &(Ray, Interval)| ray.within(times.min, times.max);
+        queries.get(element).map(within)
+    } else {
+        let rays = question.question.rays();
+        rays.and_then(|rays| rays.to_vec().get(element).copied())
+    };
+    // The ray is left out, since it may begin far away.
+    let boxes_seen = boxes.iter().map(|[min, max]| Bounds {
+        min: min.as_dvec3(),
+        max: max.as_dvec3(),
+    });
+    let bounds = bounds(shapes.iter().map(Bounds::of_shape).chain(boxes_seen));
     let exam_ray = ExamRay {
         ray,
         boxes,
         asked: describe::element(&question.question, element),
         wanted: describe::answer::wanted(question, element),
     };
-    let bounds = bounds(&shapes, &exam_ray);
     let viewpoint = viewpoint(&bounds, ray.as_ref());
     let camera = camera(&viewpoint);
     let scene = Scene {
@@ -150,7 +136,7 @@ fn subject(
             albedo: Vec3::splat(0.7),
         }],
         shape_materials: vec![0; shapes.len()],
-        shapes: numbered(shapes),
+        shapes: numbered(shapes.to_vec()),
         max_leaf_size: leaf as usize,
     };
     let mut data = SceneData::new(&scene, aim(&camera, settings));
@@ -165,17 +151,6 @@ fn subject(
         viewpoint,
         question: Some(exam_ray),
     })
-}
-
-fn ray(rays: &Rays, element: usize) -> Option<Ray> {
-    rays.to_vec().get(element).copied()
-}
-
-/// Returns the box around the shapes and boxes of a question. The ray is left out, since it may
-/// begin far away.
-fn bounds(shapes: &[Shape], question: &ExamRay) -> Bounds {
-    let boxes = question.boxes.iter().flatten().copied().map(Vec3::from);
-    Bounds::of_points(shapes.iter().flat_map(corners).chain(boxes))
 }
 
 /// Returns a viewpoint that sees the ray from the side, a little from behind and above.
@@ -196,17 +171,13 @@ fn viewpoint(bounds: &Bounds, ray: Option<&Ray>) -> Viewpoint {
 }
 
 fn camera(viewpoint: &Viewpoint) -> Camera {
-    let Placement { position, axes } = viewpoint.placement;
     Camera {
         pinhole: PinholeCamera {
             vertical_fov: FOV,
             aspect_ratio: FILM.x as f32 / FILM.y as f32,
             film: FILM,
         },
-        placement: Placement {
-            position,
-            axes: Mat3::from_cols(axes.x_axis, axes.y_axis, axes.z_axis),
-        },
+        placement: viewpoint.placement,
         fixed_aspect: false,
     }
 }

@@ -11,7 +11,8 @@
 //! |---|---|
 //! | the command | [`run`], [`cli`], [`browser`] |
 //! | the page | [`routes`], with the files in `page`; [`access`] |
-//! | threads | [`workers`], [`watcher`], [`composer`]; [`studio`], the state that they share |
+//! | threads | [`workers`], [`watcher`], [`composer`] |
+//! | the state, shared by them | [`shared_session`] |
 //! | the state | [`session`] |
 //! | inputs | [`subject`], [`exam_question`], [`program`], [`recording`], [`probe`] |
 //! | pure parts | [`model`]: camera, order of drawing, tree, rules of traversal |
@@ -31,7 +32,7 @@ pub mod recording;
 pub mod routes;
 pub mod run;
 pub mod session;
-pub mod studio;
+pub mod shared_session;
 pub mod subject;
 pub mod watcher;
 pub mod workers;

@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use grader::build::{Build, Builder, NotCompiled};
-use grader::error::Error;
 use grader::handed_out::{GivenFile, HandedOut, RAYS};
 use grader::sandbox::Sandbox;
 use grader::select_isolation::{IsolationRequest, with_requested_level};
@@ -38,13 +36,23 @@ pub struct Programs {
     is_package: bool,
 }
 
+/// A program, or the reason why there is none.
+#[derive(Clone, Debug, Default)]
+pub enum BuildState {
+    /// The compiler is at work.
+    #[default]
+    Compiling,
+    /// The program is ready.
+    Ready(Program),
+    /// The submission does not compile.
+    Failed(Vec<FileError>),
+    /// The compiler could not be run.
+    Broken(String),
+}
+
 /// A compiled program. Its file is deleted when this is dropped.
 #[derive(Clone, Debug)]
-pub struct Program {
-    build: Arc<Build>,
-    /// The time that the build took.
-    pub took: Duration,
-}
+pub struct Program(Arc<Build>);
 
 /// An error in a file of the submission.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -67,17 +75,15 @@ impl Programs {
     ) -> Result<Self, ViewError> {
         let (package, path) = PROBE;
         let path = workspace.root().join(path);
-        let builder = Builder::prepare_with_package(package, &path, workspace)?;
-        let programs = Programs {
-            builder: with_requested_level(builder, isolation)?,
+        let builder = Builder::prepare_with_package(package, &path, workspace);
+        let builder = builder.map_err(ViewError::machine)?;
+        Ok(Programs {
+            builder: with_requested_level(builder, isolation).map_err(ViewError::machine)?,
             drawing: handed_out(|file| *file),
             recording: handed_out(with_recording),
             folder,
             is_package,
-        };
-        // A missing submission is reported before the server starts.
-        programs.collect()?;
-        Ok(programs)
+        })
     }
 
     /// Returns the folder or archive of the submission.
@@ -94,21 +100,8 @@ impl Programs {
         }
     }
 
-    /// Builds the program that draws. Calls `report` with errors as soon as the compiler has found
-    /// them. A submission with errors gives no program.
-    pub fn build_drawing(
-        &self,
-        submission: &Submission,
-        report: impl FnMut(Vec<FileError>),
-    ) -> Result<Result<Program, Vec<FileError>>, Error> {
-        self.build(submission, report)
-    }
-
     /// Builds the program that records tests.
-    pub fn build_recording(
-        &self,
-        submission: &Submission,
-    ) -> Result<Result<Program, Vec<FileError>>, Error> {
+    pub fn build_recording(&self, submission: &Submission) -> BuildState {
         let mut changed = submission.clone();
         changed.handed_out = self.recording;
         for method in RECORDED {
@@ -124,33 +117,34 @@ impl Programs {
         self.build(&changed, |_| {})
     }
 
-    fn build(
+    /// Builds the program that draws. Calls `report` with errors as soon as the compiler has found
+    /// them.
+    pub fn build(
         &self,
         submission: &Submission,
         mut report: impl FnMut(Vec<FileError>),
-    ) -> Result<Result<Program, Vec<FileError>>, Error> {
-        let started_at = Instant::now();
-        let build = self.builder.build_with_progress(submission, |files| {
+    ) -> BuildState {
+        let built = self.builder.build_with_progress(submission, |files| {
             report(file_errors(files.iter().map(|(file, why)| (*file, why))));
-        })?;
+        });
+        let build = match built {
+            Ok(build) => build,
+            Err(error) => return BuildState::Broken(error.to_string()),
+        };
         let errors = file_errors(build.not_compiled.iter().map(|(file, why)| (*file, why)));
-        let took = started_at.elapsed();
-        Ok(if errors.is_empty() && build.probe.is_some() {
-            Ok(Program {
-                build: Arc::new(build),
-                took,
-            })
+        if errors.is_empty() && build.probe.is_some() {
+            BuildState::Ready(Program(Arc::new(build)))
         } else {
-            Err(errors)
-        })
+            BuildState::Failed(errors)
+        }
     }
 }
 
 impl Program {
     /// Returns the path of the program, and the sandbox to start it in.
     pub fn executable(&self) -> (PathBuf, Sandbox) {
-        let path = self.build.probe.clone().unwrap_or_default();
-        let launcher = self.build.launcher(&path);
+        let Program(build) = self;
+        let launcher = build.launcher(&build.probe.clone().unwrap_or_default());
         (launcher.program, launcher.sandbox)
     }
 }
@@ -174,16 +168,10 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
 fn handed_out(given: impl Fn(&GivenFile) -> GivenFile) -> &'static HandedOut {
     let given: Vec<GivenFile> = RAYS.given.iter().map(given).collect();
     Box::leak(Box::new(HandedOut {
-        assignment: RAYS.assignment,
-        practice_exam: RAYS.practice_exam,
-        files: RAYS.files,
         given: given.leak(),
-        main: RAYS.main,
         entry: ENTRY,
-        student: RAYS.student,
-        starter: RAYS.starter,
-        reference: RAYS.reference,
         substitutions: &[],
+        ..RAYS
     }))
 }
 

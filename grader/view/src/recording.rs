@@ -66,4 +66,14 @@ mod tests {
         let recorded = RECORDED[1].apply(primitive).unwrap();
         assert!(recorded.contains("pub fn hit(&self, ray: &::protocol::Ray)"));
     }
+
+    #[test]
+    fn only_the_method_of_the_type_itself_is_renamed() {
+        let text = "impl Other for BBox { fn hit(&self) {} }\n\
+            impl BBox { fn b() { \"fn hit(\"; } #[inline] pub fn /* x */ hit (self) {} }";
+        let recorded = RECORDED[0].apply(text).unwrap();
+        assert!(recorded.contains("#[inline] pub fn /* x */ hit(&self, ray: "));
+        assert!(recorded.ends_with("fn hit_as_written (self) {} }"));
+        assert_eq!(RECORDED[0].apply("impl BBox { fn hits(&self) {} }"), None);
+    }
 }

@@ -14,7 +14,7 @@ use crate::access::Access;
 use crate::http::{Method, Request, Response, Site, Status};
 use crate::model::tree::{Bar, NodeInfo, TreeModel};
 use crate::session::Command;
-use crate::studio::Studio;
+use crate::shared_session::SharedSession;
 use crate::subject::{PathSettings, SceneList, Subject};
 
 /// The time for which a request for news waits. Tunnels end connections that are silent for longer
@@ -58,7 +58,7 @@ pub struct Routes {
     /// The rules of access.
     pub access: Access,
     /// The session.
-    pub studio: Arc<Studio>,
+    pub session: Arc<SharedSession>,
     /// The scenes that can be chosen.
     pub scenes: SceneList,
     /// The settings of paths.
@@ -106,18 +106,18 @@ impl Site for Routes {
                 Response::new(Status::Ok, content_type, *text)
             }
             (Method::Get, "/state", _) => self.state(number(request, "after")),
-            (Method::Get, "/picture", _) => match self.studio.picture() {
+            (Method::Get, "/picture", _) => match self.session.picture() {
                 Some(picture) => Response::new(Status::Ok, "image/png", picture.png.clone()),
                 None => Response::text(Status::NotFound, "there is no picture yet"),
             },
             (Method::Get, "/explanation", _) => {
-                match self.studio.read(|session, _| session.explanation.clone()) {
+                match self.session.read(|session, _| session.explanation.clone()) {
                     Some(explanation) => json(&*explanation),
                     None => Response::text(Status::NotFound, "no pixel is explained"),
                 }
             }
             (Method::Get, "/tree" | "/boxes" | "/node", _) => {
-                match self.studio.read(|session, _| session.tree.clone()) {
+                match self.session.read(|session, _| session.tree.clone()) {
                     Some(tree) => of_tree(&tree, request),
                     None => Response::text(Status::NotFound, "there is no tree yet"),
                 }
@@ -131,10 +131,11 @@ impl Site for Routes {
 impl Routes {
     /// Returns the state as soon as its version differs from `known`.
     fn state(&self, known: u64) -> Response {
-        if !self.studio.wait_for_news(known, POLL_TIMEOUT) {
+        if !self.session.wait_for_news(known, POLL_TIMEOUT) {
             return Response::nothing();
         }
-        json(&self.studio.read(|session, now| session.view_state(now)))
+        self.session
+            .read(|session, now| json(&session.page_state(now)))
     }
 
     fn command(&self, body: &[u8]) -> Response {
@@ -143,20 +144,20 @@ impl Routes {
             Ok(command) => command,
             Err(error) => return bad(&error),
         };
-        match self
-            .studio
-            .update(|session, now| session.apply(&command, now))
-        {
+        let applied = self
+            .session
+            .update(|session, now| session.apply(&command, now));
+        match applied {
             Err(why) => return bad(&why),
             Ok(None) => {}
             // Large meshes take some time to load, during which the page stays usable.
             Ok(Some(name)) => match self.scenes.load(&name) {
                 Ok(scene) => {
                     let subject = Subject::of_scene(&name, &scene, self.settings);
-                    self.studio
+                    self.session
                         .update(|session, now| session.open(subject, now));
                 }
-                Err(error) => self.studio.update(|session, _| {
+                Err(error) => self.session.update(|session, _| {
                     session.opening_failed(error.to_string());
                 }),
             },

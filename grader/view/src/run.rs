@@ -3,17 +3,18 @@
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
-use std::thread;
 use std::time::Instant;
-use std::{fs, io};
+use std::{fs, io, thread};
 
-use grader::files::AtPath;
+use grader::files::{AtPath, PathError};
 use grader::handed_out::RAYS;
 use grader::printing::print_line;
 use grader::select_isolation::IsolationRequest;
+use grader::submission::Submission;
 use grader::system::available_memory;
 use grader::workspace::Workspace;
 use judging::sanitize::sanitize_line;
+use tempfile::NamedTempFile;
 
 use crate::access::Access;
 use crate::cli::{Arguments, DEFAULT_PORT};
@@ -21,14 +22,16 @@ use crate::error::ViewError;
 use crate::exam_question::subject_of_question;
 use crate::program::Programs;
 use crate::routes::Routes;
-use crate::session::{Resources, Session};
-use crate::studio::Studio;
+use crate::session::{Resources, Session, Worker};
+use crate::shared_session::SharedSession;
 use crate::subject::{PathSettings, SceneList, Subject};
 use crate::{browser, composer, http, watcher, workers};
 
+const NO_REFERENCE: &str = "there is no reference here: leave out --reference";
+
 /// Serves the page until the process ends.
 pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::find().map_err(ViewError::machine)?;
     let settings = PathSettings {
         bounces: arguments.bounces,
         seed: arguments.seed,
@@ -42,9 +45,10 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         }
     };
     let listener = listen(arguments.port)?;
-    let port = listener.local_addr().map_err(ViewError::Listen)?.port();
+    let port = listener.local_addr().map_err(cannot_listen)?.port();
     let programs = programs(arguments, &workspace)?;
-    let submission = programs.collect()?;
+    // A missing submission is reported before the server starts.
+    let submission = programs.collect().map_err(ViewError::usage)?;
 
     let cores = arguments.threads.map_or_else(available_cores, usize::from);
     // Half of it is left for other programs, such as the browser.
@@ -58,12 +62,14 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         Resources { cores, memory },
         Instant::now(),
     );
-    let studio = Arc::new(Studio::new(session));
-    start_threads(&studio, &programs, submission, cores).map_err(ViewError::Listen)?;
+    let session = Arc::new(SharedSession::new(session));
 
-    let access = Access::new(port, &arguments.allow_host)?;
+    let access = Access::new(port, &arguments.allow_host).map_err(|error| {
+        ViewError::Machine(format!("the system provides no random numbers: {error}"))
+    })?;
     let url = format!("http://127.0.0.1:{port}{}", access.first_path());
     let folder = sanitize_line(&programs.folder().display().to_string(), usize::MAX);
+    start_threads(&session, programs, submission, cores).map_err(cannot_listen)?;
     print_line(format_args!("{folder}: open {url}"));
     if let Some(forwarded) = access.forwarded() {
         let path = access.first_path();
@@ -72,16 +78,12 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         ));
     }
     print_line("The page redraws after every save. Press Ctrl-C to stop.");
-    let redirection = if arguments.no_open {
-        None
-    } else {
-        let folder = workspace.output_folder();
-        fs::create_dir_all(&folder).at("create", &folder)?;
-        Some(browser::open(&folder, &url, port).at("write to", &folder)?)
-    };
+    let redirection = (!arguments.no_open)
+        .then(|| open_browser(&workspace, &url, port).map_err(ViewError::machine))
+        .transpose()?;
     let routes = Routes {
         access,
-        studio,
+        session,
         scenes,
         settings,
         redirection: Mutex::new(redirection),
@@ -90,18 +92,35 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     Ok(())
 }
 
+fn open_browser(workspace: &Workspace, url: &str, port: u16) -> Result<NamedTempFile, PathError> {
+    let folder = workspace.output_folder();
+    fs::create_dir_all(&folder).at("create", &folder)?;
+    browser::open(&folder, url, port).at("write to", &folder)
+}
+
 fn start_threads(
-    studio: &Arc<Studio>,
-    programs: &Programs,
-    submission: grader::submission::Submission,
+    session: &Arc<SharedSession>,
+    programs: Programs,
+    submission: Submission,
     cores: usize,
 ) -> io::Result<()> {
-    watcher::start(studio, programs, submission)?;
-    workers::start(studio, cores)?;
-    let studio = Arc::clone(studio);
-    let thread = thread::Builder::new().name("composer".to_owned());
-    thread.spawn(move || composer::run(&studio))?;
-    Ok(())
+    let of_watcher = programs.clone();
+    session.spawn("watcher", move |shared| {
+        watcher::watch(shared, &of_watcher, submission)
+    })?;
+    session.spawn("recordings", move |shared| {
+        watcher::build_recordings(shared, &programs)
+    })?;
+    for worker in (0..cores).map(Worker::Drawing).chain([Worker::Recording]) {
+        session.spawn(&format!("{worker:?}"), move |shared| {
+            workers::run(shared, worker)
+        })?;
+    }
+    session.spawn("composer", composer::run)
+}
+
+fn cannot_listen(error: io::Error) -> ViewError {
+    ViewError::Machine(format!("cannot listen on 127.0.0.1: {error}"))
 }
 
 /// Listens on this port, or on the usual one or any other if none is given.
@@ -110,14 +129,16 @@ fn listen(port: Option<u16>) -> Result<TcpListener, ViewError> {
     match port {
         Some(port) => bind(port).map_err(|error| {
             if error.kind() == io::ErrorKind::AddrInUse {
-                ViewError::PortInUse { port }
+                ViewError::Usage(format!(
+                    "port {port} is in use: choose another one with --port, or leave out --port"
+                ))
             } else {
-                ViewError::Listen(error)
+                cannot_listen(error)
             }
         }),
         None => bind(DEFAULT_PORT)
             .or_else(|_| bind(0))
-            .map_err(ViewError::Listen),
+            .map_err(cannot_listen),
     }
 }
 
@@ -131,7 +152,10 @@ fn programs(arguments: &Arguments, workspace: &Workspace) -> Result<Programs, Vi
         Some(path) => (workspace.resolve(path), false),
         None if arguments.reference => {
             let reference = workspace.reference(&RAYS);
-            (reference.ok_or(ViewError::NoReference)?, false)
+            (
+                reference.ok_or_else(|| ViewError::usage(NO_REFERENCE))?,
+                false,
+            )
         }
         None => (workspace.root().join(RAYS.student), true),
     };

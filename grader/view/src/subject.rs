@@ -4,13 +4,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use framework::scene::{Camera, Scene};
+use glam::{DVec3, Vec3};
+use grader::nearest_name::suggestion;
 use grader::workspace::Workspace;
+use judging::judge::tree::bounds::Bounds;
 use protocol::{Question, Ray};
-use view_probe::messages::{Aim, TreeSize};
-use view_probe::scene_data::{SceneData, TreeSource};
+use serde::{Serialize, Serializer};
+use view_probe::messages::TreeSize;
+use view_probe::scene_data::{Aim, SceneData, TreeSource};
 
 use crate::error::ViewError;
-use crate::model::bounds::Bounds;
 use crate::model::viewpoint::Viewpoint;
 
 /// The folder of scenes.
@@ -38,16 +41,21 @@ pub struct Subject {
 }
 
 /// A ray of the exam, and the texts of its question.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExamRay {
-    /// The ray, if the question is about one.
+    /// The ray, if the question is about one. The page sees only whether it is.
+    #[serde(rename = "has_ray", serialize_with = "is_some")]
     pub ray: Option<Ray>,
     /// Boxes to draw, as corners: for questions about boxes.
-    pub boxes: Vec<[[f32; 3]; 2]>,
+    pub boxes: Vec<[Vec3; 2]>,
     /// The question.
     pub asked: String,
     /// The accepted answers.
     pub wanted: Vec<String>,
+}
+
+fn is_some<S: Serializer>(ray: &Option<Ray>, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_bool(ray.is_some())
 }
 
 /// The settings of paths.
@@ -62,7 +70,7 @@ pub struct PathSettings {
 impl Subject {
     /// Creates the subject of a scene.
     pub fn of_scene(name: &str, scene: &Scene, settings: PathSettings) -> Self {
-        let bounds = Bounds::of_shapes(&scene.shapes);
+        let bounds = bounds(scene.shapes.iter().map(Bounds::of_shape));
         let viewpoint = Viewpoint::of_scene(&scene.camera, &bounds);
         Subject {
             name: name.to_owned(),
@@ -75,9 +83,7 @@ impl Subject {
             question: None,
         }
     }
-}
 
-impl Subject {
     /// Returns why a tree is not read, if it is much larger than a correct one can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
@@ -102,6 +108,21 @@ impl Subject {
             None
         }
     }
+}
+
+/// Returns the box around all boxes that are finite. Without any, returns a box of size one around
+/// the origin.
+pub fn bounds(boxes: impl Iterator<Item = Bounds>) -> Bounds {
+    let finite = boxes.filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());
+    let all = finite.reduce(|mut all, bounds| {
+        all.enclose(bounds);
+        all
+    });
+    let half = DVec3::splat(0.5);
+    all.unwrap_or(Bounds {
+        min: -half,
+        max: half,
+    })
 }
 
 /// Returns the aim of a camera.
@@ -173,13 +194,15 @@ impl SceneList {
     pub fn load(&self, name: &str) -> Result<Scene, ViewError> {
         let known = self.scenes.iter().find(|(known, _)| known == name);
         let (_, path) = known.ok_or_else(|| self.unknown(name))?;
-        Ok(Scene::load(path)?)
+        Scene::load(path).map_err(ViewError::usage)
     }
 
     fn unknown(&self, name: &str) -> ViewError {
-        ViewError::UnknownScene {
-            name: name.to_owned(),
-            known: self.names(),
-        }
+        let known = self.names();
+        let nearest = suggestion(name, known.iter().map(String::as_str));
+        let known = known.join(", ");
+        ViewError::Usage(format!(
+            "there is no scene `{name}`{nearest}; the folder `scenes` contains: {known}"
+        ))
     }
 }

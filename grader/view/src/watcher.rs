@@ -3,18 +3,15 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
 use grader::handed_out::RAYS;
-
 use grader::submission::Submission;
 use grader::watch::save_watcher::SaveWatcher;
 
-use crate::program::{FileError, Program, Programs};
-use crate::session::BuildState;
-use crate::studio::Studio;
+use crate::program::{BuildState, FileError, Programs};
+use crate::shared_session::SharedSession;
 
 /// The folders of a submission in which its files usually are.
 const USUAL_FOLDERS: [&str; 3] = ["", "src", "student/src"];
@@ -79,18 +76,18 @@ impl<'a> Stamps<'a> {
 }
 
 /// Builds the submission, and again after each save, until the process ends.
-fn watch(studio: &Studio, programs: &Programs, first: Submission) {
+pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
     let watcher = SaveWatcher::new(|| programs.collect().ok());
     let mut stamps = Stamps::new(programs);
     let mut submission = first;
     loop {
-        studio.update(|session, _| session.compiling(submission.clone()));
+        shared.update(|session, _| session.compiling(submission.clone()));
         let report = |errors: Vec<FileError>| {
             // The errors are shown at once. The compiler may find more in other files.
-            studio.update(|session, now| session.built(BuildState::Failed(errors), now));
+            shared.update(|session, now| session.built(BuildState::Failed(errors), now));
         };
-        let state = state(programs.build_drawing(&submission, report));
-        studio.update(|session, now| session.built(state, now));
+        let state = programs.build(&submission, report);
+        shared.update(|session, now| session.built(state, now));
         // A file may have been saved since it was read.
         while !watcher.has_changed_since(&submission) {
             stamps.wait();
@@ -100,29 +97,10 @@ fn watch(studio: &Studio, programs: &Programs, first: Submission) {
 }
 
 /// Builds programs that record, whenever one is wanted, until the process ends.
-fn build_recordings(studio: &Studio, programs: &Programs) {
+pub fn build_recordings(shared: &SharedSession, programs: &Programs) {
     loop {
-        let (version, submission) = studio.wait_for_recording_wish();
-        let state = state(programs.build_recording(&submission));
-        studio.update(|session, _| session.built_recording(state, version));
+        let (version, submission) = shared.wait_for(|session, _| session.wanted_recording());
+        let state = programs.build_recording(&submission);
+        shared.update(|session, _| session.built_recording(state, version));
     }
-}
-
-fn state(built: Result<Result<Program, Vec<FileError>>, grader::error::Error>) -> BuildState {
-    match built {
-        Ok(Ok(program)) => BuildState::Ready(program),
-        Ok(Err(errors)) => BuildState::Failed(errors),
-        Err(error) => BuildState::Broken(error.to_string()),
-    }
-}
-
-/// Starts the threads.
-pub fn start(studio: &Arc<Studio>, programs: &Programs, first: Submission) -> std::io::Result<()> {
-    let (shared, of_watcher) = (Arc::clone(studio), programs.clone());
-    let thread = thread::Builder::new().name("watcher".to_owned());
-    thread.spawn(move || watch(&shared, &of_watcher, first))?;
-    let (shared, of_recordings) = (Arc::clone(studio), programs.clone());
-    let thread = thread::Builder::new().name("recordings".to_owned());
-    thread.spawn(move || build_recordings(&shared, &of_recordings))?;
-    Ok(())
 }

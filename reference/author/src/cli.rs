@@ -34,8 +34,6 @@ pub enum Command {
         #[arg(long)]
         seed: u64,
     },
-    /// Write the scenes' meshes
-    Scenes(CheckArgs),
     /// Check the handout's links, names and commands
     Handout {
         /// Only check, as without --book

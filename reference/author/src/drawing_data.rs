@@ -2,7 +2,7 @@
 //! beside a wrong answer. The data is added to an exam after its questions have been generated.
 
 use judging::drawing_data::{DrawingData, TraversalStep};
-use judging::exam::{Exam, ExamQuestion};
+use judging::exam::Exam;
 use protocol::{Interval, Question, Ray, Rays};
 
 use crate::oracle::bbox::Bounds;
@@ -20,14 +20,8 @@ const RULE: TraversalRule = TraversalRule {
 
 /// Adds the data for drawings to every question that has a drawing.
 pub fn with_drawing_data(mut exam: Exam) -> Exam {
-    let questions = exam.items.iter_mut().flat_map(|item| &mut item.questions);
-    for ExamQuestion {
-        question,
-        drawing_data: data,
-        ..
-    } in questions
-    {
-        *data = drawing_data(question);
+    for asked in exam.items.iter_mut().flat_map(|item| &mut item.questions) {
+        asked.drawing_data = drawing_data(&asked.question);
     }
     exam
 }
@@ -63,18 +57,9 @@ fn drawing_data(question: &Question) -> DrawingData {
 /// Returns, for each axis, the interval in which the ray's line is between the box's two planes.
 fn slabs(bounds: &Bounds, ray: &Ray) -> [Interval; 3] {
     let line = Ray64::from(ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
-    [0, 1, 2].map(|axis| {
-        // The slab is a box that is infinite along the other axes.
-        let mut slab = Bounds {
-            min: glam::DVec3::NEG_INFINITY,
-            max: glam::DVec3::INFINITY,
-        };
-        slab.min[axis] = bounds.min[axis];
-        slab.max[axis] = bounds.max[axis];
-        match slab.span(&line) {
-            Some((enter, leave)) => Interval::new(enter as f32, leave as f32),
-            None => Interval::new(f32::INFINITY, f32::NEG_INFINITY),
-        }
+    [0, 1, 2].map(|axis| match bounds.slab(axis).span(&line) {
+        Some((enter, leave)) => Interval::new(enter as f32, leave as f32),
+        None => Interval::new(f32::INFINITY, f32::NEG_INFINITY),
     })
 }
 

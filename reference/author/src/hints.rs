@@ -29,7 +29,7 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
             let items = exam.items.iter();
             let observed = items.map(|item| {
                 let own = item.task == mistake.task() && is_table(item);
-                own.then(|| Ok(observed_answers(item, solution.answers(item)?)))
+                own.then(|| Ok(observed_answers(item, &solution.answers(item)?)))
                     .transpose()
             });
             observed.collect()
@@ -70,9 +70,10 @@ fn is_table(item: &Item) -> bool {
         })
 }
 
-fn observed_answers(item: &Item, answers: Answers) -> Vec<ObservedAnswer> {
+/// Returns what is observed of the answers to each element of an item.
+pub fn observed_answers(item: &Item, answers: &Answers) -> Vec<ObservedAnswer> {
     match answers {
-        Ok(answers) => observe(item, &answers),
+        Ok(answers) => observe(item, answers),
         Err(fault) => {
             vec![ObservedAnswer::NoAnswer(fault.no_answer_reason()); expected(item).len()]
         }
@@ -85,40 +86,36 @@ fn signatures(
     by_mistake: &[(u32, &[ObservedAnswer])],
 ) -> MistakeSignatures {
     let elements = choose_elements(correct, by_mistake);
-    let mut signatures = MistakeSignatures {
-        correct_answers: elements
-            .iter()
-            .map(|&element| correct[element].clone())
-            .collect(),
-        elements: elements.iter().map(|&element| element as u32).collect(),
-        mistake_answers: Vec::new(),
-    };
+    let mut all: Vec<MistakeAnswers> = Vec::new();
     for (mistake, observed) in by_mistake {
-        let wrong = (0..)
-            .zip(&elements)
-            .filter(|(_, element)| !observed[**element].matches(&correct[**element]));
-        let answers: Vec<(u32, ObservedAnswer)> = wrong
-            .map(|(index, &element)| (index, observed[element].clone()))
-            .collect();
+        let answers = (0..).zip(elements.iter().map(|&element| observed[element].clone()));
+        let is_wrong = |(index, got): &(u32, ObservedAnswer)| {
+            !got.matches(&correct[elements[*index as usize]])
+        };
+        let answers: Vec<(u32, ObservedAnswer)> = answers.filter(is_wrong).collect();
         if answers.is_empty() {
             continue;
         }
-        match signatures
-            .mistake_answers
+        match all
             .iter_mut()
             .find(|other| same_answers(&other.answers, &answers))
         {
             Some(other) => other.mistakes.push(*mistake),
-            None => signatures.mistake_answers.push(MistakeAnswers {
+            None => all.push(MistakeAnswers {
                 mistakes: vec![*mistake],
                 answers,
             }),
         }
     }
-    if signatures.mistake_answers.is_empty() {
+    if all.is_empty() {
         return MistakeSignatures::default();
     }
-    signatures
+    let correct_answers = elements.iter().map(|&element| correct[element].clone());
+    MistakeSignatures {
+        correct_answers: correct_answers.collect(),
+        elements: elements.iter().map(|&element| element as u32).collect(),
+        mistake_answers: all,
+    }
 }
 
 fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> bool {
@@ -145,12 +142,8 @@ fn choose_elements(
     let mut chosen = BTreeSet::new();
     while chosen.len() < MAX_ELEMENTS.min(correct.len()) {
         let left = (0..correct.len()).filter(|element| !chosen.contains(element));
-        let gains = left.map(|element| {
-            (
-                pairs.iter().filter(|pair| differ(element, pair)).count(),
-                element,
-            )
-        });
+        let gain = |element| pairs.iter().filter(|pair| differ(element, pair)).count();
+        let gains = left.map(|element| (gain(element), element));
         // If gains are equal, the first element is chosen, so that the result is deterministic.
         let Some((gain, best)) = gains.min_by_key(|(gain, element)| (usize::MAX - gain, *element))
         else {

@@ -1,6 +1,6 @@
-//! Generates everything in this repository that is not written by hand: the starter, the exams, the
-//! scenes' meshes, and the bundles and packages that are handed out. Also tests the exam, by grading
-//! many solutions ([`proof`]).
+//! Generates everything in this repository that is not written by hand: the starter, the exams, and
+//! the bundles and packages that are handed out. Also tests the exam, by grading many solutions
+//! ([`proof`]).
 //!
 //! This crate never links the reference. Keys are computed from the definitions, in double
 //! precision, in [`oracle`]. Grading the reference then shows that the reference and the keys agree.
@@ -16,7 +16,7 @@
 //! | whole exams; the students' bundle | [`exams`], [`bundle`] |
 //! | additions to an exam | [`hints`], [`drawing_data`] |
 //! | an exam's items; solutions, and how they are built and run | [`items`], [`solutions`] |
-//! | trees with decoys; other generated files | [`tree`], [`starter`], [`scenes`] |
+//! | trees with decoys; other generated files | [`tree`], [`starter`] |
 //! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
 pub mod bundle;
@@ -33,7 +33,6 @@ pub mod long_runs;
 pub mod oracle;
 pub mod package;
 pub mod proof;
-pub mod scenes;
 pub mod seed;
 pub mod solutions;
 pub mod starter;

@@ -15,7 +15,7 @@ impl Seed {
 
     /// Returns a seed that depends only on this one, to draw an item again.
     pub fn next(self) -> Seed {
-        Seed(self.rng("next").0.random())
+        Seed(self.rng("next").numbers.random())
     }
 
     /// Returns the random numbers of one item. Each item has its own sequence, so that changing one
@@ -27,33 +27,44 @@ impl Seed {
             let slot: &mut u8 = &mut key[8 + i % 24];
             *slot = slot.rotate_left(3) ^ byte;
         }
-        Rng(ChaCha8Rng::from_seed(key))
+        Rng {
+            numbers: ChaCha8Rng::from_seed(key),
+            seed: self,
+        }
     }
 }
 
 /// A sequence of random numbers.
 #[derive(Debug)]
-pub struct Rng(ChaCha8Rng);
+pub struct Rng {
+    numbers: ChaCha8Rng,
+    seed: Seed,
+}
 
 impl Rng {
+    /// Returns another sequence of the same seed. It is independent of the numbers drawn from this one.
+    pub fn sequence(&self, name: &str) -> Rng {
+        self.seed.rng(name)
+    }
+
     /// Returns a number in `[min, max)`.
     pub fn uniform(&mut self, min: f64, max: f64) -> f64 {
-        self.0.random_range(min..max)
+        self.numbers.random_range(min..max)
     }
 
     /// Returns an integer in `0..n`. Panics if `n` is 0.
     pub fn index(&mut self, n: usize) -> usize {
-        self.0.random_range(0..n)
+        self.numbers.random_range(0..n)
     }
 
     /// Returns an integer from `min` to `max`, both included.
     pub fn integer(&mut self, min: u32, max: u32) -> u32 {
-        self.0.random_range(min..=max)
+        self.numbers.random_range(min..=max)
     }
 
     /// Returns true or false with equal probability.
     pub fn coin(&mut self) -> bool {
-        self.0.random_bool(0.5)
+        self.numbers.random_bool(0.5)
     }
 
     /// Returns −1 or 1 with equal probability.

@@ -3,7 +3,7 @@
 
 use author::items::build::{self, relative_cost};
 use author::items::resolve;
-use author::oracle::buckets::{BucketExtent, BucketedBuilder};
+use author::oracle::buckets::{BucketExtent, BucketedBuilder, SideRule};
 use author::seed::Seed;
 use judging::exam::ExamQuestion;
 
@@ -25,7 +25,12 @@ fn eight_or_more_buckets_find_the_best_split_and_four_do_not() {
         let questions = one_split(seed);
         for extent in [BucketExtent::Centers, BucketExtent::Bounds] {
             let ratios = |count: usize| -> Vec<f64> {
-                let buckets = BucketedBuilder::correct(count, extent);
+                let sides = SideRule::AllBuckets;
+                let buckets = BucketedBuilder {
+                    count,
+                    extent,
+                    sides,
+                };
                 let ratio = |question| relative_cost(question, buckets);
                 questions.iter().map(ratio).collect()
             };

@@ -60,11 +60,6 @@ fn the_handout_is_in_sync_and_its_links_names_and_commands_exist() {
 }
 
 #[test]
-fn the_scenes_are_in_sync() {
-    assert_in_sync("scenes");
-}
-
-#[test]
 fn the_readme_has_the_numbers_of_the_exam() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
     let exam: serde_json::Value =

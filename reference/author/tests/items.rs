@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use author::items::shares_a_question;
 use author::seed::Seed;
+use glam::Vec3;
 use judging::assignment::RAYS;
 use judging::exam::{Item, Key};
 use protocol::{Question, Ray, Shape};
@@ -98,37 +99,22 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
 /// Returns whether the keys of an item rule out a constant answer: they contain both hits and
 /// misses, directions that differ, or a tree.
 fn has_opposites(item: &Item) -> bool {
-    let mut hits = 0;
-    let mut misses = 0;
-    for question in &item.questions {
-        match &question.key {
-            Key::Hits { hits: keys, .. } => {
-                hits += keys.iter().flatten().count();
-                misses += keys.iter().filter(|key| key.is_none()).count();
-            }
-            Key::FirstHits { hits: keys, .. } => {
-                hits += keys.iter().flatten().count();
-                misses += keys.iter().filter(|key| key.is_none()).count();
-            }
-            Key::Spans { spans } => {
-                hits += spans.iter().flatten().count();
-                misses += spans.iter().filter(|key| key.is_none()).count();
-            }
+    let is_hit = |key: &Key| -> Vec<bool> {
+        match key {
+            Key::Hits { hits, .. } => hits.iter().map(Option::is_some).collect(),
+            Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
+            Key::Spans { spans } => spans.iter().map(Option::is_some).collect(),
             Key::Rays { directions, .. } => {
-                let differ = directions
-                    .iter()
-                    .any(|dir| dir.distance(directions[0]) > 0.1);
-                hits += usize::from(differ);
-                misses += usize::from(differ);
+                let is_other = |dir: &Vec3| dir.distance(directions[0]) > 0.1;
+                directions.iter().map(is_other).collect()
             }
-            Key::Tree { .. } => {
-                hits += 1;
-                misses += 1;
-            }
-            Key::Radiance { .. } => {}
+            Key::Tree { .. } => vec![true, false],
+            Key::Radiance { .. } => Vec::new(),
         }
-    }
-    hits > 0 && misses > 0
+    };
+    let keys = item.questions.iter().map(|question| &question.key);
+    let all: BTreeSet<bool> = keys.flat_map(is_hit).collect();
+    all.len() == 2
 }
 
 #[test]

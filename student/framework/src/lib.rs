@@ -26,3 +26,5 @@ pub mod render;
 pub mod scene;
 pub mod submission;
 mod suggestion;
+#[cfg(test)]
+mod tests;

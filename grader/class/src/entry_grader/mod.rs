@@ -1,6 +1,7 @@
 //! Grades one entry. A failure affects this entry only.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
 
 use grader::policy::Policy;
 use grader::report::html::Reload;
@@ -11,9 +12,11 @@ use judging::sanitize::sanitize;
 
 use crate::entry::Entry;
 use crate::error::Error;
+use crate::estimate::Estimate;
 use crate::input::{NotCollected, collect_submission};
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 use crate::progress::Progress;
+use crate::queue;
 use crate::run::Run;
 use crate::store::Store;
 use crate::submission_grader::SubmissionGrader;
@@ -32,47 +35,93 @@ pub struct EntryGrader<'a> {
     pub store: &'a Store,
     /// The run, with the settings that scores depend on.
     pub run: &'a Run,
-    /// The display that shows the progress of the run.
-    pub progress: &'a Progress,
 }
 
 impl EntryGrader<'_> {
-    /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one.
-    pub fn grade(&self, slot: usize, entry: &Entry) -> Result<EntryResult, Error> {
-        let (result, is_new) = match collect_submission(entry, self.grader.handed_out()) {
-            Err(NotCollected::MachineFault(why)) => {
-                self.store.set_score_aside(&entry.id, self.run.round)?;
-                (self.finish(entry, fault(&why), "")?, true)
-            }
-            Err(NotCollected::NothingToGrade(why)) => {
-                let is_new = !self.store.has_nothing_to_grade(&entry.id, &why);
-                self.store.set_score_aside(&entry.id, self.run.round)?;
-                let result = self.finish(entry, EntryOutcome::NothingToGrade(why), "")?;
-                (result, is_new)
-            }
+    /// Grades entries, this many at a time, and shows the progress. Returns the result of each, and the
+    /// time that it took.
+    pub fn grade_all(
+        &self,
+        entries: &[Entry],
+        slots: usize,
+    ) -> Result<Vec<(EntryResult, Duration)>, Error> {
+        let progress = Progress::new(entries.len(), slots);
+        let results = queue::run(entries, slots, |slot, entry| {
+            let started_at = Instant::now();
+            let show_status = |status: &str| progress.set_status(slot, &entry.id, status);
+            let (result, is_new) = self.grade(entry, &show_status)?;
+            progress.finish_entry(slot, &result, is_new);
+            Ok((result, started_at.elapsed()))
+        });
+        progress.finish();
+        results.into_iter().collect()
+    }
+
+    /// Grades the first entries without a result, two per slot, and measures each.
+    pub fn estimate(&self, entries: Vec<Entry>, slots: usize) -> Result<Estimate, Error> {
+        let is_open = |entry: &Entry| !self.is_done(entry);
+        let mut sample: Vec<Entry> = entries.into_iter().filter(is_open).collect();
+        let rest = sample.split_off(sample.len().min(2 * slots));
+        let graded = self.grade_all(&sample, slots)?;
+        Ok(Estimate {
+            times: graded.into_iter().map(|(_, time)| time).collect(),
+            remaining: rest.len(),
+            slots,
+        })
+    }
+
+    /// Returns whether an entry needs no grading: it has a valid result, or nothing to grade.
+    fn is_done(&self, entry: &Entry) -> bool {
+        match collect_submission(entry, self.grader.handed_out()) {
+            Ok(submission) => self
+                .store
+                .cached_result(entry, &self.key(&submission))
+                .is_some(),
+            Err(NotCollected::NothingToGrade(_)) => true,
+            Err(NotCollected::MachineFault(_)) => false,
+        }
+    }
+
+    fn key(&self, submission: &Submission) -> String {
+        cache_key(self.run, self.grader.policy(), submission)
+    }
+
+    /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one. Also
+    /// returns whether it is new.
+    fn grade(
+        &self,
+        entry: &Entry,
+        show_status: &dyn Fn(&str),
+    ) -> Result<(EntryResult, bool), Error> {
+        let (outcome, is_new) = match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {
-                let key = cache_key(self.run, self.grader.policy(), &submission);
-                match self.store.cached_result(entry, &key) {
+                let key = self.key(&submission);
+                return match self.store.cached_result(entry, &key) {
                     // The result is saved again, because the rosters may contain new information
                     // about the people.
-                    Some(result) => (self.save(result, &key)?, false),
-                    None => (
-                        self.grade_with_retries(slot, entry, &submission, &key)?,
-                        true,
-                    ),
-                }
+                    Some(result) => Ok((self.save(result, &key)?, false)),
+                    None => {
+                        let graded = self.grade_with_retries(entry, &submission, &key, show_status);
+                        Ok((graded?, true))
+                    }
+                };
+            }
+            Err(NotCollected::MachineFault(why)) => (fault(&why), true),
+            Err(NotCollected::NothingToGrade(why)) => {
+                let is_new = !self.store.has_nothing_to_grade(&entry.id, &why);
+                (EntryOutcome::NothingToGrade(why), is_new)
             }
         };
-        self.progress.finish_entry(slot, &result, is_new);
-        Ok(result)
+        self.store.set_score_aside(&entry.id, self.run.round)?;
+        Ok((self.finish(entry, outcome, "")?, is_new))
     }
 
     fn grade_with_retries(
         &self,
-        slot: usize,
         entry: &Entry,
         submission: &Submission,
         key: &str,
+        show_status: &dyn Fn(&str),
     ) -> Result<EntryResult, Error> {
         self.store.set_score_aside(&entry.id, self.run.round)?;
         self.store.remove_stamp(&entry.id)?;
@@ -80,13 +129,13 @@ impl EntryGrader<'_> {
         for _ in 0..ATTEMPTS {
             // A bug in the grader that one submission triggers must not affect the others.
             let graded = catch_unwind(AssertUnwindSafe(|| {
-                self.grade_once(slot, entry, submission)
+                self.grade_once(entry, submission, show_status)
             }));
             match graded {
                 Ok(Ok(score)) => {
                     return self.finish(entry, EntryOutcome::Graded(Box::new(score)), key);
                 }
-                Ok(Err(error)) => why = error,
+                Ok(Err(error)) => why = error.to_string(),
                 Err(_) => why = "the grader panicked, with the message above".to_owned(),
             }
         }
@@ -96,19 +145,15 @@ impl EntryGrader<'_> {
     /// Grades an entry once. Its score and its pages are written when all items are graded.
     fn grade_once(
         &self,
-        slot: usize,
         entry: &Entry,
         submission: &Submission,
-    ) -> Result<ScoreSummary, String> {
-        let saved = self.store.save_submission(&entry.id, submission);
-        saved.map_err(|error| error.to_string())?;
+        show_status: &dyn Fn(&str),
+    ) -> Result<ScoreSummary, Error> {
+        self.store.save_submission(&entry.id, submission)?;
         let mut files = ReportFiles::new(&self.store.entry_folder(&entry.id), Reload::Never);
-        let show_status = |status: &str| self.progress.set_status(slot, &entry.id, status);
-        let graded = self.grader.grade(submission, &mut files, &show_status);
-        let (score, page) = graded.map_err(|error| error.to_string())?;
-        let saved = self.store.save_feedback(&entry.id, &page);
-        saved.map_err(|error| error.to_string())?;
-        ScoreSummary::parse(&score.to_json()).map_err(|error| error.to_string())
+        let (score, page) = self.grader.grade(submission, &mut files, show_status)?;
+        self.store.save_feedback(&entry.id, &page)?;
+        ScoreSummary::parse(&score.to_json()).map_err(Error::user)
     }
 
     fn finish(
@@ -133,17 +178,6 @@ impl EntryGrader<'_> {
 
 fn fault(why: &str) -> EntryOutcome {
     EntryOutcome::Fault(sanitize(why, MAX_FAULT_CHARS))
-}
-
-/// Returns whether an entry needs no grading: it has a valid result, or nothing to grade.
-pub fn is_done(grader: &dyn SubmissionGrader, store: &Store, run: &Run, entry: &Entry) -> bool {
-    let submission = match collect_submission(entry, grader.handed_out()) {
-        Ok(submission) => submission,
-        Err(NotCollected::NothingToGrade(_)) => return true,
-        Err(NotCollected::MachineFault(_)) => return false,
-    };
-    let key = cache_key(run, grader.policy(), &submission);
-    store.cached_result(entry, &key).is_some()
 }
 
 /// Returns the cache key: a hash of everything that the output files of an entry depend on. The
@@ -171,4 +205,4 @@ fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
 }
 
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;

@@ -9,18 +9,23 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use grader::error::Error;
 use grader::handed_out::{HandedOut, RAYS};
 use grader::score::Score;
+use tempfile::TempDir;
 
 use super::*;
-use crate::entry::{EntryInfo, Person, Source};
-use crate::graded_class::tests::{graded, result};
+use crate::entry::{Person, Source};
+use crate::graded_class::tests::{graded, policy as policy_of, result};
 use crate::run::Settings;
 use crate::store::tests::run;
 
-/// A grader that cannot start the program of any submission, and counts how often it was asked.
+/// A grader that cannot start the program of any submission.
 #[derive(Default)]
-pub(crate) struct FailingGrader {
+struct FailingGrader {
     policy: Policy,
-    pub(crate) asked: AtomicUsize,
+    /// How often it was asked.
+    asked: AtomicUsize,
+    /// The store in which it looks for a result of entry `a` while it grades.
+    watched: Option<Store>,
+    has_seen_result: AtomicBool,
 }
 
 impl SubmissionGrader for FailingGrader {
@@ -47,161 +52,154 @@ impl SubmissionGrader for FailingGrader {
         _: &dyn Fn(&str),
     ) -> Result<(Score, String), Error> {
         self.asked.fetch_add(1, Ordering::Relaxed);
+        let has_result = |store: &Store| store.result("a").unwrap().is_some();
+        let has_result = self.watched.as_ref().is_some_and(has_result);
+        self.has_seen_result.fetch_or(has_result, Ordering::Relaxed);
         Err(io::Error::other("no\u{1b} program").into())
     }
 }
 
-/// A grader that looks at the stored result of entry `a` while it grades.
-struct WatchingGrader<'a> {
-    inner: FailingGrader,
-    store: &'a Store,
-    has_result: AtomicBool,
+/// A folder for submissions, a store in it, and a grader.
+struct Folder {
+    folder: TempDir,
+    store: Store,
+    grader: FailingGrader,
 }
 
-impl SubmissionGrader for WatchingGrader<'_> {
-    fn handed_out(&self) -> &'static HandedOut {
-        self.inner.handed_out()
+impl Folder {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(&folder.path().join("out"));
+        let grader = FailingGrader {
+            watched: Some(store.clone()),
+            ..FailingGrader::default()
+        };
+        Folder {
+            folder,
+            store,
+            grader,
+        }
     }
 
-    fn policy(&self) -> &Policy {
-        self.inner.policy()
+    /// Calls a function with what grades the folder's entries.
+    fn with<T>(&self, call: impl FnOnce(&EntryGrader) -> T) -> T {
+        call(&EntryGrader {
+            grader: &self.grader,
+            store: &self.store,
+            run: &run(),
+        })
     }
 
-    fn settings(&self) -> Result<Settings, Error> {
-        self.inner.settings()
+    fn is_done(&self, entry: &Entry) -> bool {
+        self.with(|grader| grader.is_done(entry))
     }
 
-    fn task_points(&self) -> BTreeMap<String, u32> {
-        self.inner.task_points()
+    fn grade(&self, entry: &Entry) -> EntryResult {
+        self.with(|grader| grader.grade(entry, &|_| {}).unwrap().0)
     }
 
-    fn grade(
-        &self,
-        submission: &Submission,
-        files: &mut ReportFiles,
-        show_status: &dyn Fn(&str),
-    ) -> Result<(Score, String), Error> {
-        let has_result = self.store.result("a").unwrap().is_some();
-        self.has_result.fetch_or(has_result, Ordering::Relaxed);
-        self.inner.grade(submission, files, show_status)
-    }
-}
-
-fn entry(id: &str, source: Source) -> Entry {
-    Entry {
-        id: id.to_owned(),
-        info: EntryInfo {
-            people: vec![Person::named("Ann")],
-            ..EntryInfo::default()
-        },
-        source,
+    fn asked(&self) -> usize {
+        self.grader.asked.load(Ordering::Relaxed)
     }
 }
 
 /// Returns an entry with a task file in this folder.
-pub(crate) fn written(id: &str, folder: &Path) -> Entry {
+fn written(id: &str, folder: &Path) -> Entry {
     let path = folder.join(format!("{id}.rs"));
     fs::write(&path, "new").unwrap();
-    entry(id, Source::Files(vec![("sphere.rs".to_owned(), path)]))
+    let source = Source::Files(vec![("sphere.rs".to_owned(), path)]);
+    Entry::new(id, Person::named("Ann"), "", source)
 }
 
 /// Returns an entry with nothing to grade.
-pub(crate) fn missing(id: &str) -> Entry {
-    entry(id, Source::Missing("nothing was handed in".to_owned()))
+fn missing(id: &str) -> Entry {
+    let source = Source::Missing("nothing was handed in".to_owned());
+    Entry::new(id, Person::named("Ann"), "", source)
 }
 
 #[test]
 fn a_submission_that_cannot_be_graded_is_tried_again_and_then_a_fault() {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(&folder.path().join("out"));
-    let (grader, run) = (FailingGrader::default(), run());
-    let entry_grader = EntryGrader {
-        grader: &grader,
-        store: &store,
-        run: &run,
-        progress: &Progress::new(1, 1),
-    };
-    let entry = written("a", folder.path());
-    let found = entry_grader.grade(0, &entry).unwrap();
+    let folder = Folder::new();
+    let entry = written("a", folder.folder.path());
+    let found = folder.grade(&entry);
     let EntryOutcome::Fault(why) = &found.outcome else {
         panic!("{found:?}");
     };
     assert!(why.ends_with("no\\u{1b} program"), "{why}");
-    assert_eq!(grader.asked.load(Ordering::Relaxed), ATTEMPTS);
-    assert_eq!(store.result("a").unwrap(), Some(found));
-    assert!(!is_done(&grader, &store, &run, &entry));
+    assert_eq!(folder.asked(), ATTEMPTS);
+    assert_eq!(folder.store.result("a").unwrap(), Some(found));
+    assert!(!folder.is_done(&entry));
 }
 
 #[test]
 fn a_submission_with_a_valid_score_is_not_graded_again() {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(&folder.path().join("out"));
-    let (grader, run) = (FailingGrader::default(), run());
-    let entry = written("a", folder.path());
-    assert!(!is_done(&grader, &store, &run, &entry));
+    let folder = Folder::new();
+    let entry = written("a", folder.folder.path());
+    assert!(!folder.is_done(&entry));
     let submission = collect_submission(&entry, &RAYS).unwrap();
-    let key = cache_key(&run, grader.policy(), &submission);
-    store.save_graded(&result("a", &["Ann"], graded(80)), &key, 1);
-    assert!(is_done(&grader, &store, &run, &entry));
-    let entry_grader = EntryGrader {
-        grader: &grader,
-        store: &store,
-        run: &run,
-        progress: &Progress::new(1, 1),
-    };
-    let found = entry_grader.grade(0, &entry).unwrap();
-    assert_eq!(found, result("a", &["Ann"], graded(80)));
-    assert_eq!(grader.asked.load(Ordering::Relaxed), 0);
+    let key = cache_key(&run(), folder.grader.policy(), &submission);
+    let graded = result("a", &["Ann"], graded(80));
+    folder.store.save_graded(&graded, &key, 1);
+    assert!(folder.is_done(&entry));
+    assert_eq!(folder.grade(&entry), graded);
+    assert_eq!(folder.asked(), 0);
 
     // After an edit, the score is set aside.
-    fs::write(folder.path().join("a.rs"), "newer").unwrap();
-    assert!(!is_done(&grader, &store, &run, &entry));
-    let found = entry_grader.grade(0, &entry).unwrap();
-    assert_eq!(found.score(), None);
-    assert_eq!(store.replaced_score("a").unwrap().unwrap().points, 80);
+    fs::write(folder.folder.path().join("a.rs"), "newer").unwrap();
+    assert!(!folder.is_done(&entry));
+    assert_eq!(folder.grade(&entry).score(), None);
+    assert_eq!(
+        folder.store.replaced_score("a").unwrap().unwrap().points,
+        80
+    );
 }
 
 /// Otherwise a run that is killed between two files of an entry would leave an old stamp beside a new
 /// score, which would count if the submission became the old one again.
 #[test]
 fn an_entry_has_no_result_while_it_is_graded_again() {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(&folder.path().join("out"));
-    store.save_graded(&result("a", &["Ann"], graded(80)), "old key", 1);
-    assert!(store.result("a").unwrap().is_some());
-    let run = run();
-    let grader = WatchingGrader {
-        inner: FailingGrader::default(),
-        store: &store,
-        has_result: AtomicBool::new(false),
-    };
-    let entry_grader = EntryGrader {
-        grader: &grader,
-        store: &store,
-        run: &run,
-        progress: &Progress::new(1, 1),
-    };
-    entry_grader.grade(0, &written("a", folder.path())).unwrap();
-    assert_eq!(grader.inner.asked.load(Ordering::Relaxed), ATTEMPTS);
-    assert!(!grader.has_result.load(Ordering::Relaxed));
+    let folder = Folder::new();
+    let graded = result("a", &["Ann"], graded(80));
+    folder.store.save_graded(&graded, "old key", 1);
+    assert!(folder.store.result("a").unwrap().is_some());
+    folder.grade(&written("a", folder.folder.path()));
+    assert_eq!(folder.asked(), ATTEMPTS);
+    assert!(!folder.grader.has_seen_result.load(Ordering::Relaxed));
 }
 
 #[test]
 fn an_entry_with_nothing_to_grade_is_done_and_says_why() {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(folder.path());
-    let (grader, run) = (FailingGrader::default(), run());
-    assert!(is_done(&grader, &store, &run, &missing("a")));
-    let entry_grader = EntryGrader {
-        grader: &grader,
-        store: &store,
-        run: &run,
-        progress: &Progress::new(1, 1),
-    };
-    let found = entry_grader.grade(0, &missing("a")).unwrap();
+    let folder = Folder::new();
+    assert!(folder.is_done(&missing("a")));
+    let found = folder.grade(&missing("a"));
     let nothing = EntryOutcome::NothingToGrade("nothing was handed in".to_owned());
     assert_eq!(found, result("a", &["Ann"], nothing));
-    assert_eq!(store.result("a").unwrap(), Some(found));
+    assert_eq!(folder.store.result("a").unwrap(), Some(found));
+}
+
+#[test]
+fn an_estimate_grades_two_open_submissions_per_slot() {
+    let folder = Folder::new();
+    let mut entries = vec![missing("empty")];
+    entries.extend((0..8).map(|number| written(&number.to_string(), folder.folder.path())));
+    let estimate = folder.with(|grader| grader.estimate(entries, 3).unwrap());
+    assert_eq!(
+        (estimate.times.len(), estimate.remaining, estimate.slots),
+        (6, 2, 3)
+    );
+    assert_eq!(folder.store.ids().unwrap(), ["0", "1", "2", "3", "4", "5"]);
+    assert_eq!(folder.asked(), 6 * ATTEMPTS, "each is retried");
+}
+
+#[test]
+fn entries_are_graded_in_their_order() {
+    let entries = ["b", "a"].map(missing);
+    let results = Folder::new().with(|grader| grader.grade_all(&entries, 2).unwrap());
+    let ids: Vec<&str> = results
+        .iter()
+        .map(|(result, _)| result.id.as_str())
+        .collect();
+    assert_eq!(ids, ["b", "a"]);
 }
 
 #[test]
@@ -209,22 +207,22 @@ fn every_input_of_a_score_changes_its_key() {
     let folder = tempfile::tempdir().unwrap();
     let submission = collect_submission(&written("a", folder.path()), &RAYS).unwrap();
     let (run, policy) = (run(), Policy::default());
-    let key = cache_key(&run, &policy, &submission);
-    assert_eq!(cache_key(&run, &policy, &submission), key);
-    let other_round = Run {
-        round: 2,
-        ..run.clone()
-    };
-    assert_ne!(cache_key(&other_round, &policy, &submission), key);
-    let mut other_exam = run.clone();
+    let key = |run: &Run, policy: &Policy| cache_key(run, policy, &submission);
+    let usual = key(&run, &policy);
+    assert_eq!(key(&run, &policy), usual);
+    let (mut other_round, mut other_exam) = (run.clone(), run.clone());
+    other_round.round = 2;
     other_exam.settings.exam_hash.push('x');
-    assert_ne!(cache_key(&other_exam, &policy, &submission), key);
-    let text = |text: &str| Policy::from_text("policy.toml".as_ref(), text).unwrap();
-    let hidden = text("[visibility]\nfinal = 'hidden'");
-    assert_ne!(cache_key(&run, &hidden, &submission), key);
+    let hidden = policy_of("[visibility]\nfinal = 'hidden'");
+    for other in [
+        key(&other_round, &policy),
+        key(&other_exam, &policy),
+        key(&run, &hidden),
+    ] {
+        assert_ne!(other, usual);
+    }
     // Other rules are applied to finished scores.
-    let halved = text("[points]\nout_of = 50");
-    assert_eq!(cache_key(&run, &halved, &submission), key);
+    assert_eq!(key(&run, &policy_of("[points]\nout_of = 50")), usual);
     let changes: [fn(&mut Submission); 5] = [
         |changed| changed.name.push('x'),
         |changed| changed.notes.push("x".to_owned()),
@@ -235,6 +233,6 @@ fn every_input_of_a_score_changes_its_key() {
     for (number, change) in changes.into_iter().enumerate() {
         let mut changed = submission.clone();
         change(&mut changed);
-        assert_ne!(cache_key(&run, &policy, &changed), key, "change {number}");
+        assert_ne!(cache_key(&run, &policy, &changed), usual, "change {number}");
     }
 }

@@ -3,35 +3,26 @@
 use std::num::NonZero;
 use std::path::Path;
 use std::thread;
-use std::time::{Duration, Instant};
 
 use grader::error::Error as GraderError;
 use grader::grade::Grader;
-use grader::handed_out::HandedOut;
 use grader::options::GradeOptions;
 use grader::printing::print;
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
 use crate::cli::{ClassArguments, Lists};
-use crate::entry::{Entry, EntryInfo, Person};
-use crate::entry_grader::{EntryGrader, is_done};
+use crate::entry::EntryInfo;
+use crate::entry_grader::EntryGrader;
 use crate::error::Error;
-use crate::estimate::Estimate;
 use crate::input::Input;
-use crate::late::warn_about_extensions;
 use crate::layout::{CLASSROOM50_SCORES, Layout};
-use crate::list_memory::{KeptIn, ListFiles, UsedLists};
+use crate::list_memory::UsedLists;
 use crate::lists;
-use crate::manual_points::ManualPointsList;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
 use crate::paths::contains;
-use crate::progress::Progress;
-use crate::queue;
-use crate::regrade_diff::{
-    Changes, RegradeChanges, compare_scores, find_removed, find_resubmitted,
-};
+use crate::regrade_diff::{Changes, find_regrade_changes, find_removed, find_resubmitted};
 use crate::report::preview::{render_preview, render_warnings};
 use crate::roster;
 use crate::run::{RoundState, Run, Settings};
@@ -63,11 +54,15 @@ pub fn grade_class_with(
     options: &GradeOptions,
     prepare: &PrepareGrader,
 ) -> Result<Completion, Error> {
-    let used = choose_lists(arguments, options)?;
-    let given = &used.files.lists;
+    let lists = Lists {
+        policy: options.policy.clone(),
+        ..arguments.lists.clone()
+    };
+    let used = UsedLists::choose(lists, arguments.out.as_deref(), &[])?;
+    let given = &used.lists;
     check_lists(given)?;
     let options = &GradeOptions {
-        policy: used.files.policy.clone(),
+        policy: given.policy.clone(),
         ..options.clone()
     };
     let workspace = Workspace::find().map_err(GraderError::from)?;
@@ -84,76 +79,64 @@ pub fn grade_class_with(
         &roster::read_lists(given)?,
     )?;
     let mut recognised = input.class.clone();
-    let lists = resolve_lists(&input, given);
     let entries = recognised.entries.iter_mut();
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
-    let all = infos.len();
-    let findings = lists::complete_entries(&lists, &mut infos)?;
+    let lists = resolve_lists(&input, given);
+    let findings = lists::complete_entries(&lists, options.handed_out, &mut infos)?;
     recognised.notes.extend_from_slice(&findings.warnings);
-    let listed = findings.check(&lists, all);
-    let missing = findings.missing;
-    let manual = read_manual_points(given, options.handed_out)?;
-    let entries = recognised.entries.iter();
-    let people: Vec<&Person> = entries.flat_map(|entry| &entry.info.people).collect();
-    manual.check_students(&people)?;
     if let Some(folder) = &arguments.similarity_input {
-        let entries = &recognised.entries;
-        print(similarity::write_input(
-            folder,
-            entries,
-            options.handed_out,
-        )?);
+        let written = similarity::write_input(folder, &recognised.entries, options.handed_out);
+        print(written?);
     }
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
-        print(render_preview(&recognised, &missing, options.handed_out));
-        if let Err(error) = listed {
+        print(render_preview(
+            &recognised,
+            &findings.missing,
+            options.handed_out,
+        ));
+        if let Err(error) = findings.check(given) {
             print(format!("  this class would not be graded: {error}\n\n"));
         }
         return Ok(Completion::Complete);
     };
 
-    listed?;
+    findings.check(given)?;
     let grader = prepare(options)?;
-    let known: Vec<&Person> = people.into_iter().chain(&missing).collect();
-    warn_about_extensions(grader.policy(), &known);
+    findings.warn_about_extensions(grader.policy());
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
     let settings = grader.settings()?;
+    let run = start_or_resume(&store, settings, arguments.regrade)?;
+    store.remove_temporary_files()?;
+    let warnings = render_warnings(&recognised);
+    let all = recognised.entries.iter().map(|entry| entry.id.as_str());
+    let all: Vec<&str> = all.collect();
+    let removed = find_removed(&[&store], &all)?;
+    let class = file_hash(all.join("\n").as_bytes());
+    let shard = arguments.shard.unwrap_or(Shard::ALL);
+    let entries = shard.select(recognised.entries);
     let run = Run {
         shard: arguments.shard,
         lists: used.kept.clone(),
         tasks: grader.task_points(),
-        ..start_or_resume(&store, settings, arguments.regrade)?
-    };
-    store.remove_temporary_files()?;
-    let warnings = render_warnings(&recognised);
-    let all: Vec<&str> = recognised
-        .entries
-        .iter()
-        .map(|entry| entry.id.as_str())
-        .collect();
-    let removed = find_removed(&store, &all)?;
-    let class = file_hash(all.join("\n").as_bytes());
-    let entries = arguments
-        .shard
-        .unwrap_or(Shard::ALL)
-        .select(recognised.entries);
-    let run = Run {
         entries: entries.iter().map(|entry| entry.id.clone()).collect(),
         class,
         ..run
     };
-    used.save(&store)?;
-    store.write_run(&run)?;
-    used.remove_others(&store)?;
+    used.save(&store, &run)?;
     let run = save_previous_scores(&store, run)?;
     let slots = slot_count(arguments.jobs);
+    let entry_grader = EntryGrader {
+        grader: grader.as_ref(),
+        store: &store,
+        run: &run,
+    };
     if arguments.estimate {
-        let estimate = estimate(grader.as_ref(), &store, &run, entries, slots)?;
-        print(estimate.render());
+        print(entry_grader.estimate(entries, slots)?.render());
         return Ok(Completion::Complete);
     }
-    let results = grade_entries(grader.as_ref(), &store, &run, &entries, slots)?;
+    let results = entry_grader.grade_all(&entries, slots)?;
+    let results: Vec<EntryResult> = results.into_iter().map(|(result, _)| result).collect();
     let run = Run {
         state: RoundState::Finished,
         ..run
@@ -172,39 +155,9 @@ pub fn grade_class_with(
         run: &run,
         lists: given,
         policy: grader.policy(),
-        manual: &manual,
-        missing,
+        findings,
     };
     class.finish(results, changes)
-}
-
-/// Returns the lists on the command line and those that the output folder has from the last run.
-fn choose_lists(arguments: &ClassArguments, options: &GradeOptions) -> Result<UsedLists, Error> {
-    let store = arguments.out.as_deref().map(Store::new);
-    let run = store.as_ref().map(Store::read_run).transpose()?.flatten();
-    let kept = arguments.out.as_deref().zip(run.as_ref());
-    let kept = kept.map(|(folder, run)| KeptIn {
-        folder,
-        lists: &run.lists,
-    });
-    let given = ListFiles {
-        policy: options.policy.clone(),
-        lists: arguments.lists.clone(),
-    };
-    let used = UsedLists::choose(given, kept, &[])?;
-    used.print_notes();
-    Ok(used)
-}
-
-/// Reads the manual points, if a file is given.
-pub fn read_manual_points(
-    lists: &Lists,
-    handed_out: &HandedOut,
-) -> Result<ManualPointsList, Error> {
-    match &lists.manual_points {
-        Some(path) => ManualPointsList::read(path, handed_out),
-        None => Ok(ManualPointsList::default()),
-    }
 }
 
 /// Returns the lists given on the command line. If no roster is given, the one that classroom50
@@ -227,7 +180,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
     let run = match (store.read_run()?, regrade) {
         (None, true) => {
             let out = store.folder().display();
-            return Err(Error::User(format!(
+            return Err(Error::user(format!(
                 "{out} holds no scores yet: leave out --regrade"
             )));
         }
@@ -239,7 +192,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         }
         (Some(run), true) => run.next_round(settings),
         (Some(run), false) => {
-            return Err(Error::User(format!(
+            return Err(Error::user(format!(
                 "{} has scores that cannot be compared with new ones: {} changed; use --regrade to \
                  grade everything again and list the changes, or name a new folder",
                 store.folder().display(),
@@ -270,7 +223,7 @@ fn save_previous_scores(store: &Store, run: Run) -> Result<Run, Error> {
 fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Error> {
     let out = store.folder();
     if input.is_dir() && contains(input, out) {
-        return Err(Error::User(format!(
+        return Err(Error::user(format!(
             "{} is in {}: the results would be taken for submissions; choose another folder for --out",
             out.display(),
             input.display()
@@ -281,7 +234,7 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
         None => "the whole class".to_owned(),
     };
     match store.read_run()? {
-        Some(run) if run.shard != shard => Err(Error::User(format!(
+        Some(run) if run.shard != shard => Err(Error::user(format!(
             "{} has the results of {}, and not of {}: name another folder, or remove this one",
             out.display(),
             title(run.shard),
@@ -291,83 +244,9 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
     }
 }
 
-/// Grades the first entries without a result, two per slot, and measures each.
-fn estimate(
-    grader: &dyn SubmissionGrader,
-    store: &Store,
-    run: &Run,
-    entries: Vec<Entry>,
-    slots: usize,
-) -> Result<Estimate, Error> {
-    let is_open = |entry: &Entry| !is_done(grader, store, run, entry);
-    let mut sample: Vec<Entry> = entries.into_iter().filter(is_open).collect();
-    let rest = sample.split_off(sample.len().min(2 * slots));
-    let progress = Progress::new(sample.len(), slots);
-    let entry_grader = EntryGrader {
-        grader,
-        store,
-        run,
-        progress: &progress,
-    };
-    let times = queue::run(&sample, slots, |slot, entry| {
-        let started_at = Instant::now();
-        entry_grader
-            .grade(slot, entry)
-            .map(|_| started_at.elapsed())
-    });
-    progress.finish();
-    let times: Result<Vec<Duration>, _> = times.into_iter().collect();
-    Ok(Estimate {
-        times: times?,
-        remaining: rest.len(),
-        slots,
-    })
-}
-
-fn grade_entries(
-    grader: &dyn SubmissionGrader,
-    store: &Store,
-    run: &Run,
-    entries: &[Entry],
-    slots: usize,
-) -> Result<Vec<EntryResult>, Error> {
-    let progress = Progress::new(entries.len(), slots);
-    let entry_grader = EntryGrader {
-        grader,
-        store,
-        run,
-        progress: &progress,
-    };
-    let results = queue::run(entries, slots, |slot, entry| {
-        entry_grader.grade(slot, entry)
-    });
-    progress.finish();
-    results.into_iter().collect()
-}
-
 fn slot_count(jobs: Option<u16>) -> usize {
     let cores = || thread::available_parallelism().map_or(1, NonZero::get);
     jobs.map_or_else(cores, usize::from)
-}
-
-/// Returns the changes that a regrade made, or `None` in a folder's first round.
-fn find_regrade_changes(
-    store: &Store,
-    run: &Run,
-    results: &[EntryResult],
-) -> Result<Option<RegradeChanges>, Error> {
-    let Some(before) = &run.before else {
-        return Ok(None);
-    };
-    let mut drifts = Vec::new();
-    for result in results {
-        let was = store.previous_score(&result.id)?;
-        drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
-    }
-    Ok(Some(RegradeChanges {
-        drifts,
-        causes: before.differences(&run.settings),
-    }))
 }
 
 #[cfg(test)]

@@ -2,14 +2,12 @@
 //! in `tests/histories`.
 
 use std::fs;
-use std::sync::atomic::Ordering;
 
 use grader::handed_out::RAYS;
 
 use super::*;
-use crate::entry_grader::tests::{FailingGrader, missing, written};
 use crate::graded_class::tests::{graded, result};
-use crate::store::tests::run;
+use crate::store::tests::{other_settings, run};
 
 /// Returns an empty store in a temporary folder.
 fn store() -> (tempfile::TempDir, Store) {
@@ -17,13 +15,6 @@ fn store() -> (tempfile::TempDir, Store) {
     let store = Store::new(&folder.path().join("out"));
     fs::create_dir(store.folder()).unwrap();
     (folder, store)
-}
-
-fn other_settings() -> Settings {
-    Settings {
-        exam_hash: "other".to_owned(),
-        ..run().settings
-    }
 }
 
 #[test]
@@ -117,79 +108,9 @@ fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
 }
 
 #[test]
-fn an_estimate_grades_two_open_submissions_per_slot() {
-    let (folder, store) = store();
-    let mut entries = vec![missing("empty")];
-    entries.extend((0..8).map(|number| written(&number.to_string(), folder.path())));
-    let grader = FailingGrader::default();
-    let estimate = estimate(&grader, &store, &run(), entries, 3).unwrap();
-    assert_eq!(
-        (estimate.times.len(), estimate.remaining, estimate.slots),
-        (6, 2, 3)
-    );
-    assert_eq!(store.ids().unwrap(), ["0", "1", "2", "3", "4", "5"]);
-    assert_eq!(
-        grader.asked.load(Ordering::Relaxed),
-        6 * 3,
-        "each is retried"
-    );
-}
-
-#[test]
-fn entries_are_graded_in_their_order() {
-    let (_folder, store) = store();
-    let entries = ["b", "a"].map(missing);
-    let results = grade_entries(&FailingGrader::default(), &store, &run(), &entries, 2).unwrap();
-    let ids: Vec<&str> = results.iter().map(|result| result.id.as_str()).collect();
-    assert_eq!(ids, ["b", "a"]);
-}
-
-#[test]
-fn only_a_regrade_has_changes_and_causes() {
-    let (_folder, store) = store();
-    let first = find_regrade_changes(&store, &run(), &[]).unwrap();
-    assert!(first.is_none());
-    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-    store.save_previous_scores().unwrap();
-    let second = run().next_round(other_settings());
-    let results = [
-        result("a", &["Ann"], graded(70)),
-        result("b", &["Bob"], graded(70)),
-    ];
-    let changes = find_regrade_changes(&store, &second, &results).unwrap();
-    let changes = changes.unwrap();
-    let drifts: Vec<_> = changes
-        .drifts
-        .iter()
-        .map(|drift| (drift.id.as_str(), drift.was, drift.now))
-        .collect();
-    assert_eq!(drifts, [("a", 80, Some(70))]);
-    assert_eq!(changes.causes, ["the exam"]);
-}
-
-#[test]
 fn a_given_number_of_slots_counts_and_otherwise_there_is_at_least_one() {
     assert_eq!(slot_count(Some(3)), 3);
     assert!(slot_count(None) >= 1);
-}
-
-#[test]
-fn files_that_are_not_given_are_not_read() {
-    let folder = tempfile::tempdir().unwrap();
-    let none = read_manual_points(&Lists::default(), &RAYS).unwrap();
-    assert_eq!(none, ManualPointsList::default());
-    let path = folder.path().join("manual.csv");
-    fs::write(
-        &path,
-        "student,task,delta,comment,author\nAnn,bbox,1,,Kim\n",
-    )
-    .unwrap();
-    let lists = Lists {
-        manual_points: Some(path),
-        ..Lists::default()
-    };
-    let list = read_manual_points(&lists, &RAYS).unwrap();
-    assert_eq!(list.of(&Person::named("Ann"))[0].delta, 1);
 }
 
 #[test]

@@ -4,19 +4,16 @@
 
 use std::path::Path;
 
-use super::{
-    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning, non_empty,
-};
-use crate::entry::Person;
+use super::{FilledGradebook, Gradebook, Key, KeyKind, fill};
 use crate::error::Error;
 use crate::graded_class::GradedClass;
+use crate::names::is_number;
+use crate::roster::POINTS_POSSIBLE;
 use crate::table::{Table, missing_column};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
 /// The last column that identifies people.
 const SECTION: &str = "Section";
-/// The name in the row with the maximum points.
-const POINTS_POSSIBLE: &str = "Points Possible";
 /// Texts that mark ignored columns: Canvas silently ignores each column whose title contains one of
 /// them.
 const IGNORED_TITLES: [&str; 9] = [
@@ -48,41 +45,28 @@ pub fn fill_canvas(
     let table = table.select_columns(&columns);
     let target = columns.len() - 1;
 
-    let possible = table
-        .rows
-        .iter()
-        .find(|row| row[student].trim() == POINTS_POSSIBLE);
-    let warning = possible.and_then(|row| maximum_warning(class, &row[target]));
-    let sis = ["SIS User ID", "SIS Login ID"].map(|name| table.column(name));
-    let mut keys = vec![column_key(KeyKind::Number, id, |person| {
-        non_empty(&person.number)
-    })];
-    let [sid, login] = sis;
-    keys.extend(
-        sid.map(|column| column_key(KeyKind::Only, column, |person| non_empty(&person.sid))),
-    );
-    keys.extend(login.map(|column| column_key(KeyKind::OneOfSeveral, column, logins)));
-    keys.push(MatchKey {
-        kind: KeyKind::Name,
-        row_text: Box::new(move |row| given_name_first(&row[student])),
-        person_texts: |person| non_empty(&person.name),
-    });
-    let mut filled = fill(
-        GradebookSpec {
-            title: format!("Canvas, {title}"),
-            table,
-            target,
-            keys,
-            // Rows that do not belong to people, such as the row with the maximum points, have no
-            // id.
-            is_person: &|row| !row[id].trim().is_empty() && row[student].trim() != POINTS_POSSIBLE,
-            is_locked: &|_| false,
-            name: &|row| row[student].clone(),
-        },
-        class,
-    );
-    filled.warnings.extend(warning);
-    Ok(filled)
+    let mut rows = table.rows.iter();
+    let possible = rows.find(|row| row[student].trim() == POINTS_POSSIBLE);
+    let keys = [
+        (KeyKind::Number, Some(id)),
+        (KeyKind::Sid, table.column("SIS User ID")),
+        (KeyKind::Login, table.column("SIS Login ID")),
+    ];
+    let keys = keys.map(|(kind, column)| Some(Key::new(kind, column?)));
+    let names = Key {
+        text: given_name_first,
+        ..Key::new(KeyKind::Name, student)
+    };
+    let gradebook = Gradebook {
+        title: format!("Canvas, {title}"),
+        target,
+        keys: keys.into_iter().flatten().chain([names]).collect(),
+        names: vec![student],
+        changeable: None,
+        maximum: possible.map(|row| row[target].clone()),
+        table,
+    };
+    Ok(fill(gradebook, class))
 }
 
 /// Returns the index of the column with this title or number. If `column` is `None`, returns the
@@ -128,8 +112,7 @@ fn find_target(
 /// Returns `123456` for `Path Tracer (123456)`, and `None` for a title without a number.
 fn assignment_number(title: &str) -> Option<&str> {
     let (_, number) = title.strip_suffix(')')?.rsplit_once('(')?;
-    let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
-    is_number.then_some(number)
+    is_number(number).then_some(number)
 }
 
 /// Returns `Path Tracer` for `Path Tracer (123456)`.
@@ -138,12 +121,6 @@ fn without_assignment_number(title: &str) -> &str {
         None => title,
         Some(number) => title[..title.len() - number.len() - 2].trim_end(),
     }
-}
-
-fn logins(person: &Person) -> Vec<String> {
-    let mut logins = non_empty(&person.login);
-    logins.extend(non_empty(&person.email));
-    logins
 }
 
 /// Returns `Jane Doe` for `Doe, Jane`.

@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
 use crate::names::{are_alike, are_equal, fold};
+use crate::roster::POINTS_POSSIBLE;
 use crate::table::Table;
 
 pub use canvas::fill_canvas;
@@ -43,98 +44,118 @@ pub struct CellChange {
     pub now: String,
 }
 
-/// A gradebook, with the rules for reading and filling it in.
-struct GradebookSpec<'a> {
+/// A gradebook, with the columns that are read and filled in.
+struct Gradebook {
     title: String,
     table: Table,
-    /// The index of the column to fill in.
+    /// The column to fill in.
     target: usize,
-    /// The keys that identify people, the most reliable first.
-    keys: Vec<MatchKey<'a>>,
-    /// Returns whether a row belongs to a person.
-    is_person: &'a dyn Fn(&[String]) -> bool,
-    /// Returns whether the platform forbids changes to a row.
-    is_locked: &'a dyn Fn(&[String]) -> bool,
-    /// Returns the name of the person in a row, for messages.
-    name: &'a dyn Fn(&[String]) -> String,
+    /// The columns that identify people, the most reliable first. A row without the first of them is
+    /// not about a person.
+    keys: Vec<Key>,
+    /// The columns with the parts of a person's name, for messages.
+    names: Vec<usize>,
+    /// The column that says `No` if the platform forbids changes to a row.
+    changeable: Option<usize>,
+    /// The maximum points.
+    maximum: Option<String>,
 }
 
-/// A key for matching rows with people: a row matches if its text equals one of the person's texts.
-struct MatchKey<'a> {
+/// A column that identifies people: a row matches if its text equals one of the person's texts.
+struct Key {
     kind: KeyKind,
-    row_text: Box<RowText<'a>>,
-    person_texts: fn(&Person) -> Vec<String>,
+    column: usize,
+    /// Returns the text for comparisons from a cell.
+    text: fn(&str) -> String,
 }
 
-/// A key's relation to people.
+/// A kind of text that identifies people.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum KeyKind {
     /// The platform's own number, which a file name can have by chance: the names must be alike too.
     Number,
-    /// A person has only one, such as a student id: a row with another one is somebody else's.
-    Only,
-    /// A person may have several, such as email addresses.
-    OneOfSeveral,
-    /// Two people may have the same one.
+    /// A student id. A person has only one: a row with another one is somebody else's.
+    Sid,
+    /// An account name, or the email address in its place. A person may have several.
+    Login,
+    /// An email address. A person may have several.
+    Email,
+    /// A name. Two people may have the same one.
     Name,
 }
 
-/// A function that returns a row's text for a key.
-type RowText<'a> = dyn Fn(&[String]) -> String + 'a;
+impl Key {
+    /// Returns the key of a column whose cells are compared as they are.
+    fn new(kind: KeyKind, column: usize) -> Self {
+        let text = str::to_owned;
+        Key { kind, column, text }
+    }
 
-impl MatchKey<'_> {
+    fn row_text(&self, row: &[String]) -> String {
+        fold(&(self.text)(&row[self.column]))
+    }
+
+    fn person_texts(&self, person: &Person) -> Vec<String> {
+        let [text, other] = match self.kind {
+            KeyKind::Number => [&person.number, ""],
+            KeyKind::Sid => [&person.sid, ""],
+            KeyKind::Login => [&person.login, person.email.as_str()],
+            KeyKind::Email => [&person.email, ""],
+            KeyKind::Name => [&person.name, ""],
+        };
+        let texts = [text, other].into_iter().filter(|text| !text.is_empty());
+        texts.map(fold).collect()
+    }
+
     /// Returns whether the key says for certain that a row is of this person.
     fn confirms(&self, row: &[String], person: &Person) -> bool {
-        let known = fold(&(self.row_text)(row));
-        let texts = (self.person_texts)(person);
-        let is_certain = matches!(self.kind, KeyKind::Only | KeyKind::OneOfSeveral);
-        is_certain && !known.is_empty() && texts.iter().any(|text| fold(text) == known)
+        let known = self.row_text(row);
+        let is_certain = !matches!(self.kind, KeyKind::Number | KeyKind::Name);
+        is_certain && !known.is_empty() && self.person_texts(person).contains(&known)
     }
 
     /// Returns whether the key says that a row is not of this person.
     fn rules_out(&self, row: &[String], person: &Person) -> bool {
-        let known = fold(&(self.row_text)(row));
-        let texts = (self.person_texts)(person);
-        let is_other = |text: &String| fold(text) != known;
-        let differs = !known.is_empty() && !texts.is_empty() && texts.iter().all(is_other);
-        matches!(self.kind, KeyKind::Only | KeyKind::Number) && differs
-    }
-}
-
-/// Returns a key that takes the text of a row from a column.
-fn column_key<'a>(
-    kind: KeyKind,
-    column: usize,
-    person_texts: fn(&Person) -> Vec<String>,
-) -> MatchKey<'a> {
-    MatchKey {
-        kind,
-        row_text: Box::new(move |row| row[column].clone()),
-        person_texts,
+        let (known, texts) = (self.row_text(row), self.person_texts(person));
+        let differs = !known.is_empty() && !texts.is_empty() && !texts.contains(&known);
+        matches!(self.kind, KeyKind::Sid | KeyKind::Number) && differs
     }
 }
 
 /// The content of an excused student's cell, which is never overwritten.
 const EXCUSED: &str = "EX";
 
-fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
-    let GradebookSpec {
-        title,
-        mut table,
-        target,
-        keys,
-        is_person,
-        is_locked,
-        name,
-    } = spec;
-    let (matches, mut warnings) = match_rows(&table, &keys, is_person, name, class);
+impl Gradebook {
+    /// Returns the name of the person in a row, for messages.
+    fn name(&self, row: &[String]) -> String {
+        let names: Vec<&str> = self.names.iter().map(|name| row[*name].as_str()).collect();
+        match names.join(" ").trim() {
+            "" => row[self.keys[0].column].clone(),
+            name => name.to_owned(),
+        }
+    }
+
+    fn is_person(&self, row: &[String]) -> bool {
+        !row[self.keys[0].column].trim().is_empty() && self.name(row) != POINTS_POSSIBLE
+    }
+
+    fn is_locked(&self, row: &[String]) -> bool {
+        let says_no = |column: usize| row[column].trim().eq_ignore_ascii_case("no");
+        self.changeable.is_some_and(says_no)
+    }
+}
+
+/// Fills in the points of a class.
+fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
+    let (matches, mut warnings) = match_rows(&gradebook, class);
     let mut changes = Vec::new();
     let mut matches_of: BTreeMap<usize, Vec<GradebookMatch>> = BTreeMap::new();
     for (row_index, matched) in matches {
         matches_of.entry(row_index).or_default().push(matched);
     }
     for (row_index, matches) in matches_of {
-        let who = name(&table.rows[row_index]);
+        let row = &gradebook.table.rows[row_index];
+        let (who, is_locked) = (gradebook.name(row), gradebook.is_locked(row));
         let ids = matches.iter().map(|(row, _, _)| row.result.id.as_str());
         let ids: BTreeSet<&str> = ids.collect();
         if ids.len() > 1 {
@@ -162,8 +183,7 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
                 continue;
             }
         }
-        let locked = is_locked(&table.rows[row_index]);
-        let cell = &mut table.rows[row_index][target];
+        let cell = &mut gradebook.table.rows[row_index][gradebook.target];
         let Some(counted) = grade.counted else {
             let why = match &grade.problem {
                 Some(problem) => problem.to_string(),
@@ -172,7 +192,7 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
             warnings.push(format!("{who}: {why}; left unchanged"));
             continue;
         };
-        if locked {
+        if is_locked {
             warnings.push(format!(
                 "{who}: the platform does not allow changes; left unchanged"
             ));
@@ -192,9 +212,10 @@ fn fill(spec: GradebookSpec, class: &GradedClass) -> FilledGradebook {
             *cell = now;
         }
     }
+    warnings.extend(maximum_warning(class, gradebook.maximum.as_deref()));
     FilledGradebook {
-        title,
-        table,
+        title: gradebook.title,
+        table: gradebook.table,
         changes,
         warnings,
     }
@@ -206,27 +227,24 @@ type GradebookMatch<'c> = (&'c ClassRow, &'c Person, &'c PersonGrade);
 /// Finds each person of the class in the gradebook, by the index of the row. Also returns a warning
 /// for each person without exactly one row.
 fn match_rows<'c>(
-    table: &Table,
-    keys: &[MatchKey],
-    is_person: &dyn Fn(&[String]) -> bool,
-    name: &dyn Fn(&[String]) -> String,
+    gradebook: &Gradebook,
     class: &'c GradedClass,
 ) -> (Vec<(usize, GradebookMatch<'c>)>, Vec<String>) {
+    let Gradebook { keys, table, .. } = gradebook;
+    let name_in = |row_index: &usize| gradebook.name(&table.rows[*row_index]);
     // For each key, the indices of the rows with each text. A text that is in several rows
     // identifies nobody.
-    let indices: Vec<BTreeMap<String, Vec<usize>>> = keys
-        .iter()
-        .map(|key| {
-            let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-            for (row_index, row) in table.rows.iter().enumerate() {
-                let text = fold(&(key.row_text)(row));
-                if is_person(row) && !text.is_empty() {
-                    index.entry(text).or_default().push(row_index);
-                }
+    let index_rows = |key: &Key| {
+        let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+        for (row_index, row) in table.rows.iter().enumerate() {
+            let text = key.row_text(row);
+            if gradebook.is_person(row) && !text.is_empty() {
+                index.entry(text).or_default().push(row_index);
             }
-            index
-        })
-        .collect();
+        }
+        index
+    };
+    let indices: Vec<BTreeMap<String, Vec<usize>>> = keys.iter().map(index_rows).collect();
     let (mut matches, mut warnings) = (Vec::new(), Vec::new());
     for class_row in &class.rows {
         for (person, grade) in class_row.people() {
@@ -235,43 +253,41 @@ fn match_rows<'c>(
                 continue;
             }
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
-                let texts = (key.person_texts)(person);
-                let mut texts = texts.iter().map(|text| fold(text));
-                texts.find_map(|text| Some((key, index.get(&text)?.as_slice())))
+                let texts = key.person_texts(person);
+                let rows = texts.iter().find_map(|text| index.get(text))?;
+                Some((key, rows.as_slice()))
             });
-            let is_other = |key: &MatchKey, row_index: usize| {
+            let is_other = |key: &Key, row_index: usize| {
                 let row = &table.rows[row_index];
                 match key.kind {
                     KeyKind::Name => keys.iter().any(|key| key.rules_out(row, person)),
                     KeyKind::Number => {
-                        !person.has_number(&(key.row_text)(row), &name(row))
+                        !person.has_number(&(key.text)(&row[key.column]), &gradebook.name(row))
                             && !keys.iter().any(|key| key.confirms(row, person))
                     }
-                    KeyKind::Only | KeyKind::OneOfSeveral => false,
+                    KeyKind::Sid | KeyKind::Login | KeyKind::Email => false,
                 }
             };
             match found {
                 Some((key, [row_index])) if is_other(key, *row_index) => {
-                    let (person, listed) = (person.display_name(), name(&table.rows[*row_index]));
-                    warnings.push(match key.kind {
-                        KeyKind::Number => format!(
+                    let (person, listed) = (person.display_name(), name_in(row_index));
+                    warnings.push(if key.kind == KeyKind::Number {
+                        format!(
                             "{person} is not {listed}, who has the same number in this list: fill in \
                              by hand"
-                        ),
-                        KeyKind::Only | KeyKind::OneOfSeveral | KeyKind::Name => format!(
+                        )
+                    } else {
+                        format!(
                             "{person} is not in this list: {listed} has another number or student id; \
                              fill in by hand"
-                        ),
+                        )
                     });
                 }
                 Some((_, [row_index])) => {
                     matches.push((*row_index, (class_row, person, grade)));
                 }
                 Some((_, several)) => {
-                    let names: Vec<String> = several
-                        .iter()
-                        .map(|row_index| name(&table.rows[*row_index]))
-                        .collect();
+                    let names: Vec<String> = several.iter().map(name_in).collect();
                     warnings.push(format!(
                         "{} could be any of {}: fill in by hand",
                         person.display_name(),
@@ -292,10 +308,10 @@ fn cell_equals(cell: &str, points: u32) -> bool {
 
 /// Returns a warning if the maximum of the counted points differs from the maximum in the
 /// gradebook.
-fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
+fn maximum_warning(class: &GradedClass, listed: Option<&str>) -> Option<String> {
     let mut grades = class.rows.iter().flat_map(|class_row| &class_row.grades);
     let counted = grades.find_map(|grade| grade.counted)?;
-    let listed = listed.trim();
+    let listed = listed?.trim();
     (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(
             "the gradebook's maximum is {listed}, but these points are out of {}: set out_of in \
@@ -303,14 +319,6 @@ fn maximum_warning(class: &GradedClass, listed: &str) -> Option<String> {
             counted.max_points
         )
     })
-}
-
-/// Returns a list that contains only the text, or an empty list if the text is empty.
-fn non_empty(text: &str) -> Vec<String> {
-    match text {
-        "" => Vec::new(),
-        text => vec![text.to_owned()],
-    }
 }
 
 #[cfg(test)]

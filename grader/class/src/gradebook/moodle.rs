@@ -3,11 +3,10 @@
 
 use std::path::Path;
 
-use super::{
-    FilledGradebook, GradebookSpec, KeyKind, MatchKey, column_key, fill, maximum_warning, non_empty,
-};
+use super::{FilledGradebook, Gradebook, Key, KeyKind, fill};
 use crate::error::Error;
 use crate::graded_class::GradedClass;
+use crate::names::number_at_end;
 use crate::table::Table;
 
 const REMEDY: &str =
@@ -27,45 +26,29 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     let identifier = table.require_column(path, "Identifier", remedy)?;
     let target = table.require_column(path, "Grade", remedy)?;
     let name = table.column("Full name");
-    let locked = table.column("Grade can be changed");
-    let maximum = table.column("Maximum Grade");
-    let maximum = maximum.and_then(|column| table.rows.first()?.get(column).cloned());
-    let warning = maximum.and_then(|maximum| maximum_warning(class, &maximum));
-
-    let mut keys = vec![MatchKey {
-        kind: KeyKind::Number,
-        row_text: Box::new(move |row| participant(&row[identifier])),
-        person_texts: |person| non_empty(&person.number),
-    }];
-    let id_number = table.column("ID number");
-    keys.extend(
-        id_number.map(|column| column_key(KeyKind::Only, column, |person| non_empty(&person.sid))),
-    );
-    let email = table.column("Email address");
-    keys.extend(email.map(|column| {
-        column_key(KeyKind::OneOfSeveral, column, |person| {
-            non_empty(&person.email)
-        })
-    }));
-    keys.extend(
-        name.map(|column| column_key(KeyKind::Name, column, |person| non_empty(&person.name))),
-    );
-    let is_locked =
-        |row: &[String]| locked.is_some_and(|column| row[column].trim().eq_ignore_ascii_case("no"));
-    let mut filled = fill(
-        GradebookSpec {
-            title: "Moodle".to_owned(),
-            table,
-            target,
-            keys,
-            is_person: &|row| !row[identifier].trim().is_empty(),
-            is_locked: &is_locked,
-            name: &|row| row[name.unwrap_or(identifier)].clone(),
-        },
-        class,
-    );
-    filled.warnings.extend(warning);
-    Ok(filled)
+    let numbers = Key {
+        text: participant,
+        ..Key::new(KeyKind::Number, identifier)
+    };
+    let others = [
+        (KeyKind::Sid, table.column("ID number")),
+        (KeyKind::Email, table.column("Email address")),
+        (KeyKind::Name, name),
+    ];
+    let others = others.map(|(kind, column)| Some(Key::new(kind, column?)));
+    let gradebook = Gradebook {
+        title: "Moodle".to_owned(),
+        target,
+        keys: [numbers]
+            .into_iter()
+            .chain(others.into_iter().flatten())
+            .collect(),
+        names: vec![name.unwrap_or(identifier)],
+        changeable: table.column("Grade can be changed"),
+        maximum: table.first_cell("Maximum Grade"),
+        table,
+    };
+    Ok(fill(gradebook, class))
 }
 
 /// Returns whether the table has a worksheet's first column, such as `Teilnehmer/in 123`, whatever its
@@ -73,10 +56,9 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
 fn is_translated(table: &Table) -> bool {
     let is_numbered = |row: &Vec<String>| {
         let cell = row.first().map_or("", |cell| cell.trim());
-        let number = cell.rsplit_once(|c: char| !c.is_ascii_digit());
-        number.is_some_and(|(word, number)| {
-            !number.is_empty() && word.chars().any(char::is_alphabetic)
-        })
+        let number = number_at_end(cell);
+        let word = cell.strip_suffix(number).unwrap_or_default();
+        !number.is_empty() && word.chars().any(char::is_alphabetic)
     };
     table.column("Identifier").is_none()
         && !table.rows.is_empty()
@@ -85,6 +67,5 @@ fn is_translated(table: &Table) -> bool {
 
 /// Returns `123` for `Participant 123`, in any language of the site.
 fn participant(identifier: &str) -> String {
-    let number = identifier.trim().rsplit(|c: char| !c.is_ascii_digit());
-    number.into_iter().next().unwrap_or_default().to_owned()
+    number_at_end(identifier.trim()).to_owned()
 }

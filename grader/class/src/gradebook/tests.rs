@@ -1,44 +1,26 @@
 //! Tests that the right rows are filled in, and the others left unchanged.
 
 use grader::policy::Policy;
+use serde_json::json;
 
 use super::*;
-use crate::entry::EntryInfo;
-use crate::outcome::{EntryOutcome, EntryResult, FileNotes, ScoreSummary};
+use crate::graded_class::tests;
+use crate::outcome::EntryOutcome;
 
 fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
-    Person {
-        name: name.to_owned(),
-        email: email.to_owned(),
-        sid: sid.to_owned(),
-        number: number.to_owned(),
-        ..Person::default()
-    }
+    tests::person(json!({ "name": name, "email": email, "sid": sid, "number": number }))
 }
 
+/// Returns a class in which these people have 80 of 100 points.
 fn class(people: &[(&str, Person)]) -> GradedClass {
     let class_row = |(id, person): &(&str, Person)| {
-        let row = EntryResult {
-            id: (*id).to_owned(),
-            info: EntryInfo {
-                people: vec![person.clone()],
-                ..EntryInfo::default()
-            },
-            outcome: EntryOutcome::Graded(Box::new(ScoreSummary {
-                points: 80,
-                max_points: 100,
-                build: FileNotes::default(),
-                tasks: Vec::new(),
-            })),
-        };
-        ClassRow::new(row, &Policy::default(), vec![Vec::new()], 100)
+        let mut result = tests::result(id, &[], tests::graded(80));
+        result.info.people.push(person.clone());
+        ClassRow::new(result, &Policy::default(), vec![Vec::new()], 100)
     };
     GradedClass {
-        exam: String::new(),
-        exam_hash: String::new(),
-        isolation: String::new(),
         rows: people.iter().map(class_row).collect(),
-        missing: Vec::new(),
+        ..GradedClass::default()
     }
 }
 
@@ -55,58 +37,78 @@ const CANVAS: &str = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7),Quiz 
 \"Lee, Ann\",7003,u3,ann2,B,,3
 ";
 
+fn canvas(text: &str, class: &GradedClass) -> FilledGradebook {
+    fill_canvas(list(text).path(), Some("7"), class).unwrap()
+}
+
+fn moodle(text: &str, class: &GradedClass) -> FilledGradebook {
+    fill_moodle(list(text).path(), class).unwrap()
+}
+
+fn gradescope(text: &str, class: &GradedClass) -> FilledGradebook {
+    fill_gradescope(list(text).path(), class).unwrap()
+}
+
 fn cells(filled: &FilledGradebook) -> Vec<&str> {
     let rows = filled.table.rows.iter();
     rows.map(|row| row.last().unwrap().as_str()).collect()
 }
 
 #[test]
-fn a_number_counts_only_with_the_name() {
-    let file = list(CANVAS);
-    // The second number is Jane's, and the name is not.
-    let class = class(&[
-        ("x", person("leeann", "", "", "7002")),
-        ("y", person("Eve", "", "", "7001")),
-    ]);
-    let filled = fill_canvas(file.path(), Some("7"), &class).unwrap();
-    assert_eq!(cells(&filled), ["100", "", "80", ""]);
-    assert_eq!(
-        filled.warnings,
-        ["Eve is not Doe, Jane, who has the same number in this list: fill in by hand"]
-    );
-    assert_eq!(
-        filled.table.header.len(),
-        6,
-        "other assignments must not be in the copy"
-    );
-}
-
-#[test]
-fn ambiguous_people_and_duplicate_submissions_are_not_filled_in() {
-    let file = list(CANVAS);
-    let people = [
-        ("a", person("Ann Lee", "", "", "")),
-        ("b", person("", "", "u1", "")),
-        ("c", person("Jane Doe", "", "", "")),
-        ("d", person("Nobody", "", "", "")),
-    ];
-    let filled = fill_canvas(file.path(), Some("Path"), &class(&people)).unwrap();
-    assert_eq!(cells(&filled), ["100", "", "", ""]);
-    let wanted = [
-        "Ann Lee could be any of Lee, Ann; Lee, Ann: fill in by hand",
-        "Nobody is not in this list",
-        "Doe, Jane has several submissions (b, c): keep one; left unchanged",
-    ];
-    assert_eq!(filled.warnings, wanted);
+fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
+    let named = |name: &str| person(name, "", "", "");
+    let with_sid = |sid: &str| person("Ann Lee", "", sid, "");
+    for (people, expected, warnings) in [
+        // The second number is Jane's, and the name is not.
+        (
+            vec![
+                ("x", person("leeann", "", "", "7002")),
+                ("y", person("Eve", "", "", "7001")),
+            ],
+            ["100", "", "80", ""],
+            vec!["Eve is not Doe, Jane, who has the same number in this list: fill in by hand"],
+        ),
+        (
+            vec![
+                ("a", named("Ann Lee")),
+                ("b", person("", "", "u1", "")),
+                ("c", named("Jane Doe")),
+                ("d", named("Nobody")),
+            ],
+            ["100", "", "", ""],
+            vec![
+                "Ann Lee could be any of Lee, Ann; Lee, Ann: fill in by hand",
+                "Nobody is not in this list",
+                "Doe, Jane has several submissions (b, c): keep one; left unchanged",
+            ],
+        ),
+        // A namesake with several submissions takes no points away.
+        (
+            vec![
+                ("a", with_sid("u2")),
+                ("b", with_sid("u3")),
+                ("c", with_sid("u2")),
+            ],
+            ["100", "", "", "80"],
+            vec!["Lee, Ann has several submissions (a, c): keep one; left unchanged"],
+        ),
+    ] {
+        let filled = canvas(CANVAS, &class(&people));
+        assert_eq!(cells(&filled), expected);
+        assert_eq!(filled.warnings, warnings);
+        // Other assignments must not be in the copy.
+        assert_eq!(filled.table.header.len(), 6);
+    }
+    let table = CANVAS.replace("Doe, Jane", " Doe ,  Jane ");
+    let filled = canvas(&table, &class(&[("x", named("jane doe"))]));
+    assert_eq!(cells(&filled), ["100", "80", "", ""]);
 }
 
 /// A name does not count if a number or a student id says that the row is somebody else's.
 #[test]
 fn a_namesake_with_another_id_gets_no_points() {
-    let file = list(CANVAS);
     let moodles = "Identifier,Full name,ID number,Email address,Grade\n\
                    Participant 5,Jane Doe,u1,jane@x.edu,\n";
-    let moodles = list(moodles);
     for (person, is_other) in [
         (person("Jane Doe", "", "u9", ""), true),
         (person("Jane Doe", "", "", "9"), true),
@@ -115,8 +117,7 @@ fn a_namesake_with_another_id_gets_no_points() {
         (person("Jane Doe", "jane@home.org", "U1", ""), false),
     ] {
         let class = class(&[("x", person)]);
-        let of_canvas = fill_canvas(file.path(), Some("7"), &class).unwrap();
-        let of_moodle = fill_moodle(moodles.path(), &class).unwrap();
+        let (of_canvas, of_moodle) = (canvas(CANVAS, &class), moodle(moodles, &class));
         for (filled, name) in [(of_canvas, "Doe, Jane"), (of_moodle, "Jane Doe")] {
             let mut wanted = Vec::new();
             if is_other {
@@ -132,49 +133,9 @@ fn a_namesake_with_another_id_gets_no_points() {
 }
 
 #[test]
-fn white_space_around_names_does_not_matter() {
-    let table = CANVAS.replace("Doe, Jane", " Doe ,  Jane ");
-    let class = class(&[("x", person("jane doe", "", "", ""))]);
-    let filled = fill_canvas(list(&table).path(), Some("7"), &class).unwrap();
-    assert_eq!(cells(&filled), ["100", "80", "", ""]);
-}
-
-#[test]
-fn a_namesake_with_several_submissions_takes_no_points_away() {
-    let file = list(CANVAS);
-    let people = [
-        ("a", person("Ann Lee", "", "u2", "")),
-        ("b", person("Ann Lee", "", "u3", "")),
-        ("c", person("Ann Lee", "", "u2", "")),
-    ];
-    let filled = fill_canvas(file.path(), Some("Path"), &class(&people)).unwrap();
-    assert_eq!(cells(&filled), ["100", "", "", "80"]);
-    let wanted = ["Lee, Ann has several submissions (a, c): keep one; left unchanged"];
-    assert_eq!(filled.warnings, wanted);
-}
-
-#[test]
-fn rejects_ambiguous_and_ignored_columns() {
-    let file = list(CANVAS);
-    let nobody = class(&[]);
-    let error = |text: &str, column: Option<&str>| {
-        fill_canvas(list(text).path(), column, &nobody)
-            .unwrap_err()
-            .to_string()
-    };
-    assert!(error(CANVAS, None).contains("choose one with --column: Path (7); Quiz (8)"));
-    assert!(error(CANVAS, Some("Exam")).contains("has no column Exam"));
-    let dropped = CANVAS.replace("Path (7)", "Path Final Score (7)");
-    assert!(error(&dropped, Some("7")).contains("Canvas ignores columns"));
-    assert!(error("a,b\n", None).contains("export the gradebook from Canvas"));
-    assert!(fill_canvas(file.path(), Some("Quiz (8)"), &nobody).is_ok());
-}
-
-#[test]
 fn an_equal_grade_in_another_format_is_not_a_change() {
     let moodles = "Identifier;Full name;Grade;Maximum Grade\nTeilnehmer/in 5;Doe;80,00;50,00\n";
-    let file = list(moodles);
-    let filled = fill_moodle(file.path(), &class(&[("x", person("", "", "", "5"))])).unwrap();
+    let filled = moodle(moodles, &class(&[("x", person("", "", "", "5"))]));
     assert!(filled.changes.is_empty());
     assert_eq!(filled.table.to_csv(), moodles);
     let warning = "the gradebook's maximum is 50,00, but these points are out of 100: \
@@ -200,7 +161,7 @@ Participant 6,Finn,,100.00,Yes
     }
     class.rows[4].result.outcome = EntryOutcome::NothingToGrade("empty".to_owned());
     class.rows[5].grades[0].problem = Some(GradeProblem::SeveralAttempts(vec!["b".to_owned()]));
-    let filled = fill_moodle(list(moodles).path(), &class).unwrap();
+    let filled = moodle(moodles, &class);
     let change = CellChange {
         who: "Ann".to_owned(),
         was: String::new(),
@@ -233,17 +194,14 @@ fn an_attempt_that_does_not_count_is_not_filled_in_and_needs_no_warning() {
     let mut class = class(&people);
     let grade = &mut class.rows[0].grades[0];
     (grade.counted, grade.problem) = (None, Some(GradeProblem::OtherAttempt("b".to_owned())));
-    let filled = fill_canvas(list(CANVAS).path(), Some("7"), &class).unwrap();
+    let filled = canvas(CANVAS, &class);
     assert_eq!(cells(&filled), ["100", "80", "", ""]);
     assert_eq!(filled.warnings, Vec::<String>::new());
 }
 
 #[test]
 fn every_key_of_a_platform_finds_its_row() {
-    let login = |login: &str| Person {
-        login: login.to_owned(),
-        ..Person::default()
-    };
+    let login = |login: &str| tests::person(json!({ "login": login }));
     let at_canvas = [
         ("number", person("", "", "", "7001")),
         ("sid", person("", "", " U1 ", "")),
@@ -253,7 +211,7 @@ fn every_key_of_a_platform_finds_its_row() {
         ("name", person("jane doe", "", "", "")),
     ];
     for (key, person) in at_canvas {
-        let filled = fill_canvas(list(CANVAS).path(), Some("7"), &class(&[("x", person)])).unwrap();
+        let filled = canvas(CANVAS, &class(&[("x", person)]));
         assert_eq!(cells(&filled), ["100", "80", "", ""], "{key}");
     }
     let moodles = "Identifier,Full name,ID number,Email address,Grade\n\
@@ -267,9 +225,9 @@ fn every_key_of_a_platform_finds_its_row() {
         ("name", person("Ann", "", "", "")),
     ] {
         let class = class(&[("x", person)]);
-        let filled = fill_moodle(list(moodles).path(), &class).unwrap();
+        let filled = moodle(moodles, &class);
         assert_eq!(cells(&filled), ["80", ""], "{key}");
-        let filled = fill_gradescope(list(gradescopes).path(), &class).unwrap();
+        let filled = gradescope(gradescopes, &class);
         let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of \
                        in the policy";
         if ["sid", "email"].contains(&key) {
@@ -285,21 +243,21 @@ fn every_key_of_a_platform_finds_its_row() {
 #[test]
 fn rows_that_are_not_of_people_match_nobody() {
     // Canvas's row with the maximum has no number, and neither has the one of its test student.
-    let canvas = "Student,ID,SIS User ID,Section,Path (7)\n\
+    let canvases = "Student,ID,SIS User ID,Section,Path (7)\n\
                   Points Possible,7001,u1,,100\nJane,,u1,A,\nJane,7002,u1,A,\n";
     let by_sid = class(&[("x", person("", "", "u1", ""))]);
-    let filled = fill_canvas(list(canvas).path(), None, &by_sid).unwrap();
+    let filled = canvas(canvases, &by_sid);
     assert_eq!(cells(&filled), ["100", "", "80"]);
     let moodles = "Identifier,ID number,Grade\n,u1,\nParticipant 5,u1,\n";
-    let filled = fill_moodle(list(moodles).path(), &by_sid).unwrap();
+    let filled = moodle(moodles, &by_sid);
     assert_eq!(cells(&filled), ["", "80"]);
     let gradescopes = "Email,SID,Total Score\n,u1,\nann@x.edu,u1,\n";
-    let filled = fill_gradescope(list(gradescopes).path(), &by_sid).unwrap();
+    let filled = gradescope(gradescopes, &by_sid);
     assert_eq!(cells(&filled), ["", "80"]);
     assert_eq!(filled.changes[0].who, "ann@x.edu", "there is no name");
     // An empty cell is not the key of people of whom nothing is known.
     let unknown = class(&[("x", person("", "", "", ""))]);
-    let filled = fill_canvas(list(canvas).path(), None, &unknown).unwrap();
+    let filled = canvas(canvases, &unknown);
     assert_eq!(filled.changes, []);
 }
 
@@ -307,74 +265,63 @@ fn rows_that_are_not_of_people_match_nobody() {
 fn a_canvas_column_is_named_by_its_title_or_its_number() {
     let nobody = class(&[]);
     let find = |header: &str, column: Option<&str>| {
-        let text = format!("Student,ID,Section,{header}\n");
-        let filled = fill_canvas(list(&text).path(), column, &nobody);
-        filled
-            .map(|filled| filled.title)
-            .map_err(|error| error.to_string())
+        let file = list(&format!("Student,ID,Section,{header}\n"));
+        match fill_canvas(file.path(), column, &nobody) {
+            Ok(filled) => filled.title,
+            Err(error) => error.to_string(),
+        }
     };
     let two = "Path (7),Quiz (8),Notes";
-    for name in ["Path", "7", "Path (7)"] {
-        assert_eq!(
-            find(two, Some(name)),
-            Ok("Canvas, Path (7)".to_owned()),
-            "{name}"
-        );
+    for (header, column, expected) in [
+        (two, Some("Path"), "Canvas, Path (7)"),
+        (two, Some("7"), "Canvas, Path (7)"),
+        (two, Some("Path (7)"), "Canvas, Path (7)"),
+        (two, Some("Notes"), "Canvas, Notes"),
+        ("Lab (a) (7)", Some("Lab (a)"), "Canvas, Lab (a) (7)"),
+        (two, Some("P"), "has no column P: "),
+        (two, Some("(7)"), "has no column (7): "),
+        (two, Some("Section"), "has no column Section: "),
+        (two, Some(""), "has no column : "),
+        ("Path Final Score (7)", Some("7"), "Canvas ignores columns"),
+        // Without a name, there must be one column of an assignment.
+        ("Notes,Path (7)", None, "Canvas, Path (7)"),
+        ("Notes,Path (a7)", None, "--column"),
+        (two, None, "choose one with --column: Path (7); Quiz (8)"),
+    ] {
+        let found = find(header, column);
+        assert!(found.contains(expected), "{header} {column:?}: {found}");
     }
-    assert_eq!(find(two, Some("Notes")), Ok("Canvas, Notes".to_owned()));
-    for name in ["P", "(7)", "Section", ""] {
-        assert!(find(two, Some(name)).is_err(), "{name}");
-    }
-    // Without a name, there must be one column of an assignment.
-    assert_eq!(
-        find("Notes,Path (7)", None),
-        Ok("Canvas, Path (7)".to_owned())
-    );
+    let error = fill_canvas(list("a,b\n").path(), None, &nobody).unwrap_err();
     assert!(
-        find("Notes,Path (a7)", None)
-            .unwrap_err()
-            .contains("--column")
-    );
-    assert!(find(two, None).unwrap_err().contains("Path (7); Quiz (8)"));
-    assert_eq!(
-        find("Lab (a) (7)", Some("Lab (a)")),
-        Ok("Canvas, Lab (a) (7)".to_owned())
+        error
+            .to_string()
+            .contains("export the gradebook from Canvas")
     );
 }
 
 #[test]
-fn an_unknown_or_equal_maximum_needs_no_warning() {
+fn only_a_known_maximum_that_differs_needs_a_warning() {
     let one = class(&[("x", person("", "", "", "5"))]);
     let warnings = |maximum: &str, class: &GradedClass| {
         let text = format!("Identifier;Grade;Maximum Grade\nP 5;;{maximum}\n");
-        fill_moodle(list(&text).path(), class).unwrap().warnings
+        moodle(&text, class).warnings
     };
     assert_eq!(warnings("100,00", &one), Vec::<String>::new());
     assert_eq!(warnings(" ", &one), Vec::<String>::new());
     assert_eq!(warnings("99", &one).len(), 1);
     assert_eq!(warnings("99", &class(&[])), Vec::<String>::new());
-}
-
-#[test]
-fn canvass_maximum_is_in_the_row_of_possible_points() {
+    // Canvas has it in the row of possible points.
     let jane = class(&[("x", person("", "", "", "7001"))]);
-    let warnings = |canvas: &str| {
-        let filled = fill_canvas(list(canvas).path(), Some("7"), &jane).unwrap();
-        filled.warnings
-    };
-    assert_eq!(warnings(CANVAS), Vec::<String>::new());
-    assert_eq!(
-        warnings(&CANVAS.replace(",100,", ",50,")),
-        [
-            "the gradebook's maximum is 50, but these points are out of 100: set out_of in the policy"
-        ]
-    );
+    assert_eq!(canvas(CANVAS, &jane).warnings, Vec::<String>::new());
+    let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of in the \
+                   policy";
+    let filled = canvas(&CANVAS.replace(",100,", ",50,"), &jane);
+    assert_eq!(filled.warnings, [warning]);
 }
 
 #[test]
 fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
-    let grades =
-        list("First Name,Last Name,SID,Email,Total Score,Max Points\nAnn,Lee,,a@x.edu,,100\n");
+    let grades = "First Name,Last Name,SID,Email,Total Score,Max Points\nAnn,Lee,,a@x.edu,,100\n";
     let fill = |names: &[&str]| {
         let mut class = class(&[("x", person(names[0], "a@x.edu", "", ""))]);
         let row = &mut class.rows[0];
@@ -382,8 +329,8 @@ fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
             row.result.info.people.push(person(name, "a@x.edu", "", ""));
             row.grades.push(row.grades[0].clone());
         }
-        let filled = fill_gradescope(grades.path(), &class).unwrap();
-        (cell(&filled), filled.warnings)
+        let filled = gradescope(grades, &class);
+        (filled.table.rows[0][4].clone(), filled.warnings)
     };
     assert_eq!(fill(&["Ann Lee", "ann lee"]), ("80".to_owned(), vec![]));
     let wanted = |name: &str| format!("{name} of x could be Ann Lee as well: fill in by hand");
@@ -391,10 +338,6 @@ fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
     assert_eq!((filled.as_str(), warnings), ("80", vec![wanted("Bob")]));
     let (filled, warnings) = fill(&["Bob", "Cid"]);
     assert_eq!((filled.as_str(), warnings), ("", vec![wanted("Cid")]));
-}
-
-fn cell(filled: &FilledGradebook) -> String {
-    filled.table.rows[0][4].clone()
 }
 
 #[test]

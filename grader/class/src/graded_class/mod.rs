@@ -198,7 +198,7 @@ impl ClassRow {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => "graded",
             (EntryOutcome::Fault(_), None | Some(GradeProblem::UnclearTime(_))) => "not graded",
-            (_, Some(GradeProblem::UnclearTime(UnclearTime::Unsubmitted(_)))) => "draft",
+            (_, Some(GradeProblem::UnclearTime(unclear))) if unclear.is_draft => "draft",
             (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
             (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::counting::count_points;
+use crate::attempts::count_points;
 use crate::entry::EntryInfo;
-use crate::error::Error;
+use crate::late::ONLY_A_FLAG;
 use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};
 
@@ -19,6 +19,11 @@ pub(crate) fn result(id: &str, people: &[&str], outcome: EntryOutcome) -> EntryR
         },
         outcome,
     }
+}
+
+/// Returns a person with these fields.
+pub(crate) fn person(fields: serde_json::Value) -> Person {
+    serde_json::from_value(fields).unwrap()
 }
 
 /// Returns an outcome with this many of 100 points, all of them for spheres.
@@ -75,7 +80,7 @@ fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> C
 
 fn problems() -> [GradeProblem; 3] {
     [
-        GradeProblem::UnclearTime(UnclearTime::OnlyAFlag),
+        GradeProblem::UnclearTime(UnclearTime::new(ONLY_A_FLAG)),
         GradeProblem::OtherAttempt("b".to_owned()),
         GradeProblem::SeveralAttempts(vec!["b".to_owned(), "c".to_owned()]),
     ]
@@ -275,31 +280,37 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
     assert_eq!((late.counted.unwrap().points, late.is_undated), (72, false));
     let unclear = grade(at("yesterday"), graded(80));
     assert_eq!((unclear.counted, unclear.is_undated), (None, false));
-    assert!(matches!(
-        unclear.problem,
-        Some(GradeProblem::UnclearTime(UnclearTime::Submitted { .. }))
-    ));
+    let is_unclear = |problem| matches!(problem, Some(GradeProblem::UnclearTime(_)));
+    assert!(is_unclear(unclear.problem));
+}
+
+/// Returns the points by hand in a file with this row.
+fn manual_list(row: &str) -> ManualPointsList {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("manual.csv");
+    let text = format!("student,task,delta,comment,author\n{row}\n");
+    std::fs::write(&path, text).unwrap();
+    ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap()
+}
+
+/// Returns the points that count for each person.
+fn counted(rows: &[ClassRow]) -> Vec<Option<u32>> {
+    let grades = rows.iter().flat_map(|row| &row.grades);
+    grades.map(|grade| Some(grade.counted?.points)).collect()
 }
 
 #[test]
 fn points_by_hand_are_added_for_their_person_and_checked() {
     let count = |delta: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("manual.csv");
-        let text = format!("student,task,delta,comment,author\nBob,sphere,{delta},,Lee\n");
-        std::fs::write(&path, text).unwrap();
-        let manual = ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap();
+        let manual = manual_list(&format!("Bob,sphere,{delta},,Lee"));
         let results = vec![
             result("a", &["Ann", "Bob"], graded(80)),
             result("b", &["Bob B."], nothing()),
         ];
         let tasks = BTreeMap::from([("sphere".to_owned(), 20)]);
-        let rows = count_points(results, &Policy::default(), &manual, &tasks)?;
-        let points = rows.iter().flat_map(|row| &row.grades);
-        let points = points.map(|grade| grade.counted.map(|counted| counted.points));
-        Ok::<_, Error>(points.collect::<Vec<_>>())
+        count_points(results, &Policy::default(), &manual, &tasks)
     };
-    assert_eq!(count("5").unwrap(), [Some(80), Some(85), None]);
+    assert_eq!(counted(&count("5").unwrap()), [Some(80), Some(85), None]);
     let error = count("21").unwrap_err().to_string();
     assert!(error.contains("+21 points are out of range"), "{error}");
 }
@@ -307,20 +318,14 @@ fn points_by_hand_are_added_for_their_person_and_checked() {
 /// Ann's first attempt has 10 points, from which 20 cannot be taken off.
 #[test]
 fn points_by_hand_must_fit_the_attempt_that_counts() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("manual.csv");
-    let text = "student,task,delta,comment,author\nAnn,sphere,-20,,Lee\n";
-    std::fs::write(&path, text).unwrap();
-    let manual = ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap();
-    let results =
-        || [("a", 10), ("b", 80)].map(|(id, points)| result(id, &["Ann"], graded(points)));
-    let tasks = BTreeMap::new();
-    let count = |text: &str| count_points(results().into(), &policy(text), &manual, &tasks);
-    let rows = count("[attempts]\ncounts = 'best'").unwrap();
-    let points = rows.iter().map(|row| row.grades[0].counted);
-    let points: Vec<Option<u32>> = points.map(|counted| Some(counted?.points)).collect();
-    assert_eq!(points, [None, Some(60)]);
-    assert!(count("").is_ok(), "nobody has chosen yet");
-    let only = count_points(results()[..1].to_vec(), &Policy::default(), &manual, &tasks);
-    assert!(only.is_err());
+    let manual = manual_list("Ann,sphere,-20,,Lee");
+    let results = [("a", 10), ("b", 80)];
+    let results = results.map(|(id, points)| result(id, &["Ann"], graded(points)));
+    let count = |results: &[EntryResult], text: &str| {
+        count_points(results.to_vec(), &policy(text), &manual, &BTreeMap::new())
+    };
+    let rows = count(&results, "[attempts]\ncounts = 'best'").unwrap();
+    assert_eq!(counted(&rows), [None, Some(60)]);
+    assert!(count(&results, "").is_ok(), "nobody has chosen yet");
+    assert!(count(&results[..1], "").is_err());
 }

@@ -11,8 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use grader::handed_out::HandedOut;
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, Person, Source};
 use crate::listing::Node;
+use crate::names::is_number;
 use crate::roster::Member;
 
 /// The reason for not grading a user who submitted text or a link, but no files.
@@ -36,7 +37,25 @@ pub(super) struct CanvasName<'a> {
     file: String,
 }
 
-impl CanvasName<'_> {
+impl<'a> CanvasName<'a> {
+    /// Returns the name of which this part is the user, if it can be one.
+    fn new(parts: &[&'a str], user: usize, attachment: u64, file: String) -> Option<Self> {
+        let (who, late) = split_late(&parts[..user])?;
+        let user = parts[user];
+        (is_number(user) || who == "anon").then_some(CanvasName {
+            who,
+            late,
+            user,
+            attachment,
+            file,
+        })
+    }
+
+    /// Returns the number and the name, which identify the user.
+    fn key(&self) -> (&'a str, String) {
+        (self.user, self.who.clone())
+    }
+
     /// Returns whether a list has this number with a name like this one.
     fn is_listed(&self, known: &[Member]) -> bool {
         let person = self.person();
@@ -63,17 +82,9 @@ impl CanvasName<'_> {
 fn readings(name: &str) -> Vec<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
     let read = |index: usize| {
-        let (who, late) = split_late(&parts[..index])?;
-        let is_user = is_number(parts[index]) || who == "anon";
         let attachment = parts[index + 1];
-        (is_user && is_number(attachment)).then_some(())?;
-        Some(CanvasName {
-            who,
-            late,
-            user: parts[index],
-            attachment: attachment.parse().ok()?,
-            file: parts[index + 2..].join("_"),
-        })
+        let number = is_number(attachment).then(|| attachment.parse().ok());
+        CanvasName::new(&parts, index, number??, parts[index + 2..].join("_"))
     };
     let mut readings: Vec<CanvasName> = (1..parts.len().saturating_sub(2))
         .filter_map(read)
@@ -100,16 +111,13 @@ pub(super) fn is_download(root: &Node, known: &[Member]) -> bool {
     if names.iter().any(|(_, name)| name.is_listed(known)) {
         return true;
     }
-    let count = |of: &dyn Fn(&CanvasName) -> String| {
-        names
-            .iter()
-            .map(|(_, name)| of(name))
-            .collect::<BTreeSet<_>>()
-            .len()
+    let count = |of: fn(&CanvasName) -> String| {
+        let texts: BTreeSet<String> = names.iter().map(|(_, name)| of(name)).collect();
+        texts.len()
     };
-    let users = count(&|name| format!("{}_{}", name.who, name.user));
-    let whos = count(&|name| name.who.clone());
-    let attachments = count(&|name| format!("{}_{}_{}", name.who, name.user, name.attachment));
+    let users = count(|name| format!("{}_{}", name.who, name.user));
+    let whos = count(|name| name.who.clone());
+    let attachments = count(|name| format!("{}_{}_{}", name.who, name.user, name.attachment));
     let archives = names.iter().filter(|(node, _)| node.is_archive()).count();
     let is_anonymous = names.iter().all(|(_, name)| name.who == "anon");
     let is_of_one = (users == 1 && archives > 1) || (users > 1 && whos == 1 && !is_anonymous);
@@ -121,19 +129,9 @@ pub(super) fn is_download(root: &Node, known: &[Member]) -> bool {
 fn parse_text(name: &str) -> Option<CanvasName<'_>> {
     let parts: Vec<&str> = name.split('_').collect();
     let index = parts.len().checked_sub(2).filter(|index| *index > 0)?;
-    let is_text = ["text.html", "link.html"].contains(&parts[index + 1]);
-    let (who, late) = split_late(&parts[..index])?;
-    (is_text && (is_number(parts[index]) || who == "anon")).then(|| CanvasName {
-        who,
-        late,
-        user: parts[index],
-        attachment: 0,
-        file: parts[index + 1].to_owned(),
-    })
-}
-
-fn is_number(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
+    let file = parts[index + 1];
+    let name = CanvasName::new(&parts, index, 0, file.to_owned());
+    name.filter(|_| ["text.html", "link.html"].contains(&file))
 }
 
 /// Splits off `LATE`, which is after the user's name, but before `anon`. Returns the name, and whether
@@ -165,8 +163,8 @@ pub(super) fn read(root: &Node, handed_out: &HandedOut, known: &[Member]) -> Lay
         }
         match (ways.as_slice(), parse_text(&node.name)) {
             ([name], _) if !node.is_folder() => {
-                let user = (name.user, name.who.clone());
-                users.entry(user).or_default().push((name.clone(), node));
+                let files = users.entry(name.key()).or_default();
+                files.push((name.clone(), node));
             }
             ([_, _, ..], _) if !node.is_folder() => entries.push(ambiguous(&ways, node)),
             (_, Some(name)) => texts.push((name, node)),
@@ -177,28 +175,25 @@ pub(super) fn read(root: &Node, handed_out: &HandedOut, known: &[Member]) -> Lay
     }
     let mut of_texts: BTreeMap<(&str, String), (CanvasName, &Node)> = BTreeMap::new();
     for (name, node) in texts {
-        let user = (name.user, name.who.clone());
-        if users.contains_key(&user) {
+        if users.contains_key(&name.key()) {
             others.push(unmatched_path(node, TEXT_BESIDE_FILES));
-        } else if let Some((_, other)) = of_texts.insert(user, (name, node)) {
+        } else if let Some((_, other)) = of_texts.insert(name.key(), (name, node)) {
             others.push(unmatched_path(other, TEXT_ONLY));
         }
     }
-    let mut names_of: BTreeMap<&str, usize> = BTreeMap::new();
-    for (user, _) in users.keys() {
-        *names_of.entry(*user).or_default() += 1;
-    }
-    let is_shared = |user: &str| names_of.get(user).is_some_and(|names| *names > 1);
-    for ((user, _), files) in &users {
+    for ((user, who), files) in &users {
         let mut entry = entry_of_files(files.clone(), handed_out);
-        if is_shared(user) {
+        if users
+            .keys()
+            .any(|other| other.0 == *user && other.1 != *who)
+        {
             entry.source = Source::Missing(SHARED_NUMBER.to_owned());
         }
         entries.push(entry);
     }
     entries.extend(of_texts.into_values().map(|(name, node)| {
         let source = Source::Missing(TEXT_ONLY.to_owned());
-        entry(&name, name.late, node.name.clone(), source)
+        entry(&name, name.late, &node.name, source)
     }));
     (entries, others)
 }
@@ -209,20 +204,15 @@ fn ambiguous(ways: &[CanvasName], node: &Node) -> Entry {
         .iter()
         .map(|name| format!("{} of {}", name.user, name.who));
     let users: Vec<String> = users.collect();
-    Entry {
-        id: node.name.clone(),
-        info: EntryInfo {
-            people: vec![Person::named_by_file(&node.name)],
-            late: ways.iter().any(|name| name.late),
-            from: node.name.clone(),
-            ..EntryInfo::default()
-        },
-        source: Source::Missing(format!(
-            "its name can be read with the user number {}: pass a gradebook that has one of them with \
-             --canvas, or rename the file",
-            users.join(" or ")
-        )),
-    }
+    let why = format!(
+        "its name can be read with the user number {}: pass a gradebook that has one of them with \
+         --canvas, or rename the file",
+        users.join(" or ")
+    );
+    let person = Person::named_by_file(&node.name);
+    let mut entry = Entry::new(&node.name, person, &node.name, Source::Missing(why));
+    entry.info.late = ways.iter().any(|name| name.late);
+    entry
 }
 
 /// Returns the entry for all files of one user.
@@ -233,25 +223,21 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -
     // again come later in the list.
     let is_replaced = |index: usize| {
         let (name, node) = &files[index];
-        let later = files[index + 1..]
-            .iter()
-            .filter(|(_, node)| node.is_archive());
         let base = without_number(&name.file);
-        node.is_archive()
-            && later
-                .map(|(name, _)| without_number(&name.file))
-                .any(|it| it == base)
+        let later = files[index + 1..].iter();
+        let mut later = later.filter(|(_, node)| node.is_archive());
+        node.is_archive() && later.any(|(name, _)| without_number(&name.file) == base)
     };
     let counting = (0..files.len()).filter(|index| !is_replaced(*index));
-    let counting: Vec<&(CanvasName, &Node)> = counting.map(|index| &files[index]).collect();
-    let name_and_path = |(name, node): &&(CanvasName, &Node)| {
+    let counting = counting.map(|index| {
+        let (name, node) = &files[index];
         (original_name(&name.file, handed_out), node.path.clone())
-    };
+    });
     let names: BTreeSet<&str> = files.iter().map(|(name, _)| name.file.as_str()).collect();
     let source = if names.len() < files.len() {
         Source::Missing(REPEATED_FILE.to_owned())
     } else {
-        Source::Files(counting.iter().map(name_and_path).collect())
+        Source::Files(counting.collect())
     };
     let from = match files.len() {
         1 => newest.name.clone(),
@@ -264,23 +250,17 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -
     let is_zip = attachment.name.to_lowercase().ends_with(".zip");
     let end = if is_zip { "" } else { ".html" };
     let is_first = readings(&attachment.name).first() == Some(name);
-    let mut entry = entry(last, files.iter().any(|(name, _)| name.late), from, source);
+    let mut entry = entry(last, files.iter().any(|(name, _)| name.late), &from, source);
     entry.info.hand_back_as = is_first.then(|| format!("{}{end}", attachment.name));
     entry
 }
 
-fn entry(name: &CanvasName, late: bool, from: String, source: Source) -> Entry {
-    Entry {
-        id: format!("{}_{}", name.who, name.user),
-        info: EntryInfo {
-            people: vec![name.person()],
-            late,
-            marks_late: true,
-            from,
-            ..EntryInfo::default()
-        },
-        source,
-    }
+fn entry(name: &CanvasName, late: bool, from: &str, source: Source) -> Entry {
+    let id = format!("{}_{}", name.who, name.user);
+    let mut entry = Entry::new(id, name.person(), &from, source);
+    entry.info.late = late;
+    entry.info.marks_late = true;
+    entry
 }
 
 /// Removes the number that Canvas appends to the name of a file that is handed in again.

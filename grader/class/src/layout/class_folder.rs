@@ -5,7 +5,7 @@
 
 use super::METADATA;
 use crate::listing::Node;
-use crate::names::fold;
+use crate::names::{fold, is_number};
 
 /// Returns the folder with the entries, and a note if it is not `root`, or if it could be another.
 /// `archive` is the name of the archive that the folder was unpacked from.
@@ -32,7 +32,6 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
 fn is_gradescopes(node: &Node) -> bool {
     let number = node.name.strip_prefix("assignment_");
     let number = number.and_then(|rest| rest.strip_suffix("_export"));
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     number.is_some_and(is_number) && node.find(METADATA).is_some()
 }
 

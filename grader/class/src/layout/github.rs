@@ -3,7 +3,7 @@
 //! `scores.csv` beside them.
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, Person, Source};
 use crate::listing::Node;
 
 /// The suffix of the folder that GitHub Classroom's tool creates.
@@ -33,23 +33,15 @@ pub(super) fn prefix(root: &Node) -> Option<String> {
 /// Returns the common prefix of all names, cut off after its last `-`, since the account names may
 /// begin with the same letters as well. For a single name, the prefix is empty, since nothing shows
 /// where the account name begins.
-fn common_prefix<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
-    let Some(first) = names.next() else {
+fn common_prefix<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    let [first, others @ ..] = names.as_slice() else {
         return String::new();
     };
-    let mut shared = first;
-    let mut count = 1;
-    for name in names {
-        let same = |(mine, theirs): &((usize, char), char)| mine.1 == *theirs;
-        let length = shared.char_indices().zip(name.chars()).take_while(same);
-        let end = length.last().map_or(0, |((at, c), _)| at + c.len_utf8());
-        shared = &shared[..end];
-        count += 1;
-    }
-    match (count, shared.rfind('-')) {
-        (2.., Some(end)) => shared[..=end].to_owned(),
-        (_, _) => String::new(),
-    }
+    let is_shared = |end: &usize| others.iter().all(|name| name.starts_with(&first[..*end]));
+    let ends = first.rmatch_indices('-').map(|(at, _)| at + 1);
+    let end = ends.filter(|_| !others.is_empty()).find(is_shared);
+    first[..end.unwrap_or(0)].to_owned()
 }
 
 pub(super) fn read(root: &Node) -> LayoutContents {
@@ -58,18 +50,12 @@ pub(super) fn read(root: &Node) -> LayoutContents {
     for node in root.children() {
         if node.is_folder() {
             let login = node.name.strip_prefix(&prefix).unwrap_or(&node.name);
-            entries.push(Entry {
-                id: login.to_owned(),
-                info: EntryInfo {
-                    people: vec![Person {
-                        login: login.to_owned(),
-                        ..Person::default()
-                    }],
-                    from: node.name.clone(),
-                    ..EntryInfo::default()
-                },
-                source: Source::Path(node.path.clone()),
-            });
+            let person = Person {
+                login: login.to_owned(),
+                ..Person::default()
+            };
+            let source = Source::Path(node.path.clone());
+            entries.push(Entry::new(login, person, &node.name, source));
         } else if node.name != CLASSROOM50_SCORES {
             others.push(unmatched_path(node, "it is not a repository"));
         }

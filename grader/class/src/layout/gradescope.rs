@@ -75,7 +75,7 @@ fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, Error> {
     };
     let options = serde_saphyr::options! { budget: budget };
     serde_saphyr::from_str_with_options(metadata, options).map_err(|error| {
-        Error::User(format!(
+        Error::user(format!(
             "cannot read {METADATA}: {error}; export the submissions again, or delete the file to go \
              by folder names"
         ))

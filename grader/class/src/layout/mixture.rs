@@ -6,6 +6,7 @@ use grader::handed_out::{HandedOut, TaskFile};
 
 use crate::entry::{Entry, Source};
 use crate::listing::Node;
+use crate::names::is_number;
 use crate::roster::Member;
 
 /// The maximum number of names in a message.
@@ -90,7 +91,7 @@ fn is_version(name: &str, file: &str) -> bool {
             .strip_prefix('(')?
             .strip_suffix(')')
     };
-    name == file || number().is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+    name == file || number().is_some_and(is_number)
 }
 
 /// Returns the names of the folders in a folder that look like submissions, if there are several and

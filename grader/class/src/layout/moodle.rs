@@ -6,8 +6,9 @@
 use std::collections::BTreeMap;
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, NUMBER, Person, Source, WHO};
+use crate::entry::{Entry, NUMBER, Person, Source, WHO};
 use crate::listing::Node;
+use crate::names::is_number;
 
 const MARK: &str = "_assignsubmission_";
 /// The reason for not grading a participant who submitted text but no files.
@@ -35,7 +36,6 @@ pub(super) struct MoodleName<'a> {
 pub(super) fn parse(name: &str) -> Option<MoodleName<'_>> {
     let (head, tail) = name.split_once(MARK)?;
     let (kind, file) = tail.split_once('_').unwrap_or((tail, ""));
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let (who, number) = match head.rsplit_once('_') {
         Some((who, number)) if is_number(number) => (who, number),
         Some(_) | None => (head, ""),
@@ -99,24 +99,18 @@ fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {
         "" => name.who.to_owned(),
         number => format!("{}{sign}{number}", name.who),
     };
-    Entry {
-        id: numbered('_'),
-        info: EntryInfo {
-            people: vec![Person {
-                // With blind marking, only the number is known.
-                name: match name.who {
-                    "Participant" => numbered(' '),
-                    who => who.to_owned(),
-                },
-                number: name.number.to_owned(),
-                ..Person::default()
-            }],
-            from: node.name.clone(),
-            hand_back_as: Some(format!("{WHO}_{NUMBER}_assignfeedback_file_feedback.html")),
-            ..EntryInfo::default()
+    let person = Person {
+        // With blind marking, only the number is known.
+        name: match name.who {
+            "Participant" => numbered(' '),
+            who => who.to_owned(),
         },
-        source,
-    }
+        number: name.number.to_owned(),
+        ..Person::default()
+    };
+    let mut entry = Entry::new(numbered('_'), person, &node.name, source);
+    entry.info.hand_back_as = Some(format!("{WHO}_{NUMBER}_assignfeedback_file_feedback.html"));
+    entry
 }
 
 #[cfg(test)]

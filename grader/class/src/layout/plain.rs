@@ -1,7 +1,7 @@
 //! A folder of folders, archives, or both, each named after its student.
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, Person, Source};
 use crate::listing::Node;
 
 pub(super) fn read(root: &Node) -> LayoutContents {
@@ -13,15 +13,13 @@ pub(super) fn read(root: &Node) -> LayoutContents {
             } else {
                 strip_archive_extension(&node.name)
             };
-            entries.push(Entry {
-                id: name.to_owned(),
-                info: EntryInfo {
-                    people: vec![Person::named_by_file(name)],
-                    from: node.name.clone(),
-                    ..EntryInfo::default()
-                },
-                source: Source::Path(node.path.clone()),
-            });
+            let source = Source::Path(node.path.clone());
+            entries.push(Entry::new(
+                name,
+                Person::named_by_file(name),
+                &node.name,
+                source,
+            ));
         } else {
             others.push(unmatched_path(node, "neither a folder nor an archive"));
         }

@@ -41,15 +41,20 @@ fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
         assert!(note.unwrap().contains(name));
         found.name == name
     };
-    assert!(entered("assignment_55_export", None));
-    assert!(entered(
-        "Path Tracer",
-        Some("Path Tracer-20261127T112400Z-001.zip")
-    ));
-    assert!(entered("hw-submissions", Some("hw_submissions (1).tar.gz")));
-    assert!(!entered("mallory", None));
-    assert!(!entered("mallory", Some("in.zip")));
-    assert!(!entered("ann", Some("anna.zip")));
+    for (name, archive, is_entered) in [
+        ("assignment_55_export", None, true),
+        (
+            "Path Tracer",
+            Some("Path Tracer-20261127T112400Z-001.zip"),
+            true,
+        ),
+        ("hw-submissions", Some("hw_submissions (1).tar.gz"), true),
+        ("mallory", None, false),
+        ("mallory", Some("in.zip"), false),
+        ("ann", Some("anna.zip"), false),
+    ] {
+        assert_eq!(entered(name, archive), is_entered, "{name} {archive:?}");
+    }
     let several = folder("x", vec![folder("ann", vec![]), folder("bob", vec![])]);
     assert_eq!(find_class_folder(&several, None), (&several, None));
 }
@@ -92,29 +97,29 @@ fn folders_of_several_people_are_recognised() {
 
 #[test]
 fn the_majority_of_names_decides_the_layout() {
-    let canvas = ["doe_1_2_a.zip", "lee_3_4_b.zip", "readme.txt"].map(file);
-    assert_eq!(layout(&folder("x", canvas.to_vec())), Layout::Canvas);
-    // In these, the same user, name or attachment is everywhere.
-    for dates in [
+    let files = |names: &[&str]| folder("x", names.iter().map(|name| file(name)).collect());
+    let canvas = files(&["doe_1_2_a.zip", "lee_3_4_b.zip", "readme.txt"]);
+    assert_eq!(layout(&canvas), Layout::Canvas);
+    for plain in [
+        // In these, the same user, name or attachment is everywhere.
         ["hw_1_20_jdoe.zip", "hw_1_21_mkim.zip"],
         ["hw_1_20_jdoe.zip", "hw_2_21_mkim.zip"],
         ["CS_148_3_jdoe.rs", "CS_148_3_mkim.rs"],
         ["2026_11_20_jdoe.zip", "2026_11_21_mkim.zip"],
+        ["doe.zip", "lee_3_4_b.zip"],
     ] {
-        assert_eq!(
-            layout(&folder("x", dates.map(file).to_vec())),
-            Layout::Plain,
-            "{dates:?}"
-        );
+        assert_eq!(layout(&files(&plain)), Layout::Plain, "{plain:?}");
     }
-    let plain = ["doe.zip", "lee_3_4_b.zip"].map(file);
-    assert_eq!(layout(&folder("x", plain.to_vec())), Layout::Plain);
-    let repositories = vec![folder("hw-ann", vec![]), folder("hw-bob", vec![])];
-    assert_eq!(
-        layout(&folder("hw-submissions", repositories.clone())),
-        Layout::GitHub
-    );
-    assert_eq!(layout(&folder("hw", repositories)), Layout::Plain);
+    let clones = |name: &str| {
+        folder(
+            name,
+            ["hw-ann", "hw-bob"]
+                .map(|name| folder(name, vec![]))
+                .to_vec(),
+        )
+    };
+    assert_eq!(layout(&clones("hw-submissions")), Layout::GitHub);
+    assert_eq!(layout(&clones("hw")), Layout::Plain);
 }
 
 #[test]

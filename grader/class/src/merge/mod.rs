@@ -8,16 +8,15 @@ use grader::policy::Policy;
 use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
-use crate::cli::MergeArguments;
-use crate::entry::{EntryInfo, Person};
+use crate::cli::{Lists, MergeArguments};
+use crate::entry::EntryInfo;
 use crate::error::Error;
-use crate::grade::read_manual_points;
-use crate::late::warn_about_extensions;
-use crate::list_memory::{KeptIn, ListFiles, UsedLists};
+use crate::list_memory::{KeptIn, UsedLists};
 use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, Completion};
-use crate::regrade_diff::{Changes, RemovedEntry, find_removed, find_resubmitted};
+use crate::paths::contains;
+use crate::regrade_diff::{Changes, find_removed, find_resubmitted};
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
 use crate::store::Store;
@@ -42,16 +41,24 @@ pub fn merge_shards(
     let missing = Shard::missing(&parts);
     if !missing.is_empty() {
         let missing: Vec<String> = missing.iter().map(Shard::to_string).collect();
-        return Err(Error::User(format!(
+        return Err(Error::user(format!(
             "results are missing for {}: name the output folders of all parts, or the merged grades \
              would lack submissions",
             missing.join(", ")
         )));
     }
     let out = Store::new(&arguments.out);
-    let used = choose_lists(arguments, &out, &shards)?;
-    let lists = &used.files.lists;
-    let policy = match &used.files.policy {
+    let given = Lists {
+        policy: arguments.policy.clone(),
+        ..arguments.lists.clone()
+    };
+    let parts = shards
+        .iter()
+        .map(|(folder, run)| (folder.as_path(), &run.lists));
+    let parts: Vec<KeptIn> = parts.collect();
+    let used = UsedLists::choose(given, Some(&arguments.out), &parts)?;
+    let lists = &used.lists;
+    let policy = match &lists.policy {
         Some(path) => Policy::read(path)?,
         None => Policy::default(),
     };
@@ -62,7 +69,7 @@ pub fn merge_shards(
         let current = |id: &String| run.entries.contains(id);
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), path) {
-                return Err(Error::User(format!(
+                return Err(Error::user(format!(
                     "{id} is in {} and in {}: were both given the same --shard?",
                     other.display(),
                     path.display()
@@ -80,43 +87,30 @@ pub fn merge_shards(
         lists: used.kept.clone(),
         ..run.clone()
     };
-    used.save(&out)?;
-    out.write_run(run)?;
-    used.remove_others(&out)?;
+    used.save(&out, run)?;
 
     let rows: Vec<EntryResult> = out.results()?;
     let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
     let mut rows: Vec<EntryResult> = rows.collect();
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if lists.roster.is_some() {
-        infos
-            .iter_mut()
-            .for_each(|info| info.forget_groups_and_extensions());
+        for info in &mut infos {
+            info.forget_groups_and_extensions();
+        }
     }
-    let all = infos.len();
-    let findings = lists::complete_entries(lists, &mut infos)?;
-    findings.check(lists, all)?;
+    let findings = lists::complete_entries(lists, handed_out, &mut infos)?;
+    findings.check(lists)?;
     for warning in &findings.warnings {
         print(format!("  {}\n", sanitize_line(warning, 400)));
     }
-    let missing = findings.missing;
-    let manual = read_manual_points(lists, handed_out)?;
-    let people: Vec<&Person> = rows.iter().flat_map(|row| &row.info.people).collect();
-    manual.check_students(&people)?;
-    let all: Vec<&Person> = people.into_iter().chain(&missing).collect();
-    warn_about_extensions(&policy, &all);
+    findings.warn_about_extensions(&policy);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
-    let mut removed = find_removed(&out, &ids)?;
-    for (path, _) in &shards {
-        let of_shard = find_removed(&Store::new(path), &ids)?;
-        let is_new = |entry: &RemovedEntry| removed.iter().all(|other| other.id != entry.id);
-        let of_shard: Vec<RemovedEntry> = of_shard.into_iter().filter(is_new).collect();
-        removed.extend(of_shard);
-    }
+    let stores: Vec<Store> = shards.iter().map(|(path, _)| Store::new(path)).collect();
+    let stores: Vec<&Store> = [&out].into_iter().chain(&stores).collect();
     let changes = Changes {
         regrade: None,
         resubmitted: find_resubmitted(&out, &rows)?,
-        removed,
+        removed: find_removed(&stores, &ids)?,
         grades: None,
     };
     let class = ClassContext {
@@ -124,8 +118,7 @@ pub fn merge_shards(
         run,
         lists,
         policy: &policy,
-        manual: &manual,
-        missing,
+        findings,
     };
     class.finish(rows, changes)
 }
@@ -133,14 +126,9 @@ pub fn merge_shards(
 /// Rejects an output folder in the results of a shard: each entry would be replaced while it is
 /// copied.
 fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
-    // The output folder may not exist yet.
-    let mut existing = arguments.out.ancestors();
-    let Some(out) = existing.find_map(|folder| folder.canonicalize().ok()) else {
-        return Ok(());
-    };
-    let holds_out = |shard: &&PathBuf| shard.canonicalize().is_ok_and(|s| out.starts_with(s));
+    let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {
-        Some(shard) => Err(Error::User(format!(
+        Some(shard) => Err(Error::user(format!(
             "{} is, or is in, the results of the shard {}: choose another folder for --out",
             arguments.out.display(),
             shard.display()
@@ -149,40 +137,15 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     }
 }
 
-/// Returns the lists on the command line, those that were given to the last merge, and those that all
-/// shards were graded with.
-fn choose_lists(
-    arguments: &MergeArguments,
-    out: &Store,
-    shards: &[(&PathBuf, Run)],
-) -> Result<UsedLists, Error> {
-    let given = ListFiles {
-        policy: arguments.policy.clone(),
-        lists: arguments.lists.clone(),
-    };
-    let last = out.read_run()?;
-    let last = last.as_ref().map(|run| KeptIn {
-        folder: out.folder(),
-        lists: &run.lists,
-    });
-    let parts = shards.iter().map(|(folder, run)| KeptIn {
-        folder,
-        lists: &run.lists,
-    });
-    let used = UsedLists::choose(given, last, &parts.collect::<Vec<_>>())?;
-    used.print_notes();
-    Ok(used)
-}
-
 fn read_finished_run(path: &Path) -> Result<Run, Error> {
     let run = Store::new(path).read_run()?;
     let path = path.display();
     match run {
         Some(run) if run.state == RoundState::Finished => Ok(run),
-        Some(_) => Err(Error::User(format!(
+        Some(_) => Err(Error::user(format!(
             "{path} is not finished: run its `cargo class --shard` again"
         ))),
-        None => Err(Error::User(format!(
+        None => Err(Error::user(format!(
             "{path} contains no results of `cargo class --shard`"
         ))),
     }
@@ -208,7 +171,7 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
         return Ok(());
     };
     let (one, other) = (one.0.display(), other.0.display());
-    Err(Error::User(format!(
+    Err(Error::user(format!(
         "{one} and {other} cannot be merged{why}"
     )))
 }

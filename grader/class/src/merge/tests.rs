@@ -5,7 +5,6 @@ use std::fs;
 use grader::handed_out::RAYS;
 
 use super::*;
-use crate::cli::Lists;
 use crate::entry::ListedTime;
 use crate::graded_class::tests::{graded, result};
 use crate::list_kind::ListKind;
@@ -54,15 +53,21 @@ impl Shards {
         store.write_run(&run).unwrap();
     }
 
-    /// Writes the run of a shard that was given a list.
-    fn give(&self, part: usize, kind: ListKind, text: &str) {
+    /// Writes a list, and returns its path.
+    fn list(&self, kind: ListKind, text: &str) -> Lists {
         let path = self.path("given");
         fs::write(&path, text).unwrap();
-        let mut given = ListFiles::default();
-        given.set(kind, path);
-        let used = UsedLists::choose(given, None, &[]).unwrap();
-        used.save(&self.store(part)).unwrap();
+        let mut given = Lists::default();
+        *given.path(kind) = Some(path);
+        given
+    }
+
+    /// Writes the run of a shard that was given a list.
+    fn give(&self, part: usize, kind: ListKind, text: &str) {
+        let used = UsedLists::choose(self.list(kind, text), None, &[]).unwrap();
         self.write(part, |run| run.lists = used.kept.clone());
+        let run = self.store(part).read_run().unwrap().unwrap();
+        used.save(&self.store(part), &run).unwrap();
     }
 
     fn arguments(&self) -> MergeArguments {
@@ -74,8 +79,30 @@ impl Shards {
         }
     }
 
+    /// Returns the arguments of a merge that is given a list.
+    fn given(&self, kind: ListKind, text: &str) -> MergeArguments {
+        let lists = self.list(kind, text);
+        MergeArguments {
+            policy: lists.policy.clone(),
+            lists,
+            ..self.arguments()
+        }
+    }
+
     fn merge(&self) -> Result<Completion, Error> {
         merge_shards(&self.arguments(), &RAYS)
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path("out").join(name)).unwrap()
+    }
+
+    /// Merges, and returns the points that count for Ann.
+    fn points(&self, arguments: &MergeArguments) -> String {
+        merge_shards(arguments, &RAYS).unwrap();
+        let grades = self.read("grades.csv");
+        let ann = grades.lines().find(|line| line.starts_with("ann,"));
+        ann.unwrap().split(',').nth(6).unwrap().to_owned()
     }
 }
 
@@ -90,11 +117,7 @@ fn a_merged_class_has_the_entries_of_all_shards() {
         (run.shard, run.entries.as_slice()),
         (None, ["ann", "bob"].map(str::to_owned).as_slice())
     );
-    assert!(
-        fs::read_to_string(out.folder().join("grades.csv"))
-            .unwrap()
-            .contains("bob")
-    );
+    assert!(shards.read("grades.csv").contains("bob"));
 }
 
 #[test]
@@ -117,7 +140,7 @@ fn those_who_left_are_not_merged_but_named_once() {
     shards.merge().unwrap();
     let out = Store::new(&shards.path("out"));
     assert_eq!(out.ids().unwrap(), ["ann", "bob"]);
-    let page = fs::read_to_string(out.folder().join("class.html")).unwrap();
+    let page = shards.read("class.html");
     assert_eq!(page.matches("eve (Eve): 50 points").count(), 1, "{page}");
 }
 
@@ -160,26 +183,12 @@ fn machines_may_differ_in_their_grader_and_compiler() {
 #[test]
 fn a_given_policy_counts_instead_of_those_of_the_shards() {
     let shards = Shards::new();
-    let halved = "[points]\nout_of = 50\n".to_owned();
     for part in [1, 2] {
-        shards.give(part, ListKind::Policy, &halved);
+        shards.give(part, ListKind::Policy, "[points]\nout_of = 50\n");
     }
-    let out_of = |arguments: &MergeArguments| {
-        let runs = arguments.shards.iter();
-        let runs: Vec<(&PathBuf, Run)> = runs
-            .map(|path| (path, read_finished_run(path).unwrap()))
-            .collect();
-        let out = Store::new(&arguments.out);
-        let used = choose_lists(arguments, &out, &runs).unwrap();
-        let policy = Policy::read(&used.files.policy.unwrap()).unwrap();
-        policy.points.out_of
-    };
-    let mut arguments = shards.arguments();
-    assert_eq!(out_of(&arguments), Some(50));
-    let path = shards.path("policy.toml");
-    fs::write(&path, "[points]\nout_of = 10\n").unwrap();
-    arguments.policy = Some(path);
-    assert_eq!(out_of(&arguments), Some(10));
+    assert_eq!(shards.points(&shards.arguments()), "40");
+    let tenth = shards.given(ListKind::Policy, "[points]\nout_of = 10\n");
+    assert_eq!(shards.points(&tenth), "8");
 }
 
 /// The roster that the shards were graded with has Eve in Ann's group, and another time.
@@ -193,20 +202,15 @@ fn the_groups_and_times_of_a_new_roster_count() {
         late: true,
     });
     shards.store(1).save_graded(&ann, "key", 1);
-    let merged = |roster: Option<&str>| {
-        let mut arguments = shards.arguments();
-        arguments.lists.roster = roster.map(|text| {
-            let path = shards.path("roster.csv");
-            fs::write(&path, text).unwrap();
-            path
-        });
-        merge_shards(&arguments, &RAYS).unwrap();
-        let grades = fs::read_to_string(shards.path("out/grades.csv")).unwrap();
+    let merged = |arguments: &MergeArguments| {
+        merge_shards(arguments, &RAYS).unwrap();
+        let grades = shards.read("grades.csv");
         ["eve", "dan", "11-25", "11-20"].map(|text| grades.contains(text))
     };
-    assert_eq!(merged(None), [true, false, true, false]);
+    assert_eq!(merged(&shards.arguments()), [true, false, true, false]);
     let roster = "name,group,datetime\nann,One,2026-11-20T12:00:00Z\ndan,One,\n";
-    assert_eq!(merged(Some(roster)), [false, true, false, true]);
+    let given = shards.given(ListKind::Roster, roster);
+    assert_eq!(merged(&given), [false, true, false, true]);
 }
 
 #[test]
@@ -233,44 +237,31 @@ fn the_merged_class_may_not_be_in_a_shard() {
 fn the_lists_of_the_shards_count_and_a_merge_has_those_that_it_was_given() {
     let shards = Shards::new();
     let text = |delta| format!("student,task,delta,comment,author\nann,sphere,{delta},,Lee\n");
-    let given = |delta| {
-        let path = shards.path("manual.csv");
-        fs::write(&path, text(delta)).unwrap();
-        let mut arguments = shards.arguments();
-        arguments.lists.manual_points = Some(path);
-        arguments
-    };
-    let points = |arguments: &MergeArguments| {
-        merge_shards(arguments, &RAYS).unwrap();
-        let grades = fs::read_to_string(shards.path("out/grades.csv")).unwrap();
-        let ann = grades.lines().find(|line| line.starts_with("ann,"));
-        ann.unwrap().split(',').nth(6).unwrap().to_owned()
-    };
     shards.give(1, ListKind::ManualPoints, &text(5));
     let error = shards.merge().unwrap_err().to_string();
     assert!(error.contains("one with --manual-points"), "{error}");
     shards.give(2, ListKind::ManualPoints, &text(5));
-    assert_eq!(points(&shards.arguments()), "85");
+    assert_eq!(shards.points(&shards.arguments()), "85");
     // The parts are graded with another list.
     for part in [1, 2] {
         shards.give(part, ListKind::ManualPoints, &text(6));
     }
-    assert_eq!(points(&shards.arguments()), "86");
-    assert_eq!(points(&given(7)), "87");
-    assert_eq!(points(&shards.arguments()), "87");
+    assert_eq!(shards.points(&shards.arguments()), "86");
+    assert_eq!(
+        shards.points(&shards.given(ListKind::ManualPoints, &text(7))),
+        "87"
+    );
+    assert_eq!(shards.points(&shards.arguments()), "87");
     let mut dropped = shards.arguments();
     dropped.lists.drop_list = vec![ListKind::ManualPoints];
-    assert_eq!(points(&dropped), "80");
+    assert_eq!(shards.points(&dropped), "80");
 }
 
 #[test]
 fn manual_points_for_nobody_stop_the_merge() {
     let shards = Shards::new();
-    let path = shards.path("manual.csv");
     let rows = "student,task,delta,comment,author\nanne,build,-2,copied,TA\n";
-    fs::write(&path, rows).unwrap();
-    let mut arguments = shards.arguments();
-    arguments.lists.manual_points = Some(path);
+    let arguments = shards.given(ListKind::ManualPoints, rows);
     let error = merge_shards(&arguments, &RAYS).unwrap_err().to_string();
     assert!(error.contains("nobody with the name"), "{error}");
     assert!(!shards.path("out/grades.csv").exists());

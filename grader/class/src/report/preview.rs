@@ -1,13 +1,12 @@
 //! Prints the output of `--dry-run`: the files that would be graded for each student.
 
-use std::fmt::{self, Write};
-
 use grader::handed_out::HandedOut;
 use judging::sanitize::sanitize_line;
 
 use crate::entry::{Entry, Person};
 use crate::input::{NotCollected, collect_submission};
 use crate::layout::{RecognisedClass, UnmatchedPath};
+use crate::plural::count;
 
 /// The maximum length of a name or reason, in characters.
 const MAX_CHARS: usize = 1_000;
@@ -18,45 +17,27 @@ pub fn render_preview(
     missing: &[Person],
     handed_out: &'static HandedOut,
 ) -> String {
-    let mut text = String::new();
-    write_preview(&mut text, class, missing, handed_out).expect("writing to a string succeeds");
-    text
-}
-
-fn write_preview(
-    out: &mut String,
-    class: &RecognisedClass,
-    missing: &[Person],
-    handed_out: &'static HandedOut,
-) -> fmt::Result {
-    writeln!(
-        out,
-        "\n  {} in {}\n",
-        count_submissions(class.entries.len()),
-        class.layout.description()
-    )?;
+    let submissions = count(class.entries.len(), "submission");
+    let mut text = format!("\n  {submissions} in {}\n\n", class.layout.description());
     let mut gradable = 0;
     for entry in &class.entries {
         let files = describe_files(entry, handed_out);
         gradable += usize::from(files.is_ok());
+        let files = files.unwrap_or_else(|why| format!("nothing to grade: {why}"));
         let who = sanitized(&entry.info.display_names());
         let late = if entry.info.is_late() { ", late" } else { "" };
-        match files {
-            Ok(files) => writeln!(out, "  {who}{late}: {}", sanitized(&files))?,
-            Err(why) => writeln!(out, "  {who}{late}: nothing to grade: {}", sanitized(&why))?,
-        }
-        writeln!(out, "      {}", sanitized(&entry.info.from))?;
+        let (files, from) = (sanitized(&files), sanitized(&entry.info.from));
+        text += &format!("  {who}{late}: {files}\n      {from}\n");
     }
-    write_warnings(out, class)?;
+    text += &render_warnings(class);
     if !missing.is_empty() {
-        writeln!(out, "\n  on a roster, but nothing submitted:")?;
-        for person in missing {
-            writeln!(out, "      {}", sanitized(person.display_name()))?;
-        }
+        text += "\n  on a roster, but nothing submitted:\n";
     }
-    writeln!(
-        out,
-        "\n  {gradable} of {} can be graded\n",
+    for person in missing {
+        text += &format!("      {}\n", sanitized(person.display_name()));
+    }
+    text + &format!(
+        "\n  {gradable} of {} can be graded\n\n",
         class.entries.len()
     )
 }
@@ -65,36 +46,23 @@ fn write_preview(
 /// printed after grading, since the grades do not include them.
 pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
-    write_warnings(&mut text, class).expect("writing to a string succeeds");
-    text
-}
-
-fn write_warnings(out: &mut String, class: &RecognisedClass) -> fmt::Result {
     for note in &class.notes {
-        writeln!(out, "\n  {}", sanitize_line(note, MAX_CHARS))?;
+        text += &format!("\n  {}\n", sanitized(note));
     }
     for (one, other) in duplicate_people(&class.entries) {
         let (one, other) = (sanitized(one), sanitized(other));
-        writeln!(
-            out,
+        text += &format!(
             "\n  {one} and {other} belong to the same person: keep the one that counts, or set [attempts] \
-             in the policy"
-        )?;
+             in the policy\n"
+        );
     }
     if !class.unmatched.is_empty() {
-        writeln!(out, "\n  not part of any submission:")?;
+        text += "\n  not part of any submission:\n";
     }
     for UnmatchedPath { name, why } in &class.unmatched {
-        writeln!(out, "      {}: {}", sanitized(name), sanitized(why))?;
+        text += &format!("      {}: {}\n", sanitized(name), sanitized(why));
     }
-    Ok(())
-}
-
-fn count_submissions(entries: usize) -> String {
-    match entries {
-        1 => "1 submission".to_owned(),
-        several => format!("{several} submissions"),
-    }
+    text
 }
 
 fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<String, String> {

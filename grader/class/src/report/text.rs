@@ -1,16 +1,15 @@
 //! The reports on the terminal: a summary of the class, the changes to gradebooks, and the changes
 //! of a regrade.
 
-use std::fmt::{self, Write};
-
 use anstyle::Style;
 use judging::sanitize::sanitize_line;
 
 use crate::distribution::Distribution;
 use crate::final_grades::GradeChanges;
-use crate::gradebook::FilledGradebook;
+use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
-use crate::regrade_diff::{Drift, RegradeChanges, RemovedEntry};
+use crate::plural::count;
+use crate::regrade_diff::{Drift, RegradeChanges};
 use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
@@ -24,16 +23,8 @@ const MAX_LINES: usize = 40;
 
 /// Renders the summary.
 pub fn render_summary(summary: &ClassSummary) -> String {
-    let mut text = String::new();
-    write_summary(&mut text, summary).expect("writing to a string succeeds");
-    text
-}
-
-fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
     let ClassSummary { graded, exam, .. } = summary;
-    let exam = one_line(exam);
-    writeln!(out, "\n{STRONG}  {graded} graded, {exam} exam{STRONG:#}")?;
-    let others = [
+    let counts = [
         (
             summary.nothing_to_grade,
             "without anything that can be graded",
@@ -60,37 +51,43 @@ fn write_summary(out: &mut String, summary: &ClassSummary) -> fmt::Result {
             "counted as on time, since their submission time is unknown",
         ),
     ];
-    for (count, description) in others.iter().filter(|(count, _)| *count > 0) {
-        writeln!(out, "  {count} {description}")?;
-    }
+    let counts = counts.iter().filter(|(count, _)| *count > 0);
+    let counts = counts.map(|(count, description)| format!("{count} {description}"));
+    let title = format!("{graded} graded, {} exam", one_line(exam));
+    let mut text = section(&title, "", counts);
     if let Some(points) = &summary.points {
-        writeln!(out)?;
-        write_distribution(out, "all", points)?;
+        text += &format!("\n{}", distribution_line("all", points));
     }
     for task in &summary.tasks {
-        write_distribution(out, &one_line(&task.title), &task.points)?;
+        text += &distribution_line(&one_line(&task.title), &task.points);
     }
+    let counted = |count: usize, text: &str| format!("{count:>4}  {}", one_line(text));
     let failed = summary.failed_most.iter();
-    let failed = failed.map(|failed| (failed.count, format!("{}  {}", failed.item, failed.title)));
-    write_counts(out, "items failed most often", failed)?;
+    let failed = failed.map(|f| counted(f.count, &format!("{}  {}", f.item, f.title)));
     let mistakes = summary.mistakes.iter();
-    let mistakes = mistakes.map(|mistake| (mistake.count, mistake.hint.clone()));
-    write_counts(out, "most common mistakes", mistakes)?;
-    if !summary.outliers.is_empty() {
-        writeln!(out, "\n{STRONG}  submissions that need attention{STRONG:#}")?;
+    let mistakes = mistakes.map(|mistake| counted(mistake.count, &mistake.hint));
+    let outliers = summary.outliers.iter().map(|outlier| {
+        let why = sanitize_line(&outlier.why, MAX_WHY_CHARS);
+        format!("{}: {why}", one_line(&outlier.title()))
+    });
+    let lists: [(&str, Vec<String>); 3] = [
+        ("items failed most often", failed.collect()),
+        ("most common mistakes", mistakes.collect()),
+        ("submissions that need attention", outliers.collect()),
+    ];
+    for (title, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
+        text += &section(title, "", lines);
     }
-    for outlier in &summary.outliers {
-        writeln!(
-            out,
-            "  {}: {}",
-            one_line(&outlier.title()),
-            sanitize_line(&outlier.why, MAX_WHY_CHARS)
-        )?;
-    }
-    writeln!(out)
+    text + "\n"
 }
 
-fn write_distribution(out: &mut String, title: &str, distribution: &Distribution) -> fmt::Result {
+/// Renders lines below a heading, which may have words that are not strong.
+fn section(strong: &str, rest: &str, lines: impl IntoIterator<Item = String>) -> String {
+    let lines = lines.into_iter().map(|line| format!("  {line}\n"));
+    format!("\n{STRONG}  {strong}{STRONG:#}{rest}\n") + &lines.collect::<String>()
+}
+
+fn distribution_line(title: &str, distribution: &Distribution) -> String {
     let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
     let column = |count: &usize| match count {
         0 => '·',
@@ -105,64 +102,47 @@ fn write_distribution(out: &mut String, title: &str, distribution: &Distribution
         upper_quartile,
         ..
     } = distribution;
-    writeln!(
-        out,
-        "  {title:24} {bars}  {mean:>5.1} / {of:<3} {FAINT}quartiles {lower_quartile}, {median}, {upper_quartile}{FAINT:#}"
+    format!(
+        "  {title:24} {bars}  {mean:>5.1} / {of:<3} {FAINT}quartiles {lower_quartile}, {median}, {upper_quartile}{FAINT:#}\n"
     )
-}
-
-fn write_counts(
-    out: &mut String,
-    title: &str,
-    lines: impl Iterator<Item = (usize, String)>,
-) -> fmt::Result {
-    let mut lines = lines.peekable();
-    if lines.peek().is_some() {
-        writeln!(out, "\n{STRONG}  {title}{STRONG:#}")?;
-    }
-    for (count, text) in lines {
-        writeln!(out, "  {count:>4}  {}", one_line(&text))?;
-    }
-    Ok(())
 }
 
 /// Renders the changes in the copy of a gradebook.
 pub fn render_gradebook(filled: &FilledGradebook) -> String {
-    let mut text = format!("\n{STRONG}  {}{STRONG:#}\n", one_line(&filled.title));
-    let width = filled.changes.iter().map(|c| c.who.chars().count()).max();
+    let changes = filled.changes.iter();
+    let width = changes
+        .clone()
+        .map(|change| change.who.chars().count())
+        .max();
     let width = width.unwrap_or(0);
-    for change in filled.changes.iter().take(MAX_LINES) {
+    let line = |change: &CellChange| {
         let was = match change.was.trim() {
             "" => "–",
             was => was,
         };
-        let who = one_line(&change.who);
-        text += &format!("  {who:width$}  {} → {}\n", one_line(was), change.now);
-    }
-    let more = filled.changes.len().saturating_sub(MAX_LINES);
-    if more > 0 {
-        text += &format!("  and {more} more\n");
-    }
-    if filled.changes.is_empty() {
-        text += "  nothing changes\n";
-    }
-    for warning in &filled.warnings {
-        text += &format!("  ! {}\n", one_line(warning));
-    }
-    text
+        let (who, was) = (one_line(&change.who), one_line(was));
+        format!("{who:width$}  {was} → {}", change.now)
+    };
+    let none = filled
+        .changes
+        .is_empty()
+        .then(|| "nothing changes".to_owned());
+    let warnings = filled.warnings.iter();
+    let warnings = warnings.map(|warning| format!("! {}", one_line(warning)));
+    let lines = changes.take(MAX_LINES).map(line);
+    let lines = lines
+        .chain(more(filled.changes.len(), ""))
+        .chain(none)
+        .chain(warnings);
+    section(&one_line(&filled.title), "", lines)
 }
 
 /// Renders the contents of the archive to hand back.
 pub fn render_hand_back(hand_back: &HandBack) -> String {
-    let pages = match hand_back.pages {
-        1 => "1 page".to_owned(),
-        pages => format!("{pages} pages"),
-    };
-    let mut text = format!("\n{STRONG}  to hand back: {pages}{STRONG:#}\n");
-    for line in &hand_back.left_out {
-        text += &format!("  ! not in it: {}\n", one_line(line));
-    }
-    text
+    let title = format!("to hand back: {}", count(hand_back.pages, "page"));
+    let left_out = hand_back.left_out.iter();
+    let left_out = left_out.map(|line| format!("! not in it: {}", one_line(line)));
+    section(&title, "", left_out)
 }
 
 /// Renders the changes of a regrade.
@@ -172,17 +152,15 @@ pub fn render_regrade(regrade: &RegradeChanges) -> String {
         causes => format!("changed settings: {}", causes.join(", ")),
     };
     let drifts = with_changed_points(&regrade.drifts);
-    let count = match drifts.len() {
-        0 => "no score changed".to_owned(),
-        1 => "1 score changed".to_owned(),
-        count => format!("{count} scores changed"),
-    };
-    let title = format!("regraded: {count}{STRONG:#} ({causes})");
+    let title = format!("regraded: {} changed", count_or_no(drifts.len(), "score"));
     let same = match regrade.drifts.len() - drifts.len() {
-        0 => String::new(),
-        count => format!("  {count} more with the same points for other items, in drift.json\n"),
+        0 => None,
+        count => Some(format!(
+            "{count} more with the same points for other items, in drift.json"
+        )),
     };
-    render_drifts(&title, &drifts) + &more(&drifts, ", in drift.json") + &same
+    let lines = drift_lines(&drifts, ", in drift.json").chain(same);
+    section(&title, &format!(" ({causes})"), lines)
 }
 
 /// Renders the scores that changed because their submission did.
@@ -191,8 +169,8 @@ pub fn render_resubmitted(drifts: &[Drift]) -> String {
     if drifts.is_empty() {
         return String::new();
     }
-    let title = format!("changed submissions{STRONG:#} (replaced.json has the earlier score)");
-    render_drifts(&title, &drifts) + &more(&drifts, "")
+    let rest = " (replaced.json has the earlier score)";
+    section("changed submissions", rest, drift_lines(&drifts, ""))
 }
 
 /// Renders the final grades that changed, with the causes.
@@ -204,38 +182,23 @@ pub fn render_grade_changes(grades: &GradeChanges) -> String {
         [] => String::new(),
         causes => format!(" (changed: {})", causes.join(", ")),
     };
-    let mut text = format!(
-        "\n{STRONG}  {}{STRONG:#}{causes}\n",
-        count_grades(grades.changes.len())
+    let title = format!(
+        "{} changed",
+        count_or_no(grades.changes.len(), "final grade")
     );
     // A grade that changes unnoticed is found weeks later, so all of them are listed.
-    for change in &grades.changes {
-        text += &format!("  {}\n", one_line(&change.to_string()));
-    }
-    text
-}
-
-/// Returns a title that says how many final grades changed.
-pub fn count_grades(count: usize) -> String {
-    match count {
-        0 => "no final grade changed".to_owned(),
-        1 => "1 final grade changed".to_owned(),
-        count => format!("{count} final grades changed"),
-    }
+    let changes = grades.changes.iter().map(|change| one_line(change));
+    section(&title, &causes, changes)
 }
 
 /// Renders the entries that are no longer in the input.
-pub fn render_removed(removed: &[RemovedEntry]) -> String {
+pub fn render_removed(removed: &[String]) -> String {
     if removed.is_empty() {
         return String::new();
     }
-    let mut text = format!(
-        "\n{STRONG}  no longer in the input{STRONG:#} (not in the tables; their folders are kept)\n"
-    );
-    for entry in removed {
-        text += &format!("  {}\n", one_line(&entry.to_string()));
-    }
-    text
+    let rest = " (not in the tables; their folders are kept)";
+    let removed = removed.iter().map(|entry| one_line(entry));
+    section("no longer in the input", rest, removed)
 }
 
 /// Returns the scores whose total changed.
@@ -244,30 +207,34 @@ pub fn with_changed_points(drifts: &[Drift]) -> Vec<&Drift> {
     drifts.filter(|drift| drift.changes_points()).collect()
 }
 
-fn render_drifts(title: &str, drifts: &[&Drift]) -> String {
-    let mut text = format!("\n{STRONG}  {title}\n");
+/// Returns lines about the first scores that changed, and the number of others. `location` says where
+/// those are.
+fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
+    let mut lines = Vec::new();
     for drift in drifts.iter().take(MAX_LINES) {
-        let now = drift
-            .now
-            .map_or("no score".to_owned(), |now| now.to_string());
-        text += &format!("  {}: {} → {now}\n", one_line(&drift.id), drift.was);
-        let points = |points: Option<u32>| points.map_or("–".to_owned(), |p| p.to_string());
-        for change in &drift.items {
-            let (was, now) = (points(change.was), points(change.now));
-            text += &format!(
-                "      {} {was} → {now}: {}\n",
-                one_line(&change.item),
-                one_line(&change.why)
-            );
-        }
+        let now = drift.now_text();
+        lines.push(format!("{}: {} → {now}", one_line(&drift.id), drift.was));
+        lines.extend(drift.items.iter().map(|change| {
+            let [was, now] = change.point_texts();
+            let (item, why) = (one_line(&change.item), one_line(&change.why));
+            format!("    {item} {was} → {now}: {why}")
+        }));
     }
-    text
+    lines.into_iter().chain(more(drifts.len(), location))
 }
 
-fn more(drifts: &[&Drift], location: &str) -> String {
-    match drifts.len().saturating_sub(MAX_LINES) {
-        0 => String::new(),
-        more => format!("  and {more} more{location}\n"),
+/// Returns a line about changes that are not listed, if there are any.
+fn more(all: usize, location: &str) -> Option<String> {
+    match all.saturating_sub(MAX_LINES) {
+        0 => None,
+        more => Some(format!("and {more} more{location}")),
+    }
+}
+
+fn count_or_no(number: usize, noun: &str) -> String {
+    match number {
+        0 => format!("no {noun}"),
+        number => count(number, noun),
     }
 }
 

@@ -8,8 +8,9 @@ use std::path::Path;
 use crate::cli::Lists;
 use crate::entry::Person;
 use crate::error::Error;
+use crate::list_kind::ListKind;
 use crate::moodle_status::MoodleStatus;
-use crate::names::{are_equal, fold};
+use crate::names::{are_equal, fold, number_at_end};
 use crate::table::{Table, missing_column};
 
 pub use times::set_submission_times;
@@ -50,11 +51,13 @@ const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
 const EXTENSION: [&str; 3] = ["extension", "extension_days", "extension days"];
 
 /// The name in the row of Canvas's gradebook with the maximum points.
-const POINTS_POSSIBLE: &str = "Points Possible";
+pub const POINTS_POSSIBLE: &str = "Points Possible";
 
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
+    /// The list.
+    pub list: ListKind,
     /// The row, as spreadsheets number it.
     row: usize,
     /// The person that the row is about.
@@ -98,18 +101,27 @@ impl Member {
 }
 
 /// Reads the people in a roster or in a platform's gradebook.
-pub fn read_members(path: &Path) -> Result<Vec<Member>, Error> {
+fn read_members(path: &Path, list: ListKind) -> Result<Vec<Member>, Error> {
     let remedy = "it needs at least one of the columns name, email, sid and username; in another \
         language, column heads are not recognised";
-    let members = parse_members(&Table::read(path)?);
+    let members = parse_members(&Table::read(path)?, list);
     members.ok_or_else(|| missing_column(path, "that identifies people", remedy))
 }
 
-fn parse_members(table: &Table) -> Option<Vec<Member>> {
+fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
-    let [name, first, last] = [column(&NAME), column(&FIRST), column(&LAST)];
-    let [email, sid, login] = [column(&EMAIL), column(&SID), column(&LOGIN)];
-    let [group, extension] = [column(&GROUP), column(&EXTENSION)];
+    let columns = [
+        &NAME[..],
+        &FIRST,
+        &LAST,
+        &EMAIL,
+        &SID,
+        &LOGIN,
+        &GROUP,
+        &EXTENSION,
+    ];
+    let columns = columns.map(column);
+    let [name, _, _, email, sid, login, ..] = columns;
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
     // Moodle writes a word in the site's language before the number.
     let identifier = table.column("Identifier");
@@ -127,34 +139,26 @@ fn parse_members(table: &Table) -> Option<Vec<Member>> {
             let cell = column.and_then(|column| row.get(column));
             cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
         };
-        let full = match cell(name) {
-            name if name.is_empty() => format!("{} {}", cell(first), cell(last)).trim().to_owned(),
-            name => name,
-        };
+        let [name, first, last, email, sid, login, group, extension] = columns.map(cell);
+        let parts = format!("{first} {last}").trim().to_owned();
         // With blind marking, nobody has a name.
-        let full = if full.is_empty() {
-            cell(identifier)
-        } else {
-            full
-        };
+        let names = [name, parts, cell(identifier)];
+        let name = names.into_iter().find(|name| !name.is_empty());
         let person = Person {
-            name: full,
-            email: cell(email),
-            sid: cell(sid),
-            login: cell(login),
-            number: cell(number)
-                .rsplit(|c: char| !c.is_ascii_digit())
-                .next()
-                .unwrap_or_default()
-                .to_owned(),
-            group: cell(group),
-            extension: cell(extension),
+            name: name.unwrap_or_default(),
+            email,
+            sid,
+            login,
+            number: number_at_end(&cell(number)).to_owned(),
+            group,
+            extension,
             status: cell(status),
             is_named_by_file: false,
             is_from_group: false,
             is_listed: true,
         };
         Member {
+            list,
             row: row_number,
             person,
             // Moodle writes a dash for a participant who handed in nothing.
@@ -197,7 +201,7 @@ fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
             }
             let first = *rows.entry((kind, fold(key))).or_insert(index);
             if !is_repetition(&members[first].person, &member.person) {
-                return Err(Error::User(format!(
+                return Err(Error::user(format!(
                     "{}: rows {} and {} both have {key:?}, but differ otherwise: correct one of them",
                     path.display(),
                     members[first].row,
@@ -222,22 +226,22 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
     pairs.iter().all(|(one, other)| are_equal(one, other))
 }
 
-/// Reads a roster, and checks that no two people have the same identifier.
-pub fn read_roster(path: &Path) -> Result<Vec<Member>, Error> {
-    let members = read_members(path)?;
-    check_keys(path, &members)?;
-    Ok(members)
-}
-
-/// Reads the people on all lists. A person has a row in each list that knows them.
+/// Reads the people on all lists. A person has a row in each list that knows them. No two people in
+/// the roster may have the same identifier.
 pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
-    let mut rows = match &lists.roster {
-        Some(path) => read_roster(path)?,
-        None => Vec::new(),
-    };
-    let gradebooks = [&lists.canvas, &lists.moodle, &lists.gradescope];
-    for path in gradebooks.into_iter().flatten() {
-        rows.extend(read_members(path)?);
+    let mut rows = Vec::new();
+    if let Some(path) = &lists.roster {
+        rows = read_members(path, ListKind::Roster)?;
+        check_keys(path, &rows)?;
+    }
+    for (path, list) in [
+        (&lists.canvas, ListKind::Canvas),
+        (&lists.moodle, ListKind::Moodle),
+        (&lists.gradescope, ListKind::Gradescope),
+    ] {
+        if let Some(path) = path {
+            rows.extend(read_members(path, list)?);
+        }
     }
     Ok(rows)
 }

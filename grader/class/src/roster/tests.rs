@@ -1,9 +1,12 @@
 //! Tests of reading rosters, and of matching their rows with people.
 
+use serde_json::json;
+
 use super::*;
+use crate::graded_class::tests::person;
 
 fn parse_roster(table: &str) -> Vec<Member> {
-    parse_members(&Table::parse(table.as_bytes()).unwrap()).unwrap()
+    parse_members(&Table::parse(table.as_bytes()).unwrap(), ListKind::Roster).unwrap()
 }
 
 #[test]
@@ -29,10 +32,7 @@ fn an_ambiguous_name_matches_nobody() {
 fn the_same_name_with_another_number_does_not_match() {
     let worksheet = "Identifier,Full name,Email address\nParticipant 307,Ann Lee,a@x.edu\n";
     let list = parse_roster(worksheet);
-    let numbered = |number: &str| Person {
-        number: number.to_owned(),
-        ..Person::named("Ann Lee")
-    };
+    let numbered = |number: &str| person(json!({ "name": "Ann Lee", "number": number }));
     assert!(list[0].matches(&numbered("307")));
     assert!(!list[0].matches(&numbered("308")));
     let without_numbers = parse_roster("name,email\nAnn Lee,a@x.edu\n");
@@ -47,7 +47,8 @@ fn one_column_that_identifies_people_is_enough() {
         assert_eq!(rows[0].person.display_name(), "x", "{name}");
         assert!(rows[0].late);
     }
-    assert!(parse_members(&Table::parse(b"group,late\nx,true\n").unwrap()).is_none());
+    let table = Table::parse(b"group,late\nx,true\n").unwrap();
+    assert!(parse_members(&table, ListKind::Roster).is_none());
     // The number that Canvas writes into a list of a group's members.
     let rows = parse_roster("name,canvas_user_id\nAnn,7001\n");
     assert_eq!(rows[0].person.number, "7001");
@@ -63,22 +64,9 @@ fn a_dash_is_no_time() {
 #[test]
 fn a_name_does_not_count_beside_another_identifier() {
     let rows = parse_roster("name,email,sid,login\nAnn Lee,a@x.edu,u1,ann\n");
-    let named = || Person::named("Ann Lee");
-    assert!(rows[0].matches(&named()));
-    let other = || "other".to_owned();
-    let with_email = Person {
-        email: other(),
-        ..named()
-    };
-    let with_sid = Person {
-        sid: other(),
-        ..named()
-    };
-    let with_login = Person {
-        login: other(),
-        ..named()
-    };
-    for person in [with_email, with_sid, with_login] {
+    assert!(rows[0].matches(&Person::named("Ann Lee")));
+    for other in ["email", "sid", "login"] {
+        let person = person(json!({ "name": "Ann Lee", other: "other" }));
         assert!(!rows[0].matches(&person), "{person:?}");
     }
 }
@@ -113,11 +101,7 @@ fn everybody_who_is_missing_is_named_once() {
     assert_eq!(names(table, &[&Person::named("eve")]), ["Ann", "Bob"]);
     // Two people with this name, who are told apart by nothing else.
     let table = "name,group\nAnn,One\nAnn,Two\n";
-    let of_group = Person {
-        group: "Two".to_owned(),
-        is_from_group: true,
-        ..Person::named("Ann")
-    };
+    let of_group = person(json!({ "name": "Ann", "group": "Two", "is_from_group": true }));
     assert_eq!(names(table, &[&of_group]), ["Ann"]);
     assert_eq!(names(table, &[]), ["Ann", "Ann"]);
 }
@@ -128,7 +112,11 @@ fn a_key_belongs_to_one_person() {
     let path = folder.path().join("roster.csv");
     let check = |table: &str| {
         std::fs::write(&path, table).unwrap();
-        read_roster(&path).map(drop)
+        let lists = Lists {
+            roster: Some(path.clone()),
+            ..Lists::default()
+        };
+        read_lists(&lists).map(drop)
     };
     let sections = "name,email,section\nAnn,a@x.edu,1\nann,A@x.edu,2\n";
     assert!(check(sections).is_ok());

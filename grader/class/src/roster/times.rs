@@ -4,25 +4,18 @@ use grader::policy::{are_far_apart, read_time};
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use super::{Member, read_members};
-use crate::cli::Lists;
+use super::Member;
 use crate::entry::{EntryInfo, ListedTime};
-use crate::error::Error;
+use crate::list_kind::ListKind;
 
 /// Notes the submission times in the roster, Gradescope's list or Moodle's worksheet, where the
 /// platform's export says none.
-pub fn set_submission_times(lists: &Lists, entries: &mut [&mut EntryInfo]) -> Result<(), Error> {
-    let mut members = Vec::new();
-    for path in [&lists.roster, &lists.gradescope, &lists.moodle]
-        .into_iter()
-        .flatten()
-    {
-        members.extend(read_members(path)?);
-    }
+pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
-        let theirs = members.iter().filter(|member| {
+        let theirs = rows.iter().filter(|row| {
             let mut people = info.people.iter();
-            !member.submitted.is_empty() && people.any(|person| member.matches(person))
+            let has_time = row.list != ListKind::Canvas && !row.submitted.is_empty();
+            has_time && people.any(|person| row.matches(person))
         });
         let theirs: Vec<&Member> = theirs.collect();
         // If there are several submissions, the last one was cloned. A time that cannot be read is
@@ -47,7 +40,6 @@ pub fn set_submission_times(lists: &Lists, entries: &mut [&mut EntryInfo]) -> Re
             late: last.late,
         });
     }
-    Ok(())
 }
 
 /// Returns the time for comparisons within a list, whose local times are in one time zone.

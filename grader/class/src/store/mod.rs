@@ -12,7 +12,7 @@ use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
 
-use crate::archive;
+use crate::archive::ArchiveWriter;
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
@@ -39,7 +39,7 @@ pub struct Store {
 /// Returns the error of a file with invalid contents.
 fn damaged(path: &Path, why: &serde_json::Error) -> Error {
     let path = path.display();
-    Error::Machine(format!(
+    Error::machine(format!(
         "{path} is damaged ({why}): delete it and grade again"
     ))
 }
@@ -126,7 +126,7 @@ impl Store {
     pub fn has_nothing_to_grade(&self, id: &str, why: &str) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
         stamp.is_some_and(
-            |stamp| matches!(stamp.outcome, EntryOutcome::NothingToGrade(stored) if stored == why),
+            |stamp| matches!(stamp.result.outcome, EntryOutcome::NothingToGrade(stored) if stored == why),
         )
     }
 
@@ -144,8 +144,7 @@ impl Store {
         let stamp = Stamp {
             key: key.to_owned(),
             round,
-            info: result.info.clone(),
-            outcome: result.outcome.clone(),
+            result: result.clone(),
         };
         Ok(atomic_write::write(json(&stamp), &folder.join(STAMP))?)
     }
@@ -159,9 +158,15 @@ impl Store {
     /// Writes the task files that are graded.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
         let path = self.entry_folder(id).join(SUBMISSION);
-        let files = submission.files.iter();
-        let files = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
-        Ok(atomic_write::write(archive::pack(files), &path)?)
+        let mut archive = ArchiveWriter::new();
+        for (file, text) in &submission.files {
+            if let Ok(text) = text {
+                let added = archive.add(file.name, text.as_bytes());
+                added.expect("writing to memory succeeds");
+            }
+        }
+        let archive = archive.finish().expect("writing to memory succeeds");
+        Ok(atomic_write::write(archive, &path)?)
     }
 
     /// Reads the page that the student may see.
@@ -244,8 +249,7 @@ impl Store {
         };
         let mut result = EntryResult {
             id: id.to_owned(),
-            info: stamp.info,
-            outcome: stamp.outcome,
+            ..stamp.result
         };
         if let EntryOutcome::Graded(score) = &mut result.outcome {
             **score = self.read_score(id)?;
@@ -259,7 +263,7 @@ impl Store {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
-            let last = match self.read_stamp(&id)?.map(|stamp| stamp.outcome) {
+            let last = match self.read_stamp(&id)?.map(|stamp| stamp.result.outcome) {
                 Some(EntryOutcome::Graded(_)) => Some(files::read_to_string(folder.join(SCORE))?),
                 Some(EntryOutcome::NothingToGrade(_)) => {
                     files::remove_if_exists(&path)?;

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::*;
-use crate::entry::{EntryInfo, Person, Source};
+use crate::entry::{Person, Source};
 use crate::graded_class::tests::{graded, result};
 use crate::run::Settings;
 
@@ -53,14 +53,7 @@ fn store() -> (tempfile::TempDir, Store) {
 }
 
 fn entry(id: &str) -> Entry {
-    Entry {
-        id: id.to_owned(),
-        info: EntryInfo {
-            people: vec![Person::named("Ann")],
-            ..EntryInfo::default()
-        },
-        source: Source::Missing(String::new()),
-    }
+    Entry::new(id, Person::named("Ann"), "", Source::Missing(String::new()))
 }
 
 fn points(score: Result<Option<ScoreSummary>, Error>) -> Option<u32> {
@@ -76,6 +69,14 @@ pub(crate) fn run() -> Run {
         isolation: "full".to_owned(),
         options: "4".to_owned(),
     })
+}
+
+/// Returns settings with another exam.
+pub(crate) fn other_settings() -> Settings {
+    Settings {
+        exam_hash: "other".to_owned(),
+        ..run().settings
+    }
 }
 
 #[test]
@@ -156,16 +157,10 @@ fn a_result_is_valid_for_its_key_only_and_takes_the_entrys_new_people() {
     assert_eq!(store.cached_result(&entry("a"), "other"), None);
     assert_eq!(store.cached_result(&entry("b"), "key"), None);
     store.save_graded(&result("a", &["Ann"], nothing()), "key", 1);
-    fs::write(
-        store.entry_folder("a").join(SCORE),
-        r#"{"points": 80, "max_points": 100, "tasks": []}"#,
-    )
-    .unwrap();
-    assert_eq!(
-        store.cached_result(&entry("a"), "key"),
-        None,
-        "there was nothing to grade"
-    );
+    let score = r#"{"points": 80, "max_points": 100, "tasks": []}"#;
+    fs::write(store.entry_folder("a").join(SCORE), score).unwrap();
+    let cached = store.cached_result(&entry("a"), "key");
+    assert_eq!(cached, None, "there was nothing to grade");
 }
 
 /// The run ends while the files of an earlier result are removed.
@@ -223,11 +218,7 @@ fn both_pages_say_what_counts() {
     fs::write(folder.join(REPORT), page).unwrap();
     let texts = ["45 of 50".to_owned()];
     store.write_counted("a", &texts).unwrap();
-    assert_eq!(
-        names(&folder),
-        [REPORT],
-        "a page that is missing is not made"
-    );
+    assert_eq!(names(&folder), [REPORT], "no page is made");
     store.save_feedback("a", page).unwrap();
     store.write_counted("a", &texts).unwrap();
     for name in [REPORT, FEEDBACK] {
@@ -300,10 +291,6 @@ fn a_copied_entry_has_the_files_of_the_other_store_and_no_others() {
     to.copy_entry("a", &from).unwrap();
     assert_eq!(names(&to.entry_folder("a")), [STAMP, SCORE]);
     assert_eq!(to.result("a").unwrap(), from.result("a").unwrap());
-    assert_eq!(
-        points(Ok(to.result("a").unwrap().unwrap().score().cloned())),
-        Some(80)
-    );
 
     from.remove_stamp("a").unwrap();
     to.copy_entry("a", &from).unwrap();

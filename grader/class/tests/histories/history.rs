@@ -71,37 +71,39 @@ impl History {
                 self.submit();
                 Ok(())
             }
+            kind => {
+                let text = self.change(kind);
+                self.log.push(text);
+                Ok(())
+            }
+        }
+    }
+
+    /// Changes the course, and says how.
+    fn change(&mut self, kind: u32) -> String {
+        let world = &mut self.world;
+        match kind {
             16 => {
                 let student = *self.rng.choice(&STUDENTS).unwrap();
-                self.log.push(format!("{student} leaves"));
-                self.world.withdraw(student);
-                Ok(())
+                world.withdraw(student);
+                format!("{student} leaves")
             }
             17 => {
-                self.world.exam = self.rng.usize(0..EXAMS);
-                self.log
-                    .push(format!("the exam is number {}", self.world.exam));
-                Ok(())
+                world.exam = self.rng.usize(0..EXAMS);
+                format!("the exam is number {}", world.exam)
             }
             18 if self.rng.bool() => {
-                self.world.manual = self.rng.usize(0..MANUAL_POINTS.len());
-                self.log.push(format!(
-                    "the points by hand are number {}",
-                    self.world.manual
-                ));
-                Ok(())
+                world.manual = self.rng.usize(0..MANUAL_POINTS.len());
+                format!("the points by hand are number {}", world.manual)
             }
             18 => {
-                self.world.policy = self.rng.usize(0..POLICIES.len());
-                self.log
-                    .push(format!("the policy is number {}", self.world.policy));
-                Ok(())
+                world.policy = self.rng.usize(0..POLICIES.len());
+                format!("the policy is number {}", world.policy)
             }
             _ => {
                 let days = self.rng.i64(-9_000..9_000);
-                self.log.push(format!("the clock jumps by {days} days"));
-                self.world.jump_clock(days);
-                Ok(())
+                world.jump_clock(days);
+                format!("the clock jumps by {days} days")
             }
         }
     }
@@ -127,13 +129,10 @@ impl History {
     }
 
     fn disk_fault(&mut self, target: Target) -> DiskFault {
-        let most = self.operations.get(&target).copied();
-        let most = most.unwrap_or(Operations {
-            changes: 30,
-            reads: 30,
-        });
-        let change = self.rng.u64(1..=most.changes.max(1));
-        let read = self.rng.u64(1..=most.reads.max(1));
+        let most = self.operations.get(&target);
+        let (changes, reads) = most.map_or((30, 30), |most| (most.changes, most.reads));
+        let change = self.rng.u64(1..=changes.max(1));
+        let read = self.rng.u64(1..=reads.max(1));
         match self.rng.u32(0..12) {
             0..=3 => DiskFault::KilledAt(change),
             4 => DiskFault::FullFrom(change),
@@ -288,19 +287,16 @@ impl History {
 
     /// Returns the option for points by hand, if they are given.
     fn manual_option(&self) -> Vec<&'static str> {
-        let option = MANUAL_POINTS[self.world.manual];
-        Some(option)
-            .filter(|option| !option.is_empty())
-            .into_iter()
-            .collect()
+        match MANUAL_POINTS[self.world.manual] {
+            "" => Vec::new(),
+            option => vec![option],
+        }
     }
 
     fn parts_are_current(&self) -> bool {
         let class = self.expected(Target::Whole);
-        let policy = match self.world.policy {
-            0 => None,
-            number => Some(format!("policy-{number}.toml")),
-        };
+        let policy = Some(self.world.policy).filter(|number| *number > 0);
+        let policy = policy.map(|number| format!("policy-{number}.toml"));
         let mut ids = BTreeSet::new();
         for part in 1..=PARTS {
             let observed = &self.models[&Target::Part(part)].observed;
@@ -392,9 +388,6 @@ impl History {
 
     /// Runs everything once more without faults, and compares it with new folders.
     fn end(&mut self) -> Result<(), String> {
-        if !self.world.is_class() {
-            self.world.submit(STUDENTS[0], Some(self.next_version));
-        }
         let none = (DiskFault::None, ProcessFault::None);
         // Parts with different lists cannot be merged.
         self.world.manual = 1;
@@ -402,10 +395,8 @@ impl History {
             self.world.submit(STUDENTS[0], Some(self.next_version));
         }
         let model = self.models.entry(Target::Whole).or_default();
-        let is_regrade = model
-            .observed
-            .exam()
-            .is_some_and(|exam| exam != self.world.exam);
+        let exam = model.observed.exam();
+        let is_regrade = exam.is_some_and(|exam| exam != self.world.exam);
         self.grade_with(Target::Whole, is_regrade, true, none.0, none.1)?;
         let folder = self.world.folder(Target::Whole);
         let files = all_files(&folder);

@@ -2,7 +2,7 @@
 //! Nothing that a student chooses may bring them to the teacher's terminal, tables or pages.
 
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
-use class::final_grades::{GradeChange, GradeChanges};
+use class::final_grades::GradeChanges;
 use class::gradebook::{CellChange, FilledGradebook};
 use class::graded_class::{ClassRow, GradedClass};
 use class::hand_back::HandBack;
@@ -11,7 +11,7 @@ use class::manual_points::ManualPoints;
 use class::outcome::{
     EntryOutcome, EntryResult, FileNotes, Hint, ItemScore, ScoreSummary, TaskScore,
 };
-use class::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges, RemovedEntry};
+use class::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges};
 use class::report::grades::grades_table;
 use class::report::page::render_page;
 use class::report::preview::render_preview;
@@ -156,20 +156,10 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
             causes: Vec::new(),
         }),
         resubmitted: drifts,
-        removed: vec![RemovedEntry {
-            id: text.to_owned(),
-            names: text.to_owned(),
-            points: None,
-        }],
+        removed: vec![text.to_owned()],
         grades: Some(GradeChanges {
             causes: Vec::new(),
-            changes: vec![GradeChange {
-                id: text.to_owned(),
-                who: text.to_owned(),
-                was: text.to_owned(),
-                now: "1".to_owned(),
-                why: text.to_owned(),
-            }],
+            changes: vec![text.to_owned()],
         }),
     };
     let gradebook = FilledGradebook {

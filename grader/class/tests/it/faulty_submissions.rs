@@ -1,9 +1,11 @@
 //! Tests that each faulty submission gets a row, and that the points of the others are not
-//! affected.
+//! affected; and that a fault of the machine is tried again, and gives no score if it remains.
+
+use std::process::Output;
 
 use serde_json::Value;
 
-use crate::harness::{TestClass, successful_stdout};
+use crate::harness::{TestClass, assert_contains, exit_code_and_stderr, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
@@ -68,7 +70,7 @@ fn the_page_for_a_student_has_nothing_that_the_program_wrote() {
         .with_reference("sender2")
         .with_replaced("sender2/camera.rs", head, &sends(0x61c8_8646));
     let exam = class.small_exam(&ITEMS);
-    successful_stdout(&class.grade(&exam, &[]));
+    class.graded(&exam, &[]);
     let page = |id: &str, name: &str| {
         let page = class.read(&format!("students/{id}/{name}.html"));
         page.replace(id, "sender")
@@ -99,7 +101,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     link("alice", "linked-student");
     link("../alice.zip", "linked-archive/work.zip");
     let exam = class.small_exam(&ITEMS);
-    successful_stdout(&class.grade(&exam, &[]));
+    class.graded(&exam, &[]);
     let grades = class.read("grades.csv");
     let line = |id: &str| {
         let line = grades.lines().find(|line| line.starts_with(id));
@@ -114,8 +116,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
         ("linked-archive,", "work.zip"),
     ] {
         let (line, why) = (line(id), format!("{link} is a link"));
-        assert!(line.contains("nothing to grade,,,"), "{line}");
-        assert!(line.contains(&why), "{line}");
+        assert_contains(&line, &["nothing to grade,,,", &why]);
     }
     assert!(class.preview().contains(".hidden"), "{}", class.preview());
 }
@@ -150,7 +151,73 @@ fn an_unreadable_folder_is_listed_with_the_reason() {
         return;
     }
     let line = "locked: nothing to grade: the folder or file cannot be read: permission denied";
-    assert!(preview.contains(line), "{preview}");
-    assert!(preview.contains("alice: all 5 files"), "{preview}");
-    assert!(preview.contains("partly locked: all 5 files"), "{preview}");
+    assert_contains(
+        &preview,
+        &[line, "alice: all 5 files", "partly locked: all 5 files"],
+    );
+}
+
+/// A linker that fails if there is a file `fault-*` next to it. Each failure removes one such file.
+/// It has no PATH, like every linker that the grader starts.
+#[cfg(unix)]
+const LINKER: &str = r#"#!/bin/sh
+PATH=/usr/local/bin:/usr/bin:/bin
+here=$(dirname "$0")
+for fault in "$here"/fault-*; do
+    if [ -e "$fault" ]; then
+        rm "$fault"
+        echo "No space left on device" >&2
+        exit 1
+    fi
+done
+exec cc "$@"
+"#;
+
+#[cfg(unix)]
+fn grade_with_faults(faults: usize, class: &TestClass, exam: &str) -> Output {
+    use std::fs;
+    use std::os::unix::fs::PermissionsExt;
+
+    let tools = class.path_beside("tools");
+    fs::create_dir_all(&tools).unwrap();
+    let linker = tools.join("cc");
+    fs::write(&linker, LINKER).unwrap();
+    fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
+    for fault in 0..faults {
+        fs::write(tools.join(format!("fault-{fault}")), "").unwrap();
+    }
+    let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
+    let mut run = class.command(exam, &[]);
+    let output = run.env("PATH", path).output().unwrap();
+    let unused = fs::read_dir(&tools).unwrap().count() - 1;
+    assert!(
+        faults == 0 || unused < faults,
+        "the linker must have been called"
+    );
+    for fault in 0..faults {
+        fs::remove_file(tools.join(format!("fault-{fault}"))).ok();
+    }
+    output
+}
+
+#[cfg(unix)]
+#[test]
+fn a_transient_fault_is_retried_and_a_lasting_fault_gives_no_score() {
+    let class = TestClass::named("class").with_reference("ann");
+    let exam = class.small_exam(&ITEMS);
+
+    let output = grade_with_faults(1000, &class, &exam);
+    let (code, error) = exit_code_and_stderr(&output);
+    assert_eq!(code, 3, "{error}");
+    assert_contains(&error, &["not graded, and not the student's fault"]);
+    let grades = class.read("grades.csv");
+    assert!(grades.contains("ann,ann,,,,not graded,,,"), "{grades}");
+    let score = class.out().join("students/ann/score.json");
+    assert!(!score.exists(), "there must be no score");
+
+    let text = successful_stdout(&grade_with_faults(1, &class, &exam));
+    assert!(!text.contains("not graded"), "{text}");
+    let grades = class.read("grades.csv");
+    let points: Vec<&str> = grades.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!((points[5], points[6]), ("graded", points[7]), "{grades}");
 }

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
+use crate::harness::TestClass;
 
 #[test]
 fn rejects_an_ambiguous_gradebook_before_grading() {
@@ -10,9 +10,7 @@ fn rejects_an_ambiguous_gradebook_before_grading() {
     let exam = class.small_exam(&["camera.offset"]);
     let canvas = "Student,ID,SIS Login ID,Section,One (1),Two (2)\n";
     let canvas = class.write_beside("canvas-export.csv", canvas);
-    let output = class.grade(&exam, &["--canvas", &canvas]);
-    let (code, error) = exit_code_and_stderr(&output);
-    assert_eq!(code, 2);
+    let error = class.refused(&exam, &["--canvas", &canvas]);
     assert!(error.contains("choose one with --column"), "{error}");
     assert!(!class.out().exists(), "nothing must be graded");
 }
@@ -44,42 +42,29 @@ submission_3:
         .with_reference("submission_1")
         .with_starter("submission_2")
         .with_folder("submission_3");
-    let canvas = class.write_beside(
-        "canvas-export.csv",
+    let canvas =
         "Student,ID,SIS User ID,SIS Login ID,Section,Quiz (11),Path Tracer (4242),Final Score
     Points Possible,,,,,10,4,(read only)
 \"Núñez, José\",7001,u1,jose,Lab 2,9,1,90
 \"Lee, Ann\",7002,u2,ann,Lab 2,8,EX,80
 \"Empty, E\",7004,u4,empty,Lab 1,7,3,70
 \"Missing, M\",7005,u5,missing,Lab 1,6,2,60
-",
-    );
-    let moodle = class.write_beside(
-        "worksheet.csv",
-        "\u{feff}Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Grade can be changed,Last modified (submission),Last modified (grade),Feedback comments
+";
+    let moodle = "\u{feff}Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Grade can be changed,Last modified (submission),Last modified (grade),Feedback comments
 Participant 301,José Núñez,u1,jose@example.edu,Submitted,,4.00,Yes,-,-,
 Participant 302,Ann Lee,u2,ann@example.edu,Submitted,\"2,00\",4.00,No,-,-,
-",
-    );
-    let gradescope = class.write_beside(
-        "grades.csv",
-        "First Name,Last Name,SID,Email,Sections,Total Score,Max Points,Status
+";
+    let gradescope = "First Name,Last Name,SID,Email,Sections,Total Score,Max Points,Status
 José,Núñez,u1,jose@example.edu,,1.0,4.0,Graded
 Ann,Lee,u2,ann@example.edu,,4.0,4.0,Graded
-",
-    );
+";
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
     let lists = [
-        "--canvas",
-        &canvas,
-        "--column",
-        "Path Tracer",
-        "--moodle",
-        &moodle,
-        "--gradescope",
-        &gradescope,
+        ("canvas", canvas),
+        ("moodle", moodle),
+        ("gradescope", gradescope),
     ];
-    let text = successful_stdout(&class.grade(&exam, &lists));
+    let text = class.graded_with(&exam, &lists, &["--column", "Path Tracer"]);
     let lists = text.split("Canvas, ").nth(1).unwrap();
     let here = class.path_beside("");
     let lists = lists.replace(here.to_str().unwrap(), "HERE/");

@@ -1,46 +1,22 @@
 //! The archive with the pages to hand back, named as each platform expects it.
 
-use std::fs::File;
-use std::io::{Cursor, Read, Seek, Write};
+use grader::handed_out::RAYS;
 
-use zip::write::SimpleFileOptions;
-use zip::{ZipArchive, ZipWriter};
-
-use crate::harness::{TestClass, successful_stdout, workspace};
+use crate::harness::{TestClass, assert_contains, source, unzip, zip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
 /// Returns a zip with the reference's task files.
 fn solution() -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for file in grader::handed_out::RAYS.file_names() {
-        let text = std::fs::read(workspace().join("reference/src").join(file)).unwrap();
-        writer
-            .start_file(file, SimpleFileOptions::default())
-            .unwrap();
-        writer.write_all(&text).unwrap();
-    }
-    writer.finish().unwrap().into_inner()
+    let read = |file: &'static str| (file, source(&format!("reference/src/{file}")));
+    zip(RAYS.file_names().map(read))
 }
 
-/// Returns the names in an archive, and the text of each file.
-fn contents(archive: impl Read + Seek) -> Vec<(String, Vec<u8>)> {
-    let mut archive = ZipArchive::new(archive).unwrap();
-    let mut files = Vec::new();
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index).unwrap();
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).unwrap();
-        files.push((file.name().unwrap().into_owned(), bytes));
-    }
-    files
-}
-
-fn hand_back(class: &TestClass, more: &[&str]) -> (Vec<(String, Vec<u8>)>, String) {
+fn hand_back(class: &TestClass, lists: &[(&str, &str)]) -> (Vec<(String, Vec<u8>)>, String) {
     let exam = class.small_exam(&ITEMS);
-    let text = successful_stdout(&class.grade(&exam, &[&["--hand-back"], more].concat()));
-    let archive = File::open(class.out().join("hand-back.zip")).unwrap();
-    (contents(archive), text)
+    let text = class.graded_with(&exam, lists, &["--hand-back"]);
+    let archive = std::fs::read(class.out().join("hand-back.zip")).unwrap();
+    (unzip(&archive), text)
 }
 
 fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
@@ -50,41 +26,36 @@ fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
 /// Canvas finds the submission by the numbers of the user and of one of their attachments.
 #[test]
 fn canvas_gets_each_page_under_the_name_of_an_attachment() {
-    let bvh = std::fs::read(workspace().join("reference/src/bvh.rs")).unwrap();
+    let bvh = source("reference/src/bvh.rs");
     let class = TestClass::named("submissions")
         .with("doejane_7001_9001_hw.zip", solution())
         .with("doejane_7001_9002_notes.pdf", "text")
         .with("leeann_LATE_7002_9003_bvh.rs", bvh)
         .with("anon_xK3f9_9040_hw-1.zip", solution())
         .with("emptyeve_7005_text.html", "text");
-    let gradebook = class.write_beside(
-        "canvas-export.csv",
-        "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
-         \"Doe, Jane\",7001,u1,jane,A,\n\"Lee, Ann\",7002,u2,ann,A,\n",
-    );
-    let (files, text) = hand_back(&class, &["--canvas", &gradebook]);
+    let gradebook = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
+                     \"Doe, Jane\",7001,u1,jane,A,\n\"Lee, Ann\",7002,u2,ann,A,\n";
+    let (files, text) = hand_back(&class, &[("canvas", gradebook)]);
     let expected = [
         "anon_xK3f9_9040_hw-1.zip",
         "doejane_7001_9001_hw.zip",
         "leeann_LATE_7002_9003_bvh.rs.html",
     ];
     assert_eq!(names(&files), expected);
-    assert!(text.contains("to hand back: 3 pages"), "{text}");
-    assert!(
-        text.contains("not in it: emptyeve: nothing to grade"),
-        "{text}"
+    assert_contains(
+        &text,
+        &[
+            "to hand back: 3 pages",
+            "not in it: emptyeve: nothing to grade",
+        ],
     );
-    let inner = contents(Cursor::new(&files[1].1));
+    let inner = unzip(&files[1].1);
     assert_eq!(names(&inner), ["Doe__Jane_feedback.html"]);
     let page = String::from_utf8(inner[0].1.clone()).unwrap();
     assert!(page.contains("Doe, Jane") && page.ends_with("</html>"));
     // The name in the gradebook is also in the table and on the class's page.
-    assert!(
-        class
-            .read("grades.csv")
-            .contains("doejane_7001,\"Doe, Jane\",")
-    );
-    assert!(class.read("class.html").contains("Doe, Jane"));
+    assert_contains(&class.read("grades.csv"), &["doejane_7001,\"Doe, Jane\","]);
+    assert_contains(&class.read("class.html"), &["Doe, Jane"]);
 }
 
 /// Moodle splits the name at its first four underscores: the second part is the participant.
@@ -96,15 +67,10 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
     // Without a list, a number could be a group's, and a stranger would get the page.
     let (files, text) = hand_back(&class, &[]);
     assert_eq!(names(&files), [""; 0]);
-    assert!(
-        text.contains("pass Moodle's worksheet with --moodle"),
-        "{text}"
-    );
-    let worksheet = class.write_beside(
-        "worksheet.csv",
-        "Identifier,Full name,Grade\nParticipant 301,José Núñez,\nParticipant 302,An_n Lee,\n",
-    );
-    let (files, _) = hand_back(&class, &["--moodle", &worksheet]);
+    assert_contains(&text, &["pass Moodle's worksheet with --moodle"]);
+    let worksheet = "Identifier,Full name,Grade\nParticipant 301,José Núñez,\n\
+                     Participant 302,An_n Lee,\n";
+    let (files, _) = hand_back(&class, &[("moodle", worksheet)]);
     let expected = [
         "An n Lee_302_assignfeedback_file_feedback.html",
         "José Núñez_301_assignfeedback_file_feedback.html",
@@ -119,31 +85,17 @@ fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
 
 #[test]
 fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
-    let class = TestClass::named("class")
-        .with_reference("a")
-        .with_reference("b")
-        .with_reference("c")
-        .with_reference("d")
-        .with_reference("e")
-        .with_reference("f");
-    let roster = class.write_beside(
-        "roster.csv",
-        "name,username,group,datetime\n../../Ann,a,,\nCON,b,,\n-rf,c,,\n\
-         Zoë Lee,d,One,2026-11-20 12:00Z\nBea Berg,bea,One,\nZOË LEE,e,,\nLate,f,,yesterday\n",
-    );
-    let policy = "[late]\ndue = 2026-11-20T23:59:59Z\n";
-    let policy = class.write_beside("policy.toml", policy);
-    let manual = class.write_beside(
-        "manual.csv",
-        "student,task,delta,comment,author\nBea Berg,camera,-1,late,Tess\n",
-    );
+    let folders = ["a", "b", "c", "d", "e", "f"].into_iter();
+    let class = folders.fold(TestClass::named("class"), TestClass::with_reference);
+    let roster = "name,username,group,datetime\n../../Ann,a,,\nCON,b,,\n-rf,c,,\n\
+                  Zoë Lee,d,One,2026-11-20 12:00Z\nBea Berg,bea,One,\nZOË LEE,e,,\nLate,f,,yesterday\n";
     let lists = [
-        "--roster",
-        &roster,
-        "--policy",
-        &policy,
-        "--manual-points",
-        &manual,
+        ("roster", roster),
+        ("policy", "[late]\ndue = 2026-11-20T23:59:59Z\n"),
+        (
+            "manual-points",
+            "student,task,delta,comment,author\nBea Berg,camera,-1,late,Tess\n",
+        ),
     ];
     let (files, text) = hand_back(&class, &lists);
     let expected = [

@@ -1,19 +1,8 @@
 //! Whose a submission is: by names and lists, and never by a number or by what a student wrote.
 
-use std::fs::File;
-
-use zip::ZipArchive;
-
-use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
+use crate::harness::{TestClass, assert_contains, unzip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
-
-/// Returns the exit code and the error of a dry run.
-fn preview_error(class: &TestClass) -> (i32, String) {
-    let mut command = class_command();
-    command.arg(class.input()).arg("--dry-run");
-    exit_code_and_stderr(&command.output().unwrap())
-}
 
 /// In Moodle, a team's folder ends in the group's number, here that of Ann in the other team.
 #[test]
@@ -31,47 +20,30 @@ fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let grade = |worksheet: &str, more: &[&str]| {
         let worksheet = class.write_beside("worksheet.csv", worksheet);
         let lists = ["--moodle", &worksheet, "--hand-back"];
-        let output = class.grade(&exam, &[&lists, more].concat());
-        let text = successful_stdout(&output);
-        let archive = File::open(class.out().join("hand-back.zip")).unwrap();
-        let mut archive = ZipArchive::new(archive).unwrap();
-        let pages = (0..archive.len()).map(|index| {
-            archive
-                .by_index(index)
-                .unwrap()
-                .name()
-                .unwrap()
-                .into_owned()
-        });
+        let text = class.graded(&exam, &[&lists, more].concat());
+        let archive = std::fs::read(class.out().join("hand-back.zip")).unwrap();
+        let pages = unzip(&archive).into_iter().map(|(name, _)| name);
         (class.read("moodle.csv"), pages.collect::<Vec<_>>(), text)
     };
     let (moodle, pages, _) = grade(&worksheet("Group"), &[]);
-    for row in [
+    let rows = [
         "51,Ann Lee,Team B,0,",
         "77,Bob Ray,Team A,2,",
         "78,Cid Fox,Team B,0,",
-    ] {
-        assert!(moodle.contains(row), "{moodle}");
-    }
+    ];
+    assert_contains(&moodle, &rows);
     let page = |person: &str| format!("{person}_assignfeedback_file_feedback.html");
     assert_eq!(pages, ["Bob Ray_77", "Ann Lee_51", "Cid Fox_78"].map(page));
 
     // Nothing tells who is in the teams.
     let unknown = worksheet("Other");
-    let error = class.grade(
-        &exam,
-        &["--moodle", &class.write_beside("worksheet.csv", &unknown)],
-    );
-    let (code, error) = exit_code_and_stderr(&error);
-    assert_eq!(code, 2);
-    assert!(error.contains("2 of 2 submissions match nobody"), "{error}");
+    let path = class.write_beside("worksheet.csv", &unknown);
+    let error = class.refused(&exam, &["--moodle", &path]);
+    assert_contains(&error, &["2 of 2 submissions match nobody"]);
     let (moodle, pages, text) = grade(&unknown, &["--accept-unlisted"]);
     assert!(moodle.contains("51,Ann Lee,Team B,,"), "{moodle}");
     assert_eq!(pages, [""; 0]);
-    assert!(
-        text.contains("the number 51 is that of Ann Lee in a list"),
-        "{text}"
-    );
+    assert_contains(&text, &["the number 51 is that of Ann Lee in a list"]);
 }
 
 #[test]
@@ -81,28 +53,26 @@ fn a_canvas_name_that_can_be_read_in_two_ways_needs_a_gradebook() {
         .with("leeann_7002_9002_2026_11_bvh.rs", "text")
         .with("kimbob_7003_9003_bvh.rs", "text");
     let preview = class.preview();
-    assert!(
-        preview.contains("the user number 2 of red or 7001 of red_2"),
-        "{preview}"
+    assert_contains(
+        &preview,
+        &[
+            "the user number 2 of red or 7001 of red_2",
+            "7002 of leeann or 9002 of leeann_7002",
+            "1 of 3 can be graded",
+        ],
     );
-    assert!(
-        preview.contains("7002 of leeann or 9002 of leeann_7002"),
-        "{preview}"
-    );
-    assert!(preview.contains("1 of 3 can be graded"), "{preview}");
     let gradebook = class.write_beside(
         "gradebook.csv",
         "Student,ID,SIS Login ID,Section,Path (7)\nRed_2,7001,red,A,\n\"Lee, Ann\",7002,ann,A,\n\
          \"Kim, Eve\",7003,eve,A,\n",
     );
     let preview = class.preview_of(&class.input(), &["--canvas", &gradebook]);
-    for who in [
+    let who = [
         "  Red_2: 1 of 5 files",
         "  Lee, Ann: ",
         "the number 7003 is that of Kim, Eve",
-    ] {
-        assert!(preview.contains(who), "{preview}");
-    }
+    ];
+    assert_contains(&preview, &who);
 }
 
 /// Mallory's own metadata and folders say that Bob handed something in.
@@ -120,22 +90,17 @@ fn what_is_in_the_only_submission_does_not_describe_the_class() {
             .with_reference(&format!(
                 "mallory/{inside}Bob_51_assignsubmission_file_/a/b"
             ));
-        let (code, error) = preview_error(&class);
-        assert_eq!(code, 2);
-        assert!(
-            error.contains("the folder mallory has several submissions"),
-            "{error}"
-        );
+        let error = class.refused_preview();
+        assert_contains(&error, &["the folder mallory has several submissions"]);
         let roster = class.write_beside("roster.csv", "name\nMallory\nBob\n");
         let preview = class.preview_of(&class.input(), &["--roster", &roster]);
-        assert!(
-            preview.contains("1 submission in folders and archives"),
-            "{preview}"
-        );
-        assert!(preview.contains("  Mallory: all 5 files"), "{preview}");
-        assert!(
-            preview.contains("there is only the folder mallory"),
-            "{preview}"
+        assert_contains(
+            &preview,
+            &[
+                "1 submission in folders and archives",
+                "  Mallory: all 5 files",
+                "there is only the folder mallory",
+            ],
         );
     }
 }
@@ -147,11 +112,10 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
         .with("mon/bob/student/src/bvh.rs", "text")
         .with_minimal_submission("tue/eve")
         .with_minimal_submission("tue/kim");
-    let (code, error) = preview_error(&class);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("the folder mon has several submissions (ann, bob)"),
-        "{error}"
+    let error = class.refused_preview();
+    assert_contains(
+        &error,
+        &["the folder mon has several submissions (ann, bob)"],
     );
     for folder in ["", "Path Tracer/"] {
         for number in ["(1)", " (1)"] {
@@ -160,12 +124,8 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
                 .with(&format!("{folder}camera{number}.rs"), "b")
                 .with(&format!("{folder}bvh.rs"), "a")
                 .with(&format!("{folder}bvh{number}.rs"), "b");
-            let (code, error) = preview_error(&class);
-            assert_eq!(code, 2);
-            assert!(
-                error.contains("has several versions of 2 task files"),
-                "{error}"
-            );
+            let error = class.refused_preview();
+            assert_contains(&error, &["has several versions of 2 task files"]);
         }
     }
 }
@@ -181,17 +141,12 @@ fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let roster = class.write_beside("roster.csv", "username\nann\nkim\n");
     let lists = ["--roster", &roster];
     let preview = class.preview_of(&class.input(), &lists);
-    assert!(
-        preview.contains("this class would not be graded"),
-        "{preview}"
-    );
+    assert_contains(&preview, &["this class would not be graded"]);
     for shard in ["1/3", "2/3"] {
-        let output = class.grade(&exam, &[&lists[..], &["--shard", shard]].concat());
-        let (code, error) = exit_code_and_stderr(&output);
-        assert_eq!(code, 2);
+        let error = class.refused(&exam, &[&lists[..], &["--shard", shard]].concat());
         assert!(error.contains("2 of 3 submissions match nobody"), "{error}");
         assert!(!class.out().exists());
     }
     let confirmed = [&lists[..], &["--shard", "1/3", "--accept-unlisted"]].concat();
-    successful_stdout(&class.grade(&exam, &confirmed));
+    class.graded(&exam, &confirmed);
 }

@@ -1,52 +1,20 @@
 //! Previews of each platform's export. The names are as unusual as those in real classes.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Write;
-use std::path::Path;
 
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::harness::TestClass;
+use crate::harness::{TestClass, assert_contains, files_below, zip};
 
 /// Returns an archive with the five task files in a subfolder.
 fn archive() -> Vec<u8> {
-    let mut writer = ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    for file in RAYS.file_names() {
-        let path = format!("my work/src/{file}");
-        writer
-            .start_file(path, SimpleFileOptions::default())
-            .unwrap();
-        writer.write_all(b"text").unwrap();
-    }
-    writer.finish().unwrap().into_inner()
-}
-
-/// Writes the folder as an archive, as a platform would export it.
-fn zipped(folder: &Path, file: &Path) {
-    let mut writer = ZipWriter::new(File::create(file).unwrap());
-    let mut folders = vec![folder.to_owned()];
-    while let Some(here) = folders.pop() {
-        for entry in std::fs::read_dir(here).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let name = path
-                .strip_prefix(folder.parent().unwrap())
-                .unwrap()
-                .to_str()
-                .unwrap();
-            writer
-                .start_file(name, SimpleFileOptions::default())
-                .unwrap();
-            writer.write_all(&std::fs::read(&path).unwrap()).unwrap();
-        }
-    }
-    writer.finish().unwrap();
+    zip(RAYS
+        .file_names()
+        .map(|file| (format!("my work/src/{file}"), "text")))
 }
 
 /// Metadata as Ruby writes it: symbols, unquoted numbers, tags, and the results of earlier grading.
@@ -107,7 +75,11 @@ fn reads_a_gradescope_export_with_groups() {
 fn an_archived_export_gives_the_same_preview() {
     let class = gradescope();
     let file = class.path_beside("assignment_55_export.zip");
-    zipped(&class.input(), &file);
+    let files = files_below(&class.input()).into_iter().map(|path| {
+        let name = path.strip_prefix(class.path_beside("")).unwrap();
+        (name.to_str().unwrap().to_owned(), fs::read(&path).unwrap())
+    });
+    fs::write(&file, zip(files)).unwrap();
     let entered = "\n  the submissions are those in the folder assignment_55_export\n";
     let preview = class.preview_of(&file, &[]);
     assert!(preview.contains(entered), "{preview}");
@@ -144,15 +116,11 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
 #[test]
 fn reports_invalid_gradescope_metadata() {
     let class = TestClass::named("export").with("submission_metadata.yml", "submission_1: [");
-    let output = crate::harness::class_command()
-        .arg(class.input())
-        .arg("--dry-run")
-        .output()
-        .unwrap();
-    let (code, error) = crate::harness::exit_code_and_stderr(&output);
-    assert_eq!(code, 2);
-    assert!(error.contains("submission_metadata.yml"), "{error}");
-    assert!(error.contains("export the submissions again"), "{error}");
+    let error = class.refused_preview();
+    assert_contains(
+        &error,
+        &["submission_metadata.yml", "export the submissions again"],
+    );
 }
 
 #[test]
@@ -178,10 +146,7 @@ fn canvas_attachments_are_in_the_order_of_their_numbers() {
         .with("doejane_7001_1000_hw-1.zip", archive())
         .with("leeann_7002_9001_hw.zip", archive());
     let preview = class.preview();
-    assert!(
-        preview.contains("doejane_7001_1000_hw-1.zip and 1 more"),
-        "{preview}"
-    );
+    assert_contains(&preview, &["doejane_7001_1000_hw-1.zip and 1 more"]);
 }
 
 #[test]
@@ -315,17 +280,8 @@ fn loose_files_and_an_archive_of_one_canvas_user_are_taken_together() {
 #[test]
 fn rejects_a_single_submission() {
     let class = TestClass::named("student").with("camera.rs", "text");
-    let output = crate::harness::class_command()
-        .arg(class.input())
-        .arg("--dry-run")
-        .output()
-        .unwrap();
-    let (code, error) = crate::harness::exit_code_and_stderr(&output);
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("to grade a single submission, use `cargo grade`"),
-        "{error}"
-    );
+    let error = class.refused_preview();
+    assert_contains(&error, &["to grade a single submission, use `cargo grade`"]);
 }
 
 #[test]

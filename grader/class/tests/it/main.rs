@@ -7,11 +7,7 @@ mod gradebooks;
 mod handing_back;
 mod harness;
 mod identity;
-#[cfg(target_os = "linux")]
-mod large_class;
 mod layouts;
-mod machine_faults;
-mod merging;
 mod numbers;
 mod page;
 mod people;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::harness::{TestClass, successful_stdout};
+use crate::harness::{TestClass, assert_contains};
 
 /// Keep these names in sync with `grader/tests/browser/chromium.rs`.
 const BROWSERS: [&str; 5] = [
@@ -73,18 +73,18 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
         )
         .with_folder("dora");
     let long = "Maximiliane-Anastasia von und zu Hohenlohe-Waldenburg-Schillingsfürst";
-    let roster = class.write_beside(
-        "roster.csv",
-        &format!("name,username,datetime\n{long},ann,2026-11-22T12:00:00Z\nBob,bob,yesterday\n"),
-    );
+    let roster =
+        format!("name,username,datetime\n{long},ann,2026-11-22T12:00:00Z\nBob,bob,yesterday\n");
     let late = "[late]\ndue = 2026-11-20T23:59:59Z\npercent_per_day = 10\n";
-    let policy = class.write_beside("policy.toml", late);
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
-    successful_stdout(&class.grade(&exam, &["--roster", &roster, "--policy", &policy]));
+    class.graded_with(&exam, &[("roster", &roster), ("policy", late)], &[]);
     let page = class.read("class.html");
-    assert!(page.contains("whatever <code>offset</code> is"), "{page}");
-    assert!(page.contains("<th scope=\"row\">2 days late</th><td class=\"number\">1</td>"));
-    assert!(page.contains("Counted as on time, since the time is unknown: carl."));
+    let texts = [
+        "whatever <code>offset</code> is",
+        "<th scope=\"row\">2 days late</th><td class=\"number\">1</td>",
+        "Counted as on time, since the time is unknown: carl.",
+    ];
+    assert_contains(&page, &texts);
 
     let path = class.out().join("class.html");
     let overflow = "document.documentElement.scrollWidth - innerWidth";

@@ -1,12 +1,10 @@
 //! A CI system executes commands in a log. Nothing that a student chooses may become one.
 
-use std::io::{Cursor, Write};
 use std::process::{Command, Output};
 
 use grader::printing::without_commands;
-use zip::ZipWriter;
 
-use crate::harness::{TestClass, class_command};
+use crate::harness::{TestClass, class_command, zip};
 
 /// A command of each kind. It is also a name of a file.
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
@@ -22,15 +20,10 @@ fn check(command: &mut Command) {
 
 #[test]
 fn nothing_of_a_class_is_a_command_in_a_log() {
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = zip::write::SimpleFileOptions::default();
-    archive
-        .start_file(format!("../{COMMANDS}"), options)
-        .unwrap();
-    archive.write_all(b"x").unwrap();
+    let archive = zip([(format!("../{COMMANDS}"), "x")]);
     let hit = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
     let class = TestClass::named(COMMANDS)
-        .with("mallory.zip", archive.finish().unwrap().into_inner())
+        .with("mallory.zip", archive)
         .with(COMMANDS, "")
         .with_reference(&format!("{COMMANDS} folder"))
         .with_reference("ann")

@@ -2,11 +2,8 @@
 //! changes, and the commands in its reports name the submission.
 
 use std::fs;
-use std::io::{Cursor, Read};
 
-use zip::ZipArchive;
-
-use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
+use crate::harness::{TestClass, assert_contains, refusal, source, successful_stdout, unzip};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str =
@@ -31,19 +28,14 @@ impl GradedTwice {
         let exam = class.small_exam(&ITEMS);
         let graded = GradedTwice { class, exam };
         let lists = [
-            ("--policy", "policy.toml", POLICY),
-            ("--roster", "roster.csv", ROSTER),
-            ("--manual-points", "manual.csv", MANUAL),
+            ("policy", POLICY),
+            ("roster", ROSTER),
+            ("manual-points", MANUAL),
         ];
-        let files = lists.map(|(option, name, text)| {
-            let path = graded.class.write_beside(name, text);
-            [option.to_owned(), path]
-        });
-        let words: Vec<&str> = files.iter().flatten().map(String::as_str).collect();
-        graded.run(&words);
-        files
-            .iter()
-            .for_each(|[_, path]| fs::remove_file(path).unwrap());
+        graded.class.graded_with(&graded.exam, &lists, &[]);
+        for (list, _) in lists {
+            fs::remove_file(graded.class.path_beside(&format!("{list}.list"))).unwrap();
+        }
         graded
     }
 
@@ -97,8 +89,7 @@ fn a_copy_that_was_changed_is_not_used() {
     let is_roster = |path: &std::path::PathBuf| path.to_str().unwrap().contains("/roster-");
     let roster = paths.into_iter().find(is_roster).unwrap();
     fs::write(&roster, "username\nann\n").unwrap();
-    let (code, error) = exit_code_and_stderr(&graded.class.grade(&graded.exam, &[]));
-    assert_eq!(code, 2);
+    let error = graded.class.refused(&graded.exam, &[]);
     let advice = "pass it again with --roster, or drop it with --drop-list roster";
     assert!(error.contains(advice), "{error}");
     graded.run(&["--drop-list", "roster"]);
@@ -163,35 +154,19 @@ fn points_by_hand_count_without_anything_that_can_be_graded() {
     assert_eq!(cells[5], "points by hand", "{grades}");
     assert!(cells[6].parse::<u32>().unwrap() > 0, "{grades}");
     assert!(graded.class.read("class.html").contains("drawn on paper"));
-    let (code, error) = exit_code_and_stderr(&grade("99"));
-    assert_eq!(code, 2);
-    assert!(
-        error.contains("+99 points are out of range: 0 of"),
-        "{error}"
-    );
+    let error = refusal(&grade("99"));
+    assert_contains(&error, &["+99 points are out of range: 0 of"]);
 }
 
 /// Canvas's loose files are in no folder of their own, and the export may be an archive.
 #[test]
 fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
     let class = TestClass::named("export");
-    let source = "grader/starter/sphere.rs";
-    let text = fs::read(crate::harness::workspace().join(source)).unwrap();
+    let text = source("grader/starter/sphere.rs");
     let class = class.with("leeann_7001_90001_sphere.rs", &text);
     let exam = class.small_exam(&ITEMS);
     let out = class.path_beside("my results");
-    let mut command = class_command();
-    command
-        .arg(class.input())
-        .args([
-            "--exam",
-            &exam,
-            "--isolation",
-            "none",
-            "--hand-back",
-            "--out",
-        ])
-        .arg(&out);
+    let mut command = class.command_into(&out, &exam, &["--hand-back"]);
     successful_stdout(&command.output().unwrap());
     let entries = fs::read_dir(out.join("students")).unwrap();
     let student = entries.map(|entry| entry.unwrap().path()).next().unwrap();
@@ -199,15 +174,8 @@ fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
     let report = fs::read_to_string(student.join("report.html")).unwrap();
     let command = format!("cargo grade '{}' --exam", archive.display());
     assert!(report.replace("&#39;", "'").contains(&command), "{report}");
-    let mut archive = ZipArchive::new(Cursor::new(fs::read(archive).unwrap())).unwrap();
-    assert_eq!(archive.len(), 1);
-    let mut packed = Vec::new();
-    archive
-        .by_name("sphere.rs")
-        .unwrap()
-        .read_to_end(&mut packed)
-        .unwrap();
-    assert_eq!(packed, text);
+    let packed = unzip(&fs::read(archive).unwrap());
+    assert_eq!(packed, [("sphere.rs".to_owned(), text.into_bytes())]);
     // Students get none of it.
     for file in [student.join("feedback.html"), out.join("hand-back.zip")] {
         let bytes = fs::read(file).unwrap();

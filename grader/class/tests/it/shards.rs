@@ -1,44 +1,33 @@
-//! Classes that are graded in shards.
+//! Classes that are graded in shards, and properties of merged ones.
 
-use std::path::Path;
-use std::process::Output;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
-use crate::harness::{TestClass, class_command, comparable_files, successful_stdout};
+use proptest::prelude::*;
+use tempfile::TempDir;
+
+use crate::harness::{TestClass, assert_contains, comparable_files, merge, successful_stdout};
+
+use crate::stored_class::{StoredEntry, stored_class, write_shard, write_shards};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
-
-fn grade_shard(class: &TestClass, exam: &str, which: &str, more: &[&str]) -> String {
-    let out = class.path_beside(&format!("shard-{}", which.replace('/', "-")));
-    let output = class_command()
-        .arg(class.input())
-        .args(["--exam", exam, "--no-reference", "--isolation", "none"])
-        .args(["--shard", which])
-        .args(more)
-        .arg("--out")
-        .arg(&out)
-        .output()
-        .unwrap();
-    successful_stdout(&output);
-    out.to_str().unwrap().to_owned()
-}
-
-fn merge(shards: &[&str], out: &Path) -> Output {
-    let mut merge = class_command();
-    merge.arg("merge").args(shards).arg("--out").arg(out);
-    merge.output().unwrap()
-}
 
 #[test]
 fn merged_shards_equal_an_unsharded_run() {
     let class = TestClass::of_three();
     let exam = class.small_exam(&ITEMS);
-    let policy = class.write_beside("policy.toml", "[points]\nout_of = 7\n");
-    let more = ["--policy", policy.as_str()];
-    successful_stdout(&class.grade(&exam, &more));
-    let shards = ["1/2", "2/2"].map(|which| grade_shard(&class, &exam, which, &more));
-    let [one, two] = shards.each_ref().map(String::as_str);
+    let policy = class
+        .lists(&[("policy", "[points]\nout_of = 7\n")])
+        .remove(0);
+    class.graded(&exam, &[&policy]);
+    let shards = ["1/2", "2/2"].map(|which| {
+        let out = class.path_beside(&format!("shard-{}", which.replace('/', "-")));
+        let mut command = class.command_into(&out, &exam, &["--shard", which, &policy]);
+        successful_stdout(&command.output().unwrap());
+        out
+    });
     let out = class.path_beside("merged");
-    successful_stdout(&merge(&[one, two], &out));
+    merge(&shards, &out);
     // The merge takes the policy from the shards.
     assert_eq!(comparable_files(&out), comparable_files(&class.out()));
     assert!(class.read("grades.csv").contains("graded,7,"));
@@ -50,10 +39,15 @@ fn an_estimate_grades_a_few_submissions_and_keeps_their_results() {
         .with_reference("dora")
         .with_reference("eve");
     let exam = class.small_exam(&ITEMS);
-    let estimate = || successful_stdout(&class.grade(&exam, &["--estimate", "--jobs", "1"]));
+    let estimate = || class.graded(&exam, &["--estimate", "--jobs", "1"]);
     let text = estimate();
-    assert!(text.contains("estimate from 2 submissions"), "{text}");
-    assert!(text.contains("2 more submissions, 1 at a time"), "{text}");
+    assert_contains(
+        &text,
+        &[
+            "estimate from 2 submissions",
+            "2 more submissions, 1 at a time",
+        ],
+    );
     assert!(
         text.contains("64 machines like this") && text.contains("core-hours"),
         "{text}"
@@ -67,4 +61,61 @@ fn an_estimate_grades_a_few_submissions_and_keeps_their_results() {
     let lines = String::from_utf8_lossy(&graded.stderr);
     assert!(!lines.contains(" of "), "all results were kept: {lines}");
     assert!(successful_stdout(&graded).contains("4 graded"));
+}
+
+/// Merges shards, and returns the standard output without the folder.
+fn merged(shards: &[PathBuf], out: &Path) -> String {
+    merge(shards, out).replace(out.to_str().unwrap(), "OUT")
+}
+
+/// Returns the files that are not the same in both folders.
+fn differences(one: &Path, other: &Path) -> Vec<PathBuf> {
+    let (one, other) = (comparable_files(one), comparable_files(other));
+    let all: BTreeSet<&PathBuf> = one.keys().chain(other.keys()).collect();
+    let differ = |file: &&&PathBuf| one.get(**file) != other.get(**file);
+    all.iter().filter(differ).copied().cloned().collect()
+}
+
+/// Returns an order for up to five shards.
+fn order() -> impl Strategy<Value = Vec<usize>> {
+    Just((0..5).collect::<Vec<usize>>()).prop_shuffle()
+}
+
+/// Merges an undivided class.
+fn merge_whole(root: &Path, class: &[StoredEntry]) -> (PathBuf, String) {
+    let (whole, out) = (root.join("whole"), root.join("merged-whole"));
+    write_shard(&whole, class, None, false);
+    let text = merged(&[whole], &out);
+    (out, text)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// With more shards than submissions, some shards are empty. A shard may also have the results of
+    /// somebody who has left the class.
+    #[test]
+    fn shards_in_any_number_and_order_are_merged_to_the_same_files(
+        class in stored_class(),
+        of in 1..=5usize,
+        order in order(),
+        stale: bool,
+    ) {
+        let root = TempDir::new().unwrap();
+        let (whole, text) = merge_whole(root.path(), &class);
+        let shards = write_shards(root.path(), &class, of, stale);
+        let order = order.into_iter().filter(|index| *index < of);
+        let shuffled: Vec<PathBuf> = order.map(|index| shards[index].clone()).collect();
+        let out = root.path().join("merged");
+        let text_of_parts = merged(&shuffled, &out);
+        let mut differ = differences(&out, &whole);
+        if stale {
+            // The page and the output list who has left.
+            differ.retain(|file| file != "class.html");
+            prop_assert!(text_of_parts.contains("no longer in the input"), "{}", text_of_parts);
+        } else {
+            prop_assert_eq!(text_of_parts, text);
+        }
+        prop_assert_eq!(differ, Vec::<PathBuf>::new());
+    }
 }

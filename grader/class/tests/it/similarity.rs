@@ -1,36 +1,18 @@
 //! The input for similarity checkers, and the list of identical submissions.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::process::Output;
 
-use crate::harness::{TestClass, class_command, exit_code_and_stderr, successful_stdout};
+use crate::harness::{
+    TestClass, assert_contains, class_command, files_below, refusal, successful_stdout,
+};
 
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(files(&path));
-        } else {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
-
-fn run(class: &TestClass, folder: &Path, more: &[&str]) -> (i32, String, String) {
+fn run(class: &TestClass, folder: &Path, more: &[&str]) -> Output {
     let mut command = class_command();
     command.arg(class.input()).arg("--dry-run");
     command.arg("--similarity-input").arg(folder).args(more);
-    let output = command.output().unwrap();
-    let (code, error) = exit_code_and_stderr(&output);
-    let text = if code == 0 {
-        successful_stdout(&output)
-    } else {
-        String::new()
-    };
-    (code, text, error)
+    command.output().unwrap()
 }
 
 #[test]
@@ -55,21 +37,21 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
         .with_replaced("z1/bvh.rs", "use glam", "const Z: f32 = 1.0;\nuse glam")
         .with_reference("z2")
         .with_replaced("z2/bvh.rs", "use glam", "const Z: f32 = 1.0;\nuse glam");
-    let roster = class.write_beside(
-        "roster.csv",
-        "name,username,group\nZoë,z1,One\nZed,z2,One\n",
-    );
+    let roster = "name,username,group\nZoë,z1,One\nZed,z2,One\n";
+    let roster = class.write_beside("roster.csv", roster);
     let folder = class.path_beside("own");
-    let (_, text, _) = run(&class, &folder, &["--roster", &roster]);
-    assert!(text.contains("  identical: ann_lee, bob\n"), "{text}");
-    assert!(
-        text.contains("  identical (same group): z1, z2\n"),
-        "{text}"
+    let text = successful_stdout(&run(&class, &folder, &["--roster", &roster]));
+    assert_contains(
+        &text,
+        &[
+            "  identical: ann_lee, bob\n",
+            "  identical (same group): z1, z2\n",
+        ],
     );
     // Those who have written nothing are identical, too, and not worth a word.
     assert!(!text.contains("identical: dora"), "{text}");
 
-    let written = files(&folder);
+    let written = files_below(&folder);
     assert_eq!(written.len(), 5 * 5, "{written:?}");
     for path in &written {
         let (path, text) = (path.to_str().unwrap(), fs::read_to_string(path).unwrap());
@@ -95,17 +77,17 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
 #[test]
 fn the_folder_must_be_empty_and_apart_from_input_and_output() {
     let class = TestClass::named("class").with_reference("ann");
-    let (code, _, error) = run(&class, &class.input().join("own"), &[]);
-    assert_eq!(code, 2);
-    assert!(error.contains("must not contain each other"), "{error}");
-    let (code, _, error) = run(&class, &class.path_beside("."), &[]);
-    assert!(code == 2 && error.contains("is not empty"), "{error}");
-    let out = class.out();
-    let out = out.to_str().unwrap();
-    let (code, _, error) = run(&class, &class.out().join("own"), &["--out", out]);
-    assert!(
-        code == 2 && error.contains("must not contain each other"),
-        "{error}"
-    );
-    assert!(!class.out().exists());
+    let (inside, out) = ("must not contain each other", class.out());
+    for (folder, more, why) in [
+        (class.input().join("own"), vec![], inside),
+        (class.path_beside("."), vec![], "is not empty"),
+        (
+            out.join("own"),
+            vec!["--out", out.to_str().unwrap()],
+            inside,
+        ),
+    ] {
+        assert_contains(&refusal(&run(&class, &folder, &more)), &[why]);
+    }
+    assert!(!out.exists());
 }

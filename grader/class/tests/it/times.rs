@@ -1,22 +1,18 @@
 //! Submission times, extensions and late flags, as rosters and platforms write them.
 
-use std::fs;
-
-use crate::harness::{TestClass, cell, successful_stdout, workspace};
+use crate::harness::{TestClass, assert_contains, cell, source};
 
 const POLICY: &str = "[late]\ndue = 2026-10-20T23:59:00+02:00\ntimezone = 'Europe/Berlin'\n\
                       percent_per_day = 10\n";
 
-/// Grades a class whose submissions are one file each, with this policy and these lists.
-fn grade(class: &TestClass, policy: &str, lists: &[&str]) -> String {
+/// Grades a class whose submissions are one file each, with the policy and this list.
+fn grade(class: &TestClass, list: &str, text: &str) -> String {
     let exam = class.small_exam(&["camera.offset"]);
-    let policy = class.write_beside("policy.toml", policy);
-    let arguments = [&["--policy", &policy], lists].concat();
-    successful_stdout(&class.grade(&exam, &arguments))
+    class.graded_with(&exam, &[("policy", POLICY), (list, text)], &[])
 }
 
-fn camera() -> Vec<u8> {
-    fs::read(workspace().join("reference/src/camera.rs")).unwrap()
+fn camera() -> String {
+    source("reference/src/camera.rs")
 }
 
 /// Returns the status, the late days and the reason for one person.
@@ -53,8 +49,7 @@ fn a_wrong_year_is_never_on_time_or_late() {
         class = class.with(&format!("{name}/camera.rs"), camera());
         roster += &format!("{name},{name},{time},{extension}\n");
     }
-    let roster = class.write_beside("roster.csv", &roster);
-    grade(&class, POLICY, &["--roster", &roster]);
+    grade(&class, "roster", &roster);
     let is_open = |name, reason| assert_open(&class, name, name, "time unclear", reason);
     assert_late_days(&class, "excel", "excel", "5");
     assert_late_days(&class, "extended", "extended", "0");
@@ -72,9 +67,8 @@ fn days_end_at_the_same_time_of_day_when_clocks_are_set() {
         .with("extended/camera.rs", camera())
         .with("late/camera.rs", camera());
     let time = "2026-10-27 23:58";
-    let rows = format!("extended,{time},7\nlate,{time},\n");
-    let roster = class.write_beside("roster.csv", &format!("name,datetime,extension\n{rows}"));
-    grade(&class, POLICY, &["--roster", &roster]);
+    let roster = format!("name,datetime,extension\nextended,{time},7\nlate,{time},\n");
+    grade(&class, "roster", &roster);
     assert_late_days(&class, "extended", "extended", "0");
     assert_late_days(&class, "late", "late", "7");
 }
@@ -87,11 +81,9 @@ fn a_list_does_not_overrule_the_late_flags_of_canvas() {
         .with("early_LATE_1_9003_camera.rs", camera())
         .with("late_2_9004_camera.rs", camera())
         .with("equal_LATE_3_9005_camera.rs", camera());
-    let roster = class.write_beside(
-        "roster.csv",
-        "name,datetime\nearly,2026-10-19 12:00\nlate,2026-10-22 12:00\nequal,2026-10-22 12:00\n",
-    );
-    grade(&class, POLICY, &["--roster", &roster]);
+    let roster = "name,datetime\nearly,2026-10-19 12:00\nlate,2026-10-22 12:00\n\
+                  equal,2026-10-22 12:00\n";
+    grade(&class, "roster", roster);
     assert_late_days(&class, "anon_aB3x9", "anon aB3x9", "1");
     assert_late_days(&class, "anon_cD4y0", "anon cD4y0", "0");
     assert_late_days(&class, "equal_3", "equal", "2");
@@ -139,8 +131,7 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
         let time = "\"Sunday, 25 October 2026, 11:30 AM\"";
         worksheet += &format!("Participant {number},{name},\"{status}\",,{time}\n");
     }
-    let worksheet = class.write_beside("worksheet.csv", &worksheet);
-    let text = grade(&class, POLICY, &["--moodle", &worksheet]);
+    let text = grade(&class, "moodle", &worksheet);
     assert_late_days(&class, "Ext_0", "Ext", "0");
     assert_late_days(&class, "Late_1", "Late", "5");
     assert_open(&class, "Draft_2", "Draft", "draft", "Draft (not submitted)");
@@ -151,8 +142,5 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
         "the extension \"lundi 26 octobre 2026, 23:59\"",
     );
     is_open("German_4", "German", "set Moodle's language to English");
-    assert!(
-        text.contains("Draft: the status in Moodle's worksheet"),
-        "{text}"
-    );
+    assert_contains(&text, &["Draft: the status in Moodle's worksheet"]);
 }

@@ -1,24 +1,9 @@
 //! Tests that each file that looks like a task file or an archive, and is not graded, is named where
 //! people look, and that an untouched starter file beside a changed copy is never graded.
 
-use std::io::{Cursor, Write};
-
-use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
-
-use crate::harness::{TestClass, successful_stdout, workspace};
+use crate::harness::{TestClass, assert_contains, source, zip};
 
 const WORK: &str = "// finished";
-
-fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, bytes) in files {
-        let options = SimpleFileOptions::default();
-        writer.start_file(*name, options).unwrap();
-        writer.write_all(bytes).unwrap();
-    }
-    writer.finish().unwrap().into_inner()
-}
 
 /// Returns the line of an entry in the output of `--dry-run`.
 fn line<'a>(preview: &'a str, who: &str) -> &'a str {
@@ -30,8 +15,8 @@ fn line<'a>(preview: &'a str, who: &str) -> &'a str {
 
 #[test]
 fn a_starter_file_beside_a_changed_copy_is_left_to_a_person() {
-    let work = zip(&[("hw/camera.rs", WORK.as_bytes())]);
-    let inner = zip(&[("work.zip", &work)]);
+    let work = zip([("hw/camera.rs", WORK)]);
+    let inner = zip([("work.zip", &work)]);
     let copies = [
         "camera (1).rs",
         "camera(1).rs",
@@ -54,30 +39,22 @@ fn a_starter_file_beside_a_changed_copy_is_left_to_a_person() {
         "camera.rs.rs",
         "CAMERA (2).RS.orig",
     ];
+    let copies = copies.map(|copy| (copy, copy, WORK.as_bytes()));
     let archives = [
-        ("sub/work.zip", "sub/work.zip/hw/camera.rs", &work),
+        ("sub/work.zip", "sub/work.zip/hw/camera.rs", &*work),
         ("work (1).zip", "work (1).zip/hw/camera.rs", &work),
         ("outer.zip", "outer.zip/work.zip/hw/camera.rs", &inner),
     ];
-    let mut class = TestClass::named("class");
-    for (number, copy) in copies.iter().enumerate() {
-        let who = format!("s{number}");
-        class = class
+    let files = copies.iter().chain(&archives).enumerate();
+    let files = files.map(|(number, file)| (format!("s{number}"), file));
+    let add = |class: TestClass, (who, (path, _, bytes)): (String, &(&str, _, &[u8]))| {
+        class
             .with_starter(&who)
-            .with(&format!("{who}/{copy}"), WORK);
-    }
-    for (number, (archive, _, bytes)) in archives.iter().enumerate() {
-        let who = format!("a{number}");
-        class = class
-            .with_starter(&who)
-            .with(&format!("{who}/{archive}"), bytes);
-    }
+            .with(&format!("{who}/{path}"), bytes)
+    };
+    let class = files.clone().fold(TestClass::named("class"), add);
     let preview = class.preview();
-    let names = copies.iter().enumerate();
-    let names = names.map(|(number, copy)| (format!("s{number}"), *copy));
-    let archives = archives.iter().enumerate();
-    let archives = archives.map(|(number, (_, copy, _))| (format!("a{number}"), *copy));
-    for (who, copy) in names.chain(archives) {
+    for (who, (_, copy, _)) in files {
         let expected = format!(
             "{who}: nothing to grade: it has the starter's camera.rs, and changed copies in {copy}: keep"
         );
@@ -123,7 +100,7 @@ fn a_copy_counts_only_if_no_other_file_could_be_meant() {
 
 #[test]
 fn files_that_are_not_graded_are_named_on_every_page() {
-    let reference = std::fs::read(workspace().join("reference/src/camera.rs")).unwrap();
+    let reference = source("reference/src/camera.rs");
     let class = TestClass::named("class")
         .with_reference("ann")
         .with_replaced(
@@ -135,7 +112,7 @@ fn files_that_are_not_graded_are_named_on_every_page() {
         .with("ann/old/pictures.rar", "Rar!\x1a\x07\x01\0")
         .with_reference("bob");
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
-    let printed = successful_stdout(&class.grade(&exam, &[]));
+    let printed = class.graded(&exam, &[]);
     let notes = [
         "camera (1).rs differs from camera.rs, and is ignored",
         "old/pictures.rar is not graded: it is a .rar archive",
@@ -143,10 +120,7 @@ fn files_that_are_not_graded_are_named_on_every_page() {
     let page = class.read("class.html");
     let (_, attention) = page.split_once("Submissions that need attention").unwrap();
     let (attention, _) = attention.split_once("</section>").unwrap();
-    assert!(
-        attention.contains("href=\"students/ann/report.html\""),
-        "{attention}"
-    );
+    assert_contains(&attention, &["href=\"students/ann/report.html\""]);
     assert!(!attention.contains("bob"), "{attention}");
     for note in notes {
         for file in [
@@ -154,15 +128,11 @@ fn files_that_are_not_graded_are_named_on_every_page() {
             "students/ann/report.html",
             "students/ann/feedback.html",
         ] {
-            assert!(
-                class.read(file).contains(note),
-                "{file}: {}",
-                class.read(file)
-            );
+            assert_contains(&class.read(file), &[note]);
         }
-        assert!(attention.contains(note), "{attention}");
-        assert!(printed.contains(&note[..20]), "{printed}");
-        assert!(class.preview().contains(note), "{}", class.preview());
+        assert_contains(attention, &[note]);
+        assert_contains(&printed, &[&note[..20]]);
+        assert_contains(&class.preview(), &[note]);
     }
 }
 
@@ -171,33 +141,20 @@ fn files_that_are_not_graded_are_named_on_every_page() {
 #[test]
 fn a_submission_that_is_too_large_affects_no_other() {
     let class = TestClass::named("class");
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    let mut add = |name: &str, bytes: &[u8]| {
-        writer
-            .start_file(name, SimpleFileOptions::default())
-            .unwrap();
-        writer.write_all(bytes).unwrap();
-    };
+    let mut files = Vec::new();
     for who in ["ann", "bomb", "many", "archives"] {
         for file in ["camera", "triangle", "sphere", "bbox", "bvh"] {
-            add(&format!("{who}/{file}.rs"), b"text");
+            files.push((format!("{who}/{file}.rs"), b"text".to_vec()));
         }
     }
-    let zeros = vec![0; 1 << 20];
-    for number in 0..50_001 {
-        add(&format!("many/{number}.txt"), b"");
-    }
-    for number in 0..200 {
-        add(&format!("archives/{number}.zip"), &zip(&[("a.txt", b"")]));
-    }
-    writer
-        .start_file("bomb/work.zip", SimpleFileOptions::default())
-        .unwrap();
-    for _ in 0..257 {
-        writer.write_all(&zeros).unwrap();
-    }
+    let empty = |number| (format!("many/{number}.txt"), Vec::new());
+    files.extend((0..50_001).map(empty));
+    let inner = zip([("a.txt", "")]);
+    let inner = |number| (format!("archives/{number}.zip"), inner.clone());
+    files.extend((0..200).map(inner));
+    files.push(("bomb/work.zip".to_owned(), vec![0; 257 << 20]));
     let archive = class.path_beside("class.zip");
-    std::fs::write(&archive, writer.finish().unwrap().into_inner()).unwrap();
+    std::fs::write(&archive, zip(files)).unwrap();
     let preview = class.preview_of(&archive, &[]);
     assert_eq!(line(&preview, "ann"), "ann: all 5 files");
     for (who, why) in [

@@ -24,7 +24,7 @@ use hits::Hits;
 use radiance::Radiance;
 use rays::{CameraRays, RayPicture};
 use spans::Spans;
-use tree::TreeAnswer;
+use tree::{TreeAnswer, TreeCriteria};
 
 pub use credit::Credit;
 pub use deviation::{Deviation, Measurement};
@@ -191,10 +191,12 @@ fn comparison<'a>(
                 max_leaf_size,
             },
         ) => Box::new(TreeAnswer {
-            checks,
-            sweep_cost: *sweep_cost,
-            shapes,
-            max_leaf_size: *max_leaf_size,
+            criteria: TreeCriteria {
+                checks,
+                sweep_cost: *sweep_cost,
+                shapes,
+                max_leaf_size: *max_leaf_size,
+            },
             answer,
         }),
         (

@@ -5,12 +5,13 @@
 
 mod tree;
 
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace, Tree};
 
 use crate::exam::{ExamQuestion, HitCheck, Item, Key, RayCheck};
 use crate::judge::quantity::{Quantity, lengths_in_tolerances};
 use crate::judge::rays::expected_ray;
-use crate::judge::{FailureKind, judge, scale};
+use crate::judge::scale;
+use crate::judge::tree::TreeCriteria;
 use crate::signatures::{NoAnswerReason, ObservedAnswer};
 
 /// Reduces the answers to an item to observations, one for each element.
@@ -69,8 +70,8 @@ fn observe_question(question: &ExamQuestion, answer: &Answer) -> Vec<ObservedAns
             observe_each(spans, |element, span| observe_span(*span, scale(element)))
         }
         (Key::Tree { .. }, Answer::Tree(tree)) => {
-            observe_each(std::slice::from_ref(tree), |_, _| {
-                observe_tree(question, answer)
+            observe_each(std::slice::from_ref(tree), |_, tree| {
+                observe_tree(question, tree)
             })
         }
         (
@@ -187,19 +188,25 @@ fn observe_span(span: Option<Interval>, scale: f32) -> ObservedAnswer {
 }
 
 /// Returns the defect that the judge finds in a tree.
-fn observe_tree(question: &ExamQuestion, answer: &Answer) -> ObservedAnswer {
-    let found = judge(question, answer).failure.map(|failure| failure.kind);
-    match (found, &question.question, answer) {
-        (None, ..) => ObservedAnswer::Tree(None),
+fn observe_tree(question: &ExamQuestion, tree: &Tree) -> ObservedAnswer {
+    match (&question.key, &question.question) {
         (
-            Some(FailureKind::Wrong { what, got, .. }),
-            Question::Build { shapes, .. },
-            Answer::Tree(ElementOutcome::Value(tree)),
-        ) => ObservedAnswer::Tree(Some(tree::defect(shapes, tree, &what, &got))),
-        (Some(FailureKind::Panicked(panic)), ..) => ObservedAnswer::of_panic(&panic.message),
-        (Some(FailureKind::Wrong { .. } | FailureKind::Protocol(_)), ..) => {
-            ObservedAnswer::NoAnswer(NoAnswerReason::Other)
+            Key::Tree { checks, sweep_cost },
+            Question::Build {
+                shapes,
+                max_leaf_size,
+            },
+        ) => {
+            let criteria = TreeCriteria {
+                checks,
+                sweep_cost: *sweep_cost,
+                shapes,
+                max_leaf_size: *max_leaf_size,
+            };
+            let defect = criteria.defect(tree);
+            ObservedAnswer::Tree(defect.map(|defect| tree::defect(shapes, tree, &defect)))
         }
+        _ => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
     }
 }
 

@@ -8,30 +8,43 @@ use protocol::{Shape, Tree};
 
 use crate::judge::Deviation;
 use crate::judge::tree::bounds::Bounds;
+use crate::judge::tree::defect::TreeDefect;
 use crate::judge::tree::reached_nodes::{ReachedNode, reached_nodes};
-use crate::judge::tree::{
-    BOX_TOO_LARGE, BOX_TOO_SMALL, LEAVES, containment_deviation, leaves_of_primitives,
-    tightness_deviation,
-};
+use crate::judge::tree::{containment_deviation, leaves_of_primitives, tightness_deviation};
 
-/// Returns a name and an amount for the defect `what` that the judge found in a tree, and of which it
-/// said `got`.
-pub(super) fn defect(shapes: &[Shape], tree: &Tree, what: &str, got: &str) -> (String, f32) {
-    match (what, reached_nodes(shapes, tree)) {
-        (BOX_TOO_SMALL, Ok(nodes)) => of_boxes(shapes, tree, &nodes, what, containment_deviation),
-        (BOX_TOO_LARGE, Ok(nodes)) => of_boxes(shapes, tree, &nodes, what, tightness_deviation),
-        (LEAVES, Ok(nodes)) => (of_leaves(&nodes, tree, shapes.len()), 0.0),
-        (LEAVES, Err(_)) => (of_ranges(tree), 0.0),
-        // The indices in the judge's words differ between submissions. If the defect has an amount,
-        // it comes first.
-        _ => {
-            let is_word = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
-            let words = Vec::from_iter(got.split(' ').filter(is_word)).join(" ");
-            let first = got.split(' ').next();
-            let amount = first.and_then(|word| word.parse().ok());
-            (format!("{what}: {words}"), amount.unwrap_or(0.0))
+/// Returns a name and an amount for a defect that the judge found in a tree. Both are part of the
+/// signatures of known mistakes in exam files, so changing them makes existing exams recognise fewer
+/// mistakes.
+pub(super) fn defect(shapes: &[Shape], tree: &Tree, defect: &TreeDefect) -> (String, f32) {
+    let what = defect.what();
+    let nodes = || reached_nodes(shapes, tree).unwrap_or_default();
+    // Of other defects the indices are left out, which differ between submissions.
+    let words = match defect {
+        TreeDefect::BoxTooSmall(_) => {
+            return of_boxes(shapes, tree, &nodes(), what, containment_deviation);
         }
-    }
+        TreeDefect::BoxTooLarge(_) => {
+            return of_boxes(shapes, tree, &nodes(), what, tightness_deviation);
+        }
+        TreeDefect::Partition { .. } => return (of_leaves(&nodes(), tree, shapes.len()), 0.0),
+        TreeDefect::TooManyListed { .. } | TreeDefect::UnknownPrimitives { .. } => {
+            return (of_ranges(tree), 0.0);
+        }
+        TreeDefect::NoNodes { .. } => "no node at all",
+        TreeDefect::UnknownNode { .. } => "node of",
+        TreeDefect::ReachedTwice { .. } => "node is reached twice",
+        TreeDefect::NotSplit { .. } => "leaf holds of primitives",
+        TreeDefect::LeafTooLarge { .. } => "leaf holds primitives",
+        TreeDefect::NeedlessSplit { .. } => "node was split over primitives",
+        TreeDefect::Cost(_) => "times that of the best split at every node",
+    };
+    let amount = if let TreeDefect::Cost(ratio) = defect {
+        // Two decimals, as in the report.
+        ((100.0 * ratio).round() / 100.0) as f32
+    } else {
+        0.0
+    };
+    (format!("{what}: {words}"), amount)
 }
 
 /// Returns which nodes have wrong boxes, in what way, and by how much the root's box differs from that
@@ -141,7 +154,7 @@ fn of_leaves(nodes: &[ReachedNode], tree: &Tree, primitives: usize) -> String {
         [_] => ", one node is alone",
         _ => "",
     };
-    format!("{LEAVES}:{missing}{repeated}{alone}")
+    format!("leaves:{missing}{repeated}{alone}")
 }
 
 /// Returns by how much leaves exceed the list of primitives.
@@ -153,16 +166,16 @@ fn of_ranges(tree: &Tree) -> String {
         .unwrap_or(0)
         .saturating_sub(tree.order.len() as u64);
     match excess {
-        0 => format!("{LEAVES}: unknown primitives"),
-        1 => format!("{LEAVES}: one past the end"),
-        _ => format!("{LEAVES}: far past the end"),
+        0 => "leaves: unknown primitives".to_owned(),
+        1 => "leaves: one past the end".to_owned(),
+        _ => "leaves: far past the end".to_owned(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use protocol::{Answer, ElementOutcome, Question};
+    use protocol::Question;
 
     use crate::exam::{ExamQuestion, Key, TreeCheck};
     use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
@@ -190,8 +203,7 @@ mod tests {
         let mut tree = valid_tree();
         tree.order.swap(0, 1);
         change(&mut tree);
-        let answer = Answer::Tree(ElementOutcome::Value(tree));
-        let observed = observe_tree(&ExamQuestion::new(question, key), &answer);
+        let observed = observe_tree(&ExamQuestion::new(question, key), &tree);
         let ObservedAnswer::Tree(defect) = observed else {
             panic!("expected a tree, got {observed:?}");
         };

@@ -21,6 +21,23 @@ fn parse(text: &str) -> Result<Exam, String> {
         .map_err(|error| error.to_string())
 }
 
+fn index_of(exam: &Exam, id: &str) -> usize {
+    exam.items.iter().position(|item| item.id == id).unwrap()
+}
+
+/// Returns the answer of a camera to a question about rays with these directions.
+fn camera_answer(question: &ExamQuestion, change: impl Fn(usize, Vec3) -> Vec3) -> Answer {
+    let Key::Rays { directions, .. } = &question.key else {
+        panic!("the camera is asked for rays, not for {:?}", question.key);
+    };
+    let rays = directions.iter().enumerate().map(|(index, &dir)| Ray {
+        origin: Vec3::ZERO,
+        dir: change(index, dir),
+        range: Interval::AHEAD,
+    });
+    Answer::Rays(rays.map(ElementOutcome::Value).collect())
+}
+
 #[test]
 fn the_elements_of_an_item_are_numbered_without_gaps() {
     for item in &EXAM.items {
@@ -117,8 +134,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
         items: items.cloned().collect(),
         ..PART.clone()
     };
-    let [camera, picture, sphere] =
-        ids.map(|id| exam.items.iter().position(|item| item.id == id).unwrap());
+    let [camera, picture, sphere] = ids.map(|id| index_of(&exam, id));
     let exam = serde_json::to_value(exam).unwrap();
     let item = |path: &str| format!("/items/{camera}/{path}");
     for (path, value, problem) in [
@@ -187,11 +203,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
 
 #[test]
 fn signatures_that_refer_to_nothing_are_refused() {
-    let position = EXAM
-        .items
-        .iter()
-        .position(|item| item.id == "camera.corners");
-    let position = position.unwrap();
+    let position = index_of(&EXAM, "camera.corners");
     let problem_after = |change: &dyn Fn(&mut MistakeSignatures)| {
         let mut exam = EXAM.clone();
         change(&mut exam.items[position].signatures);
@@ -251,22 +263,8 @@ fn a_key_of_first_hits_fits_only_the_rays_of_a_view() {
 fn camera_answers(exam: &Exam, change: impl Fn(Vec3) -> Vec3) -> Observations {
     let mut observations = Observations::default();
     for item in exam.items.iter().filter(|item| item.task.id() == "camera") {
-        let answer = |key: &Key| {
-            let Key::Rays { directions, .. } = key else {
-                panic!("the camera is asked for rays, not for {key:?}");
-            };
-            let rays = directions.iter().map(|&dir| Ray {
-                origin: Vec3::ZERO,
-                dir: change(dir),
-                range: Interval::AHEAD,
-            });
-            Answer::Rays(rays.map(ElementOutcome::Value).collect())
-        };
-        let answers: Vec<Answer> = item
-            .questions
-            .iter()
-            .map(|question| answer(&question.key))
-            .collect();
+        let answer = |question| camera_answer(question, |_, dir| change(dir));
+        let answers: Vec<Answer> = item.questions.iter().map(answer).collect();
         observations.record(item, Ok(&answers));
     }
     observations
@@ -277,11 +275,7 @@ fn a_known_mistake_is_recognised_by_its_answers_and_right_answers_have_none() {
     let flipped = camera_answers(&EXAM, |dir| Vec3::new(dir.x, -dir.y, dir.z));
     let mirrored = camera_answers(&EXAM, |dir| Vec3::new(-dir.x, dir.y, dir.z));
     let right = camera_answers(&EXAM, |dir| dir);
-    let item = EXAM
-        .items
-        .iter()
-        .find(|item| item.id == "camera.corners")
-        .unwrap();
+    let item = &EXAM.items[index_of(&EXAM, "camera.corners")];
     let explain = |observations: &Observations| -> Vec<String> {
         let mistakes = observations.explain(&EXAM, item);
         mistakes.iter().map(|mistake| mistake.id.clone()).collect()
@@ -293,29 +287,12 @@ fn a_known_mistake_is_recognised_by_its_answers_and_right_answers_have_none() {
 
 #[test]
 fn a_failure_counts_all_wrong_elements_and_names_the_first() {
-    let item = EXAM
-        .items
-        .iter()
-        .find(|item| item.id == "camera.corners")
-        .unwrap();
+    let item = &EXAM.items[index_of(&EXAM, "camera.corners")];
     let question = &item.questions[0];
-    let Key::Rays { directions, .. } = &question.key else {
-        panic!("the camera is asked for rays");
-    };
-    let wrong = [1, 3];
-    let ray = |(index, &dir): (usize, &Vec3)| Ray {
-        origin: Vec3::ZERO,
-        dir: if wrong.contains(&index) { -dir } else { dir },
-        range: Interval::AHEAD,
-    };
-    let rays = directions
-        .iter()
-        .enumerate()
-        .map(ray)
-        .map(ElementOutcome::Value);
-    let failure = judge(question, &Answer::Rays(rays.collect())).failure;
+    let turned = |index, dir: Vec3| if [1, 3].contains(&index) { -dir } else { dir };
+    let failure = judge(question, &camera_answer(question, turned)).failure;
     let Some(Failure { element, count, .. }) = failure else {
         panic!("two rays are wrong");
     };
-    assert_eq!((element, count), (1, Some((2, directions.len()))));
+    assert_eq!((element, count), (1, Some((2, question.question.count()))));
 }

@@ -4,6 +4,7 @@
 use glam::{DVec2, DVec3, dvec2};
 use judging::drawing_data::Sweep;
 use judging::judge::tree::bounds::Bounds;
+use judging::judge::tree::defect::TreeDefect;
 use protocol::Shape;
 
 use super::flaw::Flaw;
@@ -30,24 +31,19 @@ pub(super) fn draw(
     positions: &[NodePosition],
     flaw: &Flaw,
 ) {
-    match flaw {
-        Flaw::TooSmall(node) | Flaw::TooLarge(node) => {
+    match (&flaw.defect, &flaw.node) {
+        (Some(TreeDefect::BoxTooSmall(_) | TreeDefect::BoxTooLarge(_)), Some(node)) => {
             draw_boxes(sheet, case, &primitives_below(positions, node), node);
         }
-        Flaw::Partition {
-            missing,
-            duplicated,
-        } => draw_partition(sheet, case, missing, duplicated),
-        Flaw::Cost(_) if case.shapes.len() <= MAX_ROW_PRIMITIVES => {
-            if let Some(plane) = sweep.and_then(|sweep| sweep.plane) {
+        (Some(TreeDefect::Partition { .. }), _) => draw_partition(sheet, case, flaw),
+        (Some(TreeDefect::Cost(_)) | None, _) if case.criteria.sweep_cost.is_some() => {
+            let plane = sweep.and_then(|sweep| sweep.plane);
+            let is_small = case.criteria.shapes.len() <= MAX_ROW_PRIMITIVES;
+            if let Some(plane) = plane.filter(|_| is_small) {
                 draw_row(sheet, case, positions, plane);
             }
         }
-        Flaw::LeafTooLarge(_)
-        | Flaw::NotSplit(_)
-        | Flaw::NeedlessSplit(_)
-        | Flaw::Cost(_)
-        | Flaw::None => {}
+        _ => {}
     }
 }
 
@@ -89,7 +85,7 @@ fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &
     sheet.title(&format!("node {}: {}", node.reached.index, plane.name()));
     let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
-    let shapes = primitives.iter().map(|&index| &case.shapes[index]);
+    let shapes = primitives.iter().map(|&index| &case.criteria.shapes[index]);
     draw_outlines(canvas, &window, plane, shapes);
     draw_frame(canvas, &window, right, LineStyle::Right);
     draw_frame(canvas, &window, got, LineStyle::Wrong);
@@ -109,9 +105,9 @@ fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line
     }
 }
 
-fn draw_partition(sheet: &mut Sheet, case: &BuildCase, missing: &[usize], duplicated: &[usize]) {
+fn draw_partition(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw) {
     let mut all = Bounds::EMPTY;
-    for shape in case.shapes {
+    for shape in case.criteria.shapes {
         all.enclose(Bounds::of_shape(shape));
     }
     let size = all.max - all.min;
@@ -122,20 +118,20 @@ fn draw_partition(sheet: &mut Sheet, case: &BuildCase, missing: &[usize], duplic
     sheet.title(&plane.name());
     let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
-    draw_outlines(canvas, &window, plane, case.shapes.iter());
+    draw_outlines(canvas, &window, plane, case.criteria.shapes.iter());
     let mut mark = |indices: &[usize], mark: Mark| {
         for &index in indices.iter().take(MAX_MARKS) {
-            let bounds = Bounds::of_shape(&case.shapes[index]);
-            let middle = plane.project(0.5 * (bounds.min + bounds.max));
+            let bounds = Bounds::of_shape(&case.criteria.shapes[index]);
+            let middle = plane.project(bounds.center());
             canvas.mark(window.page_position(middle), mark);
         }
     };
-    mark(missing, Mark::Wrong);
-    mark(duplicated, Mark::Origin);
-    if !missing.is_empty() {
+    mark(&flaw.missing, Mark::Wrong);
+    mark(&flaw.duplicated, Mark::Origin);
+    if !flaw.missing.is_empty() {
         sheet.add_legend(Symbol::Mark(Mark::Wrong), "got: in no leaf");
     }
-    if !duplicated.is_empty() {
+    if !flaw.duplicated.is_empty() {
         sheet.add_legend(Symbol::Mark(Mark::Origin), "got: in more than one leaf");
     }
 }
@@ -149,10 +145,8 @@ fn draw_row(
     (axis, at): (u8, f32),
 ) {
     let axis = usize::from(axis.min(2));
-    let center_along_axis = |primitive: &usize| {
-        let bounds = Bounds::of_shape(&case.shapes[*primitive]);
-        0.5 * (bounds.min[axis] + bounds.max[axis])
-    };
+    let center_along_axis =
+        |primitive: &usize| Bounds::of_shape(&case.criteria.shapes[*primitive]).center()[axis];
     let sides: Vec<Vec<f64>> = positions
         .iter()
         .filter(|node| node.level == 1)

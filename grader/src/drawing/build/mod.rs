@@ -6,7 +6,7 @@ mod geometry;
 mod levels;
 mod node_positions;
 
-use protocol::{Answer, Shape, Tree};
+use protocol::{Answer, Tree};
 
 use super::ink::{Fill, Ink};
 use super::numbers::short;
@@ -15,22 +15,15 @@ use super::{Drawing, value};
 
 use flaw::Flaw;
 use judging::drawing_data::{DrawingData, LevelNode, Sweep};
-use judging::exam::TreeCheck;
-use judging::judge::tree;
 use judging::judge::tree::reached_nodes::reached_nodes;
+use judging::judge::tree::{self, TreeCriteria};
 use node_positions::NodePosition;
 
 /// A question about building a tree, and the criteria by which the tree is judged.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BuildCase<'a> {
-    /// The primitives that the tree is built over.
-    pub(super) shapes: &'a [Shape],
-    /// The maximum number of primitives in a leaf.
-    pub(super) max_leaf_size: u32,
-    /// The properties of the tree that are checked.
-    pub(super) checks: &'a [TreeCheck],
-    /// The cost of the exact sweep's tree, if the cost is judged.
-    pub(super) sweep_cost: Option<f64>,
+    /// The criteria, with the primitives that the tree is built over.
+    pub(super) criteria: TreeCriteria<'a>,
     /// The exact sweep's tree, if the exam has it.
     pub(super) drawing_data: &'a DrawingData,
 }
@@ -44,33 +37,33 @@ pub(super) fn draw(case: &BuildCase, answer: Option<&Answer>) -> Option<Drawing>
         DrawingData::Sweep(sweep) => Some(sweep),
         DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
     };
-    let reached = match reached_nodes(case.shapes, tree) {
+    let reached = match reached_nodes(case.criteria.shapes, tree) {
         Ok(nodes) => nodes,
         Err(defect) => {
             let mut sheet = Sheet::default();
             draw_sweep(&mut sheet, sweep?);
-            let caption = format!("Your nodes do not form a tree: {}.", defect.got);
+            let caption = format!("Your nodes do not form a tree: {}.", defect.got());
             return Some(sheet.finish(TITLE, caption));
         }
     };
     let positions = node_positions::positions(&reached);
     let root = positions.first()?;
-    let flaw = flaw::find(case, &positions);
+    let flaw = Flaw::new(case, case.criteria.defect(tree), &positions);
+    let total = tree::cost(&reached);
 
     let mut sheet = Sheet::default();
     geometry::draw(&mut sheet, case, sweep, &positions, &flaw);
     sheet.title("your tree");
     let mark = flaw
-        .node()
+        .node
         .map(|node| (node.level, node.start, node.reached.count as u32));
     let own = node_positions::upper_levels(&positions);
-    let total = tree::cost(&reached);
     let symbol = levels::draw(&mut sheet, &own, root.reached.count as u32, total, mark);
     if let Some(sweep) = sweep {
         draw_sweep(&mut sheet, sweep);
     }
     draw_legend(&mut sheet, case, &flaw, symbol, total);
-    Some(sheet.finish(TITLE, flaw.caption(case)))
+    Some(sheet.finish(TITLE, flaw.caption(case, total)))
 }
 
 fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
@@ -101,10 +94,10 @@ fn draw_legend(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw, symbol: Symbol,
         Symbol::Area(Fill::None),
         "half height: a leaf; numbers: primitives",
     );
-    if flaw.node().is_some() {
+    if flaw.node.is_some() {
         sheet.add_legend(symbol, flaw.label());
     }
-    match case.sweep_cost {
+    match case.criteria.sweep_cost {
         Some(sweep) => {
             let text = format!(
                 "SAH cost: {}; with the best splits: {}",

@@ -6,7 +6,7 @@ use glam::UVec2;
 use judging::judge::Aspect;
 use judging::picture::{Colour, MaskPixel, Picture};
 
-use super::png::data_uri;
+use crate::png_file::data_uri;
 
 /// The width of a mask in screen pixels.
 const WIDTH: u32 = 256;

@@ -10,7 +10,6 @@ mod elements;
 mod item;
 mod mask;
 mod pictures;
-mod png;
 mod prose;
 mod summary;
 mod task;

@@ -12,7 +12,7 @@ use protocol::Question;
 
 use super::elements::{command, evidence_table, plain_text};
 use super::mask;
-use super::png::data_uri;
+use crate::png_file::data_uri;
 use crate::report::answers::ReportAnswers;
 use crate::score::rerun_command::RerunCommand;
 

@@ -199,13 +199,18 @@ fn idle() {
     );
 }
 
-/// Measures the memory and the time for a mesh of a million triangles.
+/// Measures the memory and the time for meshes of a million triangles.
 fn large_mesh() {
     let folder = TempDir::new().expect("a folder can be created");
     let scenes = workspace().join("scenes");
     let text = fs::read_to_string(scenes.join("checkered-teapot.json")).expect("the scene exists");
     let mut scene: Value = serde_json::from_str(&text).expect("the scene is valid");
-    scene["shapes"][0]["mesh"]["subdivide"] = json!(4);
+    let shapes = scene["shapes"].as_array_mut().expect("shapes are a list");
+    let mut teapot = shapes[0].clone();
+    for number in 1..256 {
+        teapot["mesh"]["translate"] = json!([number % 16, 0, number / 16]);
+        shapes.push(teapot.clone());
+    }
     let path = folder.path().join("large.json");
     fs::write(&path, scene.to_string()).expect("the scene can be written");
     fs::copy(scenes.join("teapot.obj"), folder.path().join("teapot.obj")).expect("the mesh exists");
@@ -229,7 +234,7 @@ fn large_mesh() {
         .map(mib)
         .collect();
     print(
-        "a mesh of a million triangles",
+        "meshes of a million triangles",
         &format!(
             "picture after {first:.1} s; at most {} MiB in the viewer, {} MiB in its programs, of which {} draw",
             mib(viewer.process()),

@@ -1,11 +1,9 @@
 //! A scene as it is sent to a probe, which cannot read files.
 
 use framework::scene::{Camera, Material, Placement, Scene};
-use glam::Vec3;
-use protocol::{Shape, Tree};
+use glam::{Mat3, Vec3};
+use protocol::{PinholeCamera, Shape, Tree};
 use serde::{Deserialize, Serialize};
-
-use crate::messages::Aim;
 
 /// A scene without its camera.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -85,6 +83,21 @@ impl SceneData {
             max_leaf_size: self.max_leaf_size as usize,
         }
     }
+}
+
+/// A camera and its position, and the settings of paths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Aim {
+    /// The parameters of the submission's camera.
+    pub pinhole: PinholeCamera,
+    /// The position of the camera in world space.
+    pub position: Vec3,
+    /// The camera's axes in world space, as columns.
+    pub axes: Mat3,
+    /// The maximum number of times that a path is scattered.
+    pub bounces: u32,
+    /// The seed of all random numbers.
+    pub seed: u64,
 }
 
 impl Aim {

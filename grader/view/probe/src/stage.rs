@@ -9,9 +9,9 @@ use glam::{UVec2, Vec2, Vec3};
 use protocol::{ElementOutcome, Interval, Panic, Ray, Shape, Trace, TreeNode};
 
 use crate::camera::ViewerCamera;
-use crate::messages::{Aim, Opened, Part, TreeSize};
+use crate::messages::{Opened, Part, TreeSize};
 use crate::record::Recorded;
-use crate::scene_data::{SceneData, TreeSource};
+use crate::scene_data::{Aim, SceneData, TreeSource};
 
 /// An open scene.
 pub(crate) struct Stage<'a> {

@@ -1,8 +1,8 @@
 //! Pure parts of the viewer: no threads, files or clocks.
 
-pub mod bounds;
 pub mod explanation;
 pub mod layer;
 pub mod rules;
+pub mod tiles;
 pub mod tree;
 pub mod viewpoint;

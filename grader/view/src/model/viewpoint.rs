@@ -5,9 +5,8 @@ use std::f32::consts::FRAC_PI_2;
 use framework::math::{atan2, sin_cos, tan};
 use framework::scene::{Camera, Placement};
 use glam::{Mat3, Quat, Vec3};
+use judging::judge::tree::bounds::Bounds;
 use serde::Deserialize;
-
-use super::bounds::Bounds;
 
 /// The largest angle between the view and the horizon, so that up stays up.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.01;
@@ -61,7 +60,7 @@ impl Viewpoint {
     pub fn of_scene(camera: &Camera, bounds: &Bounds) -> Self {
         let placement = camera.placement;
         let forward = -placement.axes.z_axis;
-        let ahead = (bounds.center() - placement.position).dot(forward);
+        let ahead = (bounds.center().as_vec3() - placement.position).dot(forward);
         let axes = [Vec3::X, Vec3::Y, Vec3::Z];
         let y = placement.axes.y_axis;
         let nearest = axes
@@ -70,7 +69,7 @@ impl Viewpoint {
         let up = nearest.unwrap_or(Vec3::Y);
         Viewpoint {
             placement,
-            distance: ahead.max(0.05 * bounds.diagonal()).max(1e-3),
+            distance: ahead.max(0.05 * bounds.diagonal() as f32).max(1e-3),
             up: if up.dot(y) < 0.0 { -up } else { up },
         }
     }
@@ -98,11 +97,12 @@ impl Viewpoint {
     ) -> Self {
         let slope = tan(0.5 * vertical_fov.to_radians()) * aspect_ratio.min(1.0);
         // The sphere around the box fits into the cone of view.
-        let distance = (0.55 * bounds.diagonal() / slope * (1.0 + slope * slope).sqrt()).max(1e-3);
+        let distance =
+            (0.55 * bounds.diagonal() as f32 / slope * (1.0 + slope * slope).sqrt()).max(1e-3);
         let forward = toward.normalize_or(Vec3::NEG_Z);
         Viewpoint {
             placement: Placement {
-                position: bounds.center() - distance * forward,
+                position: bounds.center().as_vec3() - distance * forward,
                 axes: axes(forward, up),
             },
             distance,
@@ -184,8 +184,8 @@ mod tests {
 
     fn cube() -> Bounds {
         Bounds {
-            min: Vec3::NEG_ONE,
-            max: Vec3::ONE,
+            min: glam::DVec3::NEG_ONE,
+            max: glam::DVec3::ONE,
         }
     }
 

@@ -59,18 +59,18 @@ impl Session {
     pub fn apply(&mut self, command: &Command, now: Instant) -> Result<Option<String>, String> {
         match command {
             Command::Scene(name) => {
-                if !self.scenes.contains(name) {
+                if !self.shown.scenes.contains(name) {
                     return Err(format!("there is no scene {name:?}"));
                 }
-                self.loading = Some(name.clone());
-                self.version += 1;
+                self.shown.loading = Some(name.clone());
+                self.shown.version += 1;
                 return Ok(Some(name.clone()));
             }
             Command::View(view) => {
                 self.timing_mut().stop(now);
-                self.view = *view;
+                self.shown.view = *view;
                 self.is_dirty = true;
-                self.is_picture_complete = false;
+                self.shown.is_picture_complete = false;
                 self.is_tree_wanted |= *view == View::Bvh;
                 self.is_recording_wanted |= *view == View::Tests;
                 self.fault = None;
@@ -79,28 +79,28 @@ impl Session {
                 if !stops.is_finite() || stops.abs() > MAX_EXPOSURE {
                     return Err("the exposure is out of range".to_owned());
                 }
-                self.exposure = *stops;
+                self.shown.exposure = *stops;
                 self.is_dirty = true;
-                self.is_picture_complete = false;
+                self.shown.is_picture_complete = false;
             }
             Command::Film([width, height]) => {
                 let side = 1..=MAX_SIDE;
                 if !side.contains(width) || !side.contains(height) {
                     return Err(format!("each side must have 1 to {MAX_SIDE} pixels"));
                 }
-                self.film = UVec2::new(*width, *height);
+                self.shown.film = UVec2::new(*width, *height);
                 self.restart(now);
             }
             Command::Samples(samples) => {
                 if !(1..=MAX_SAMPLES).contains(samples) {
                     return Err(format!("a pixel can have 1 to {MAX_SAMPLES} samples"));
                 }
-                self.samples = *samples;
+                self.shown.samples = *samples;
                 // Samples that have been added cannot be taken away.
-                if *samples < self.light.samples() {
+                if *samples < self.light.tiles.samples() {
                     self.restart(now);
                 } else {
-                    self.light.set_samples(*samples);
+                    self.light.tiles.set_samples(*samples);
                 }
             }
             Command::Move(movement) => {
@@ -120,7 +120,7 @@ impl Session {
             }
             Command::Pick { pixel, sample } => {
                 let pixel = UVec2::from(*pixel);
-                if pixel.cmpge(self.film).any() {
+                if pixel.cmpge(self.shown.film).any() {
                     return Err("the pixel is outside the picture".to_owned());
                 }
                 self.pin(Some(pixel), *sample);
@@ -135,7 +135,7 @@ impl Session {
             }
             Command::Tree => self.is_tree_wanted = true,
         }
-        self.version += 1;
+        self.shown.version += 1;
         Ok(None)
     }
 

@@ -1,15 +1,13 @@
 //! The state of the viewer: the scene, the camera, the picture so far, and the work that is to be
 //! done. It starts no threads and reads no files or clocks.
 
-mod builds;
 mod commands;
-mod jobs;
 mod notes;
-mod picture;
+mod page_state;
 mod results;
+mod state;
 mod timing;
-mod view;
-mod view_state;
+mod work;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -18,62 +16,37 @@ use framework::scene::Camera;
 use glam::{UVec2, Vec3};
 use grader::submission::Submission;
 use protocol::Trace;
-use view_probe::messages::{Aim, Opened, TestCounts};
+use view_probe::messages::{Opened, TestCounts};
+use view_probe::scene_data::Aim;
 
 use crate::model::explanation::Explanation;
 use crate::model::layer::Layer;
+use crate::model::tiles::{LayerKind, Tiles};
 use crate::model::tree::TreeModel;
 use crate::model::viewpoint::Viewpoint;
+use crate::program::BuildState;
 use crate::subject::{PathSettings, Subject, aim};
 
-pub use builds::BuildState;
 pub use commands::Command;
-pub use jobs::{DrawJob, Key, RecordingJob, Work};
 pub use notes::{Note, PanicNote};
+pub use page_state::PageState;
+pub use state::{Key, Pinned, Resources, Shown, View};
 use timing::Timing;
-pub use view::View;
+pub use work::{Job, Work, Worker};
 
 /// The time after the last request of a page until drawing pauses.
 const WATCHED_FOR: Duration = Duration::from_secs(40);
 
-/// The cores and the memory that the programs may use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Resources {
-    /// The number of programs that draw at the same time.
-    pub cores: usize,
-    /// The memory of all programs together, in bytes.
-    pub memory: u64,
-}
-
-/// The pixel or ray that is explained. It stays the same when the camera moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pinned {
-    /// The camera at the time of the click.
-    pub aim: Aim,
-    /// The pixel, or `None` for the exam's ray.
-    pub pixel: Option<UVec2>,
-    /// The number of the path, or `None` for the ray through the centre of the pixel.
-    pub sample: Option<u32>,
-}
-
 /// The state of the viewer.
 #[derive(Debug)]
 pub struct Session {
-    /// Changes with everything that the page shows.
-    pub version: u64,
+    pub(crate) shown: Shown,
     /// Whether the picture has changed since it was last composed.
     pub is_dirty: bool,
     settings: PathSettings,
-    scenes: Vec<String>,
     pub(crate) subject: Arc<Subject>,
-    /// The scene that is being loaded.
-    loading: Option<String>,
     /// The reason why the last scene was not loaded.
     loading_error: Option<String>,
-    pub(crate) view: View,
-    pub(crate) exposure: f32,
-    film: UVec2,
-    samples: u32,
     viewpoint: Viewpoint,
     drawing: BuildState,
     recording: Option<BuildState>,
@@ -92,7 +65,6 @@ pub struct Session {
     faults: u32,
     /// Whether each request draws a single pixel, to find the one that ends the program.
     is_careful: bool,
-    panics: Vec<PanicNote>,
     invalid_paths: u64,
     pub(crate) light: Layer<Vec3>,
     pub(crate) hits: Layer<Option<Trace>>,
@@ -112,14 +84,7 @@ pub struct Session {
     timings: [Timing; 3],
     started_at: Instant,
     watched_at: Instant,
-    cores: usize,
-    memory: u64,
-    /// The number of the picture that is on the page.
-    pub picture_number: u64,
-    /// Whether the picture on the page is of an earlier version of the code.
-    is_stale: bool,
-    /// Whether the picture on the page has all samples of the present camera and program.
-    is_picture_complete: bool,
+    resources: Resources,
 }
 
 impl Session {
@@ -134,18 +99,25 @@ impl Session {
         now: Instant,
     ) -> Self {
         let film = film.unwrap_or(subject.camera.pinhole.film);
-        let mut session = Session {
+        let shown = Shown {
             version: 1,
-            is_dirty: false,
-            settings,
             scenes,
+            loading: None,
             view: View::Shaded,
             exposure: 0.0,
             film,
             samples,
+            panics: Vec::new(),
+            picture: 0,
+            is_stale: false,
+            is_picture_complete: false,
+        };
+        let mut session = Session {
+            shown,
+            is_dirty: false,
+            settings,
             viewpoint: subject.viewpoint,
             subject: Arc::new(subject),
-            loading: None,
             loading_error: None,
             drawing: BuildState::Compiling,
             recording: None,
@@ -158,7 +130,6 @@ impl Session {
             fault: None,
             faults: 0,
             is_careful: false,
-            panics: Vec::new(),
             invalid_paths: 0,
             light: Layer::new(film, samples),
             hits: Layer::new(film, 1),
@@ -175,11 +146,7 @@ impl Session {
             timings: Default::default(),
             started_at: now,
             watched_at: now,
-            cores: resources.cores,
-            memory: resources.memory,
-            picture_number: 0,
-            is_stale: false,
-            is_picture_complete: false,
+            resources,
         };
         session.show_subject(now);
         session
@@ -187,9 +154,9 @@ impl Session {
 
     /// Replaces the scene.
     pub fn open(&mut self, subject: Subject, now: Instant) {
-        self.loading = None;
+        self.shown.loading = None;
         self.loading_error = None;
-        self.film = subject.camera.pinhole.film;
+        self.shown.film = subject.camera.pinhole.film;
         self.viewpoint = subject.viewpoint;
         self.subject = Arc::new(subject);
         self.numbers.scene += 1;
@@ -201,16 +168,16 @@ impl Session {
 
     /// Reports that the scene that is being loaded is invalid.
     pub fn opening_failed(&mut self, why: String) {
-        self.loading = None;
+        self.shown.loading = None;
         self.loading_error = Some(why);
-        self.version += 1;
+        self.shown.version += 1;
     }
 
     /// Starts with a new subject. The exam's ray is explained at once.
     fn show_subject(&mut self, now: Instant) {
         if let Some(question) = &self.subject.question {
             self.is_tree_wanted = true;
-            self.view = View::Normals;
+            self.shown.view = View::Normals;
             if question.ray.is_some() {
                 self.pinned = Some(Pinned {
                     aim: self.aim(),
@@ -227,34 +194,40 @@ impl Session {
     pub fn camera(&self) -> Camera {
         // Takes the aspect ratio of the film like `Scene::on_film`.
         let own = self.subject.camera;
+        let film = self.shown.film;
         let mut camera = own;
-        camera.pinhole.film = self.film;
+        camera.pinhole.film = film;
         if !own.fixed_aspect {
-            camera.pinhole.aspect_ratio = self.film.x as f32 / self.film.y as f32;
+            camera.pinhole.aspect_ratio = film.x as f32 / film.y as f32;
         }
         camera.placement = self.viewpoint.placement;
         camera
     }
 
-    pub(crate) fn aim(&self) -> Aim {
+    fn aim(&self) -> Aim {
         aim(&self.camera(), self.settings)
+    }
+
+    /// Returns the key of new work.
+    pub fn key(&self) -> Key {
+        self.numbers
     }
 
     /// Starts the picture again: with another camera, program or scene.
     fn restart(&mut self, now: Instant) {
         self.numbers.aim += 1;
-        self.is_picture_complete = false;
-        self.light = Layer::new(self.film, self.samples);
-        self.hits = Layer::new(self.film, 1);
-        self.tests = Layer::new(self.film, 1);
+        self.shown.is_picture_complete = false;
+        self.light = Layer::new(self.shown.film, self.shown.samples);
+        self.hits = Layer::new(self.shown.film, 1);
+        self.tests = Layer::new(self.shown.film, 1);
         self.fault = None;
         self.faults = 0;
         self.is_careful = false;
-        self.panics.clear();
+        self.shown.panics.clear();
         self.invalid_paths = 0;
         self.started_at = now;
         self.timings = Default::default();
-        self.version += 1;
+        self.shown.version += 1;
     }
 
     /// Reports that a page is open.
@@ -272,11 +245,57 @@ impl Session {
     }
 
     fn timing(&self) -> &Timing {
-        &self.timings[self.view.layer()]
+        &self.timings[self.shown.view.layer() as usize]
     }
 
     fn timing_mut(&mut self) -> &mut Timing {
-        &mut self.timings[self.view.layer()]
+        &mut self.timings[self.shown.view.layer() as usize]
+    }
+
+    /// Returns the progress of the layer that is shown.
+    fn tiles(&self) -> &Tiles {
+        match self.shown.view.layer() {
+            LayerKind::Light => &self.light.tiles,
+            LayerKind::Hits => &self.hits.tiles,
+            LayerKind::Tests => &self.tests.tiles,
+        }
+    }
+
+    fn tiles_mut(&mut self, layer: LayerKind) -> &mut Tiles {
+        match layer {
+            LayerKind::Light => &mut self.light.tiles,
+            LayerKind::Hits => &mut self.hits.tiles,
+            LayerKind::Tests => &mut self.tests.tiles,
+        }
+    }
+
+    /// Returns whether everything is there that the picture needs besides its pixels.
+    fn has_colours(&self) -> bool {
+        self.shown.view != View::Bvh || self.tree.is_some()
+    }
+
+    /// Returns whether there is something to show of the new picture. Until then, the old one stays.
+    pub fn has_picture(&self) -> bool {
+        self.tiles().has_coarse_picture() && self.has_colours()
+    }
+
+    /// Returns whether the picture is complete.
+    pub fn is_complete(&self) -> bool {
+        self.tiles().is_complete() && self.has_colours()
+    }
+
+    /// Returns the time since the picture was started.
+    pub fn age(&self, now: Instant) -> Duration {
+        now.saturating_duration_since(self.started_at)
+    }
+
+    /// Reports that the page has a new picture, of all samples or of some.
+    pub fn show_picture(&mut self, key: Key, is_complete: bool) {
+        self.shown.picture += 1;
+        self.shown.is_picture_complete = is_complete && key == self.numbers && !self.is_dirty;
+        // While there is no program, the picture is composed of old pixels.
+        self.shown.is_stale &= !matches!(self.drawing, BuildState::Ready(_));
+        self.shown.version += 1;
     }
 
     fn forget_tree(&mut self) {
@@ -290,6 +309,6 @@ impl Session {
         self.explanation_number += 1;
         self.is_explanation_busy = false;
         self.explanation_fault = None;
-        self.version += 1;
+        self.shown.version += 1;
     }
 }

@@ -1,12 +1,14 @@
 //! Remarks about the submission: tasks that are not written yet, panics, and faults.
 
+use glam::UVec2;
 use grader::handed_out::{RAYS, TaskMethod};
+use judging::assignment::TaskInfo;
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
 use view_probe::messages::{Part, TreeSize};
 
-use super::{BuildState, Session, View};
-use crate::program::FileError;
+use super::{Session, View};
+use crate::program::{BuildState, FileError};
 
 /// The maximum number of panics that are listed.
 const MAX_PANICS: usize = 20;
@@ -28,7 +30,7 @@ pub struct PanicNote {
     /// The file and line.
     pub location: String,
     /// The first pixel, from the bottom left.
-    pub pixel: [u32; 2],
+    pub pixel: UVec2,
     /// The number of pixels.
     pub count: u64,
 }
@@ -50,28 +52,27 @@ impl Session {
                 None,
             );
         }
-        if let (View::Tests, Some(BuildState::Failed(errors))) = (self.view, &self.recording) {
+        if let (View::Tests, Some(BuildState::Failed(errors))) = (self.shown.view, &self.recording)
+        {
             add(recording_failed(errors), None);
         }
         let Some(opened) = &self.opened else {
             return notes;
         };
         for (part, panic) in &opened.missing {
-            let (task, effect) = match part {
+            let (id, effect) = match part {
                 Part::Camera => ("camera", "the viewer's own camera is used"),
                 Part::Triangle => ("triangle", "triangles are left out"),
                 Part::Sphere => ("sphere", "spheres are left out"),
                 Part::BBox => ("bbox", "boxes cannot be tested"),
             };
-            let title = title(task);
-            add(
-                format!("{title}: not written yet, so {effect}."),
-                Some(panic.location.clone()),
-            );
+            let text = format!("{}: not written yet, so {effect}.", task(id).title);
+            add(text, Some(panic.location.clone()));
         }
+        let build = task("build");
         match &opened.tree {
             ElementOutcome::Panicked(panic) => add(
-                format!("{}: panicked: {}", title("build"), panic.message),
+                format!("{}: panicked: {}", build.title, panic.message),
                 Some(panic.location.clone()),
             ),
             ElementOutcome::Value(size) => self.add_notes_about_tree(*size, &mut add),
@@ -79,8 +80,7 @@ impl Session {
         }
         if let Some(why) = &self.tree_fault {
             let text = format!("The tree cannot be shown: {why}");
-            let build = self.task_method("build");
-            add(text, build.as_ref().map(line_in_tree));
+            add(text, self.line_of(build));
         }
         if self.invalid_paths > 0 {
             add(
@@ -96,25 +96,20 @@ impl Session {
     }
 
     fn add_notes_about_tree(&self, size: TreeSize, mut add: impl FnMut(String, Option<String>)) {
-        let [build, traverse] = ["build", "traverse"].map(|task| self.task_method(task));
-        let is_unwritten = |method: &Option<TaskMethod>| {
-            let method = method.as_ref();
-            method.is_some_and(|method| !method.is_changed)
-        };
         let effect = match size.primitives {
             0 => String::new(),
             count => format!(", so each ray tests all {count} primitives"),
         };
-        if size.nodes == 0 && is_unwritten(&build) {
-            let text = format!("{}: not written yet{effect}.", title("build"));
-            add(text, build.as_ref().map(line_in_tree));
+        let not_written = |task: &TaskInfo| format!("{}: not written yet{effect}.", task.title);
+        let (build, traverse) = (task("build"), task("traverse"));
+        if size.nodes == 0 && self.is_from_starter(build) {
+            add(not_written(build), self.line_of(build));
         } else if size.nodes == 0 && size.primitives > 0 {
-            let text = format!("{}: the tree has no nodes.", title("build"));
-            add(text, build.as_ref().map(line_in_tree));
+            let text = format!("{}: the tree has no nodes.", build.title);
+            add(text, self.line_of(build));
         }
-        if is_unwritten(&traverse) {
-            let text = format!("{}: not written yet{effect}.", title("traverse"));
-            add(text, traverse.as_ref().map(line_in_tree));
+        if self.is_from_starter(traverse) {
+            add(not_written(traverse), self.line_of(traverse));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` of triangles or spheres first.";
@@ -122,9 +117,13 @@ impl Session {
         }
     }
 
-    /// Returns the method of a task in the submission, if it is found.
-    fn task_method(&self, task: &str) -> Option<TaskMethod> {
-        let task = RAYS.assignment.find(task)?;
+    /// Returns whether a task's method is that of the starter.
+    fn is_from_starter(&self, task: &TaskInfo) -> bool {
+        self.method(task).is_some_and(|method| !method.is_changed)
+    }
+
+    /// Returns a task's method in the submission, if it is found.
+    fn method(&self, task: &TaskInfo) -> Option<TaskMethod> {
         RAYS.task_method(task.task(), self.text(task.file)?).ok()
     }
 
@@ -134,14 +133,19 @@ impl Session {
         text.as_deref().ok()
     }
 
+    /// Returns the file and line in which a task's method is declared.
+    fn line_of(&self, task: &TaskInfo) -> Option<String> {
+        Some(format!("{}:{}", task.file, self.method(task)?.line))
+    }
+
     /// Adds the panics of some pixels.
-    pub(super) fn add_panic(&mut self, panic: &Panic, pixel: [u32; 2], count: u64) {
-        let mut known = self.panics.iter();
+    pub(super) fn add_panic(&mut self, panic: &Panic, pixel: UVec2, count: u64) {
+        let mut known = self.shown.panics.iter();
         match known.position(|known| known.location == panic.location) {
-            Some(known) => self.panics[known].count += count,
+            Some(known) => self.shown.panics[known].count += count,
             // The first ones are enough to start with.
-            None if self.panics.len() == MAX_PANICS => {}
-            None => self.panics.push(PanicNote {
+            None if self.shown.panics.len() == MAX_PANICS => {}
+            None => self.shown.panics.push(PanicNote {
                 message: panic.message.clone(),
                 location: panic.location.clone(),
                 pixel,
@@ -149,11 +153,6 @@ impl Session {
             }),
         }
     }
-}
-
-/// Returns the file and line of a method in `bvh.rs`.
-fn line_in_tree(method: &TaskMethod) -> String {
-    format!("bvh.rs:{}", method.line)
 }
 
 /// Returns the reason why tests cannot be recorded.
@@ -165,10 +164,7 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the title of a task.
-fn title(id: &str) -> &'static str {
-    let mut tasks = RAYS.assignment.tasks.iter();
-    tasks
-        .find(|task| task.id == id)
-        .map_or("this task", |task| task.title)
+/// Returns the task with this id.
+fn task(id: &str) -> &'static TaskInfo {
+    RAYS.assignment.find(id).expect("the viewer's tasks exist")
 }

@@ -39,24 +39,21 @@ fn module_folder(path: &str) -> String {
 
 /// Returns the text without its declarations `#[cfg(test)] mod NAME;`, and the declared names.
 fn without_test_modules(text: &str) -> (String, Vec<String>) {
-    let lines: Vec<&str> = text.lines().collect();
-    let named = |line: &&str| {
+    let named = |line: &str| {
         let module = line.strip_prefix("pub(crate) ").unwrap_or(line);
         let name = module.strip_prefix("mod ")?.strip_suffix(';')?;
         Some(name.to_owned())
     };
-    let mut kept = String::with_capacity(text.len());
-    let mut names = Vec::new();
-    let mut rest = lines.as_slice();
-    while let [line, after @ ..] = rest {
-        let name = after.first().and_then(named);
-        if let (CFG_TEST, Some(name)) = (*line, name) {
-            names.push(name);
-            rest = &after[1..];
-            continue;
+    let (mut kept, mut names) = (String::with_capacity(text.len()), Vec::new());
+    let mut lines = text.lines().peekable();
+    while let Some(line) = lines.next() {
+        match lines.peek().and_then(|next| named(next)) {
+            Some(name) if line == CFG_TEST => {
+                names.push(name);
+                lines.next();
+            }
+            _ => kept.extend([line, "\n"]),
         }
-        kept.extend([line, "\n"]);
-        rest = after;
     }
     (kept, names)
 }

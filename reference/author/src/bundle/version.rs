@@ -10,7 +10,7 @@ use anyhow::Result;
 use grader::files;
 use grader::handed_out::HandedOut;
 use judging::content_hash::ContentHash;
-use toml_edit::{DocumentMut, value};
+use toml_edit::{DocumentMut, Item, value};
 
 use crate::bundle::Bundle;
 use crate::bundle::manifests::parse;
@@ -33,9 +33,10 @@ pub(super) fn add(root: &Path, handed_out: &HandedOut, bundle: &mut Bundle) -> R
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
     for path in paths.iter().filter(|path| path.ends_with("Cargo.toml")) {
         let mut manifest = parse(path, bundle.text(path).unwrap_or_default())?;
-        for table in ["package", "workspace"] {
-            add_to(&mut manifest, table, version);
-        }
+        let package = manifest.get_mut("package");
+        add_to(package, version);
+        let workspace = manifest.get_mut("workspace");
+        add_to(workspace.and_then(|item| item.get_mut("package")), version);
         bundle.insert(path, manifest.to_string());
     }
     Ok(())
@@ -55,18 +56,11 @@ pub(super) fn is_students_own(path: &str, handed_out: &HandedOut) -> bool {
     name.is_some_and(|name| handed_out.task_file(name).is_some())
 }
 
-/// Adds the version to the one in the table `package` or `workspace.package`, if there is one.
-fn add_to(manifest: &mut DocumentMut, table: &str, version: &str) {
-    let table = match table {
-        "workspace" => manifest
-            .get_mut(table)
-            .and_then(|item| item.get_mut("package")),
-        _ => manifest.get_mut(table),
-    };
-    let Some(item) = table.and_then(|table| table.get_mut("version")) else {
-        return;
-    };
-    if let Some(plain) = item.as_str() {
+/// Adds the version to the one in the table of a package, if there is one.
+fn add_to(package: Option<&mut Item>, version: &str) {
+    if let Some(item) = package.and_then(|package| package.get_mut("version"))
+        && let Some(plain) = item.as_str()
+    {
         *item = value(format!("{plain}+{version}"));
     }
 }

@@ -20,7 +20,6 @@ use crate::coverage::coverage;
 use crate::exams;
 use crate::generated_file::{GeneratedFile, Mode, write_or_check};
 use crate::long_runs;
-use crate::scenes;
 use crate::solutions::Solutions;
 use crate::solutions::workbench::Workbench;
 use crate::starter;
@@ -48,7 +47,6 @@ pub fn run(command: Command) -> CommandResult {
             let exam = exams::final_exam_text(seed)?;
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
-        Command::Scenes(check) => generate(&scenes::generated_files(), check.mode(), "scenes"),
         Command::Handout {
             check: _,
             book,

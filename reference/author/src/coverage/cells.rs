@@ -26,6 +26,9 @@ const HISTORY: [Cell; 3] = [
     "history: tenth call",
     "history: thousandth call",
 ];
+const OUTSIDE: Cell = "start: outside";
+const INSIDE: Cell = "start: inside";
+const ON_SURFACE: Cell = "start: on the surface";
 const SIZES: [Cell; 4] = ["size: none", "size: one", "size: few", "size: many"];
 
 /// Returns the cells that are distinguished in a task, in the order of the table.
@@ -34,22 +37,15 @@ pub(super) fn of_task(task: &str) -> Vec<Cell> {
         [&SCALES[..], &PLACES, &[OCTANTS], start, more, &HISTORY].concat()
     };
     match task {
-        "camera" => [
-            &["film: wide", "film: high", "film: large", QUADRANTS][..],
-            &HISTORY,
-        ]
-        .concat(),
-        "triangle" => of_rays(
-            &["start: in front", "start: behind", "start: on the surface"],
-            &[],
-        ),
-        "sphere" => of_rays(
-            &["start: outside", "start: inside", "start: on the surface"],
-            &[],
-        ),
-        "bbox" => of_rays(&["start: outside", "start: inside"], &[]),
+        "camera" => {
+            let films = ["film: wide", "film: high", "film: large", QUADRANTS];
+            [&films[..], &HISTORY].concat()
+        }
+        "triangle" => of_rays(&["start: in front", "start: behind", ON_SURFACE], &[]),
+        "sphere" => of_rays(&[OUTSIDE, INSIDE, ON_SURFACE], &[]),
+        "bbox" => of_rays(&[OUTSIDE, INSIDE], &[]),
         "build" => [&SCALES[..], &PLACES, &SIZES].concat(),
-        _ => of_rays(&["start: outside", "start: inside"], &SIZES),
+        _ => of_rays(&[OUTSIDE, INSIDE], &SIZES),
     }
 }
 
@@ -60,12 +56,10 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
     match &asked.question {
         Question::Camera { camera, samples } => {
             let film = camera.film;
+            let is_large = film.max_element() >= 1000;
             add("film: wide", calls * usize::from(film.x > film.y));
             add("film: high", calls * usize::from(film.y > film.x));
-            add(
-                "film: large",
-                calls * usize::from(film.max_element() >= 1000),
-            );
+            add("film: large", calls * usize::from(is_large));
             for sample in samples.to_vec(film) {
                 let (right, up) = (2 * sample.pixel.x >= film.x, 2 * sample.pixel.y >= film.y);
                 add(QUADRANT[usize::from(right) + 2 * usize::from(up)], 1);
@@ -108,13 +102,9 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
 }
 
 fn bounds(shapes: &[Shape]) -> Bounds {
-    let boxes = shapes.iter().map(scan::bounds);
-    boxes
-        .reduce(|all, next| all.union(&next))
-        .unwrap_or(Bounds {
-            min: DVec3::ZERO,
-            max: DVec3::ZERO,
-        })
+    let all = shapes.iter().map(scan::bounds);
+    let all = all.reduce(|all, next| all.union(&next));
+    all.unwrap_or(Bounds::around([DVec3::ZERO]))
 }
 
 /// Adds the scale and the place of what is in this box.
@@ -128,10 +118,8 @@ fn place(bounds: &Bounds, calls: usize, add: &mut impl FnMut(Cell, usize)) {
     };
     add(SCALES[scale], calls);
     let distance = bounds.center().abs().max_element();
-    add(
-        PLACES[usize::from(distance > size && distance > 10.0)],
-        calls,
-    );
+    let is_far = distance > size && distance > 10.0;
+    add(PLACES[usize::from(is_far)], calls);
 }
 
 fn size(count: usize) -> Cell {
@@ -148,18 +136,16 @@ fn start_at_shapes(shapes: &[Shape], ray: &Ray) -> Cell {
     let start = ray.origin.as_dvec3();
     match shapes.first() {
         Some(Shape::Sphere { center, radius, .. }) => {
-            let distance = start.distance(center.as_dvec3()) / f64::from(*radius);
-            match distance {
-                ..0.99 => "start: inside",
-                ..1.01 => "start: on the surface",
-                _ => "start: outside",
+            match start.distance(center.as_dvec3()) / f64::from(*radius) {
+                ..0.99 => INSIDE,
+                ..1.01 => ON_SURFACE,
+                _ => OUTSIDE,
             }
         }
-        Some(Shape::Triangle { vertices, .. }) => {
-            side(vertices.map(|it| it.position.as_dvec3()), start)
+        shape => {
+            let corners = shape.and_then(scan::corners);
+            corners.map_or(OUTSIDE, |corners| side(corners, start))
         }
-        Some(Shape::FlatTriangle { corners, .. }) => side(corners.map(|it| it.as_dvec3()), start),
-        None => "start: outside",
     }
 }
 
@@ -170,17 +156,14 @@ fn side([p0, p1, p2]: [DVec3; 3], point: DVec3) -> Cell {
     match height {
         0.01.. => "start: in front",
         ..-0.01 => "start: behind",
-        _ => "start: on the surface",
+        _ => ON_SURFACE,
     }
 }
 
 fn start_at_box(bounds: &Bounds, ray: &Ray) -> Cell {
     let start = Bounds::around([ray.origin.as_dvec3()]);
-    if bounds.contains(&start) {
-        "start: inside"
-    } else {
-        "start: outside"
-    }
+    let is_inside = bounds.contains(&start);
+    if is_inside { INSIDE } else { OUTSIDE }
 }
 
 /// Returns the rays of a question, except those of a camera.

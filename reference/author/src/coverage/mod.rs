@@ -7,7 +7,6 @@ mod contract;
 mod list;
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::Result;
@@ -56,40 +55,31 @@ impl Coverage {
 
 /// Determines the coverage of the contract by an exam.
 pub fn coverage(root: &Path, handed_out: &HandedOut, exam: &Exam) -> Result<Coverage> {
-    let folder = root.join(handed_out.solutions());
-    let listed: Listed = read_toml(&folder.join(SENTENCES))?;
-    let mut coverage = Coverage {
-        table: GeneratedFile::new(format!("{}/{TABLE}", handed_out.solutions()), String::new()),
-        problems: Vec::new(),
-        sentences: 0,
-        asked: 0,
-        excused: 0,
-    };
-    let mut text = format!(
+    let folder = handed_out.solutions();
+    let listed: Listed = read_toml(&root.join(&folder).join(SENTENCES))?;
+    let text = format!(
         "# Coverage of the contract\n\n\
          Written by `cargo author coverage` for the {} exam. Each row is a sentence of the \
          documentation of a method that students write; each number counts the answers that ask it \
          there. At least {FEWEST} must. A letter is the reason why fewer do, below the table.\n",
         exam.id
     );
+    let mut coverage = Coverage {
+        table: GeneratedFile::new(format!("{folder}/{TABLE}"), text),
+        problems: Vec::new(),
+        sentences: 0,
+        asked: 0,
+        excused: 0,
+    };
     for task in handed_out.assignment.tasks {
         let file = files::read_to_string(root.join(handed_out.reference).join(task.file))?;
-        let sentences = contract::sentences(&file, task);
-        coverage.add_task(&mut text, task, &sentences, &listed, exam);
+        coverage.add_task(task, &contract::sentences(&file, task), &listed, exam);
     }
-    coverage.table = GeneratedFile::new(format!("{}/{TABLE}", handed_out.solutions()), text);
     Ok(coverage)
 }
 
 impl Coverage {
-    fn add_task(
-        &mut self,
-        text: &mut String,
-        task: &TaskInfo,
-        sentences: &[String],
-        listed: &Listed,
-        exam: &Exam,
-    ) {
+    fn add_task(&mut self, task: &TaskInfo, sentences: &[String], listed: &Listed, exam: &Exam) {
         let of_task = |entry: &&Sentence| entry.task == task.id;
         let entries: Vec<&Sentence> = listed.sentence.iter().filter(of_task).collect();
         let unknown = entries
@@ -106,55 +96,45 @@ impl Coverage {
         for sentence in sentences {
             self.sentences += 1;
             let Some(entry) = entries.iter().find(|entry| entry.text == *sentence) else {
-                self.problems.push(format!(
-                    "{SENTENCES} has no entry for {}: {sentence:?}",
-                    task.id
-                ));
+                let problem = format!("{SENTENCES} has no entry for {}: {sentence:?}", task.id);
+                self.problems.push(problem);
                 continue;
             };
-            write!(rows, "| {sentence} |").expect("writing to a String cannot fail");
+            rows += &format!("| {sentence} |");
             if let Some(why) = &entry.why_not {
-                write!(rows, " {} |", letter(&mut reasons, why)).expect("as above");
-                rows.push_str(&" |".repeat(cells.len()));
-                rows.push('\n');
+                let why = letter(&mut reasons, why);
+                rows += &format!(" {why} |{}\n", " |".repeat(cells.len()));
                 continue;
             }
             let counts = counts(entry, exam);
-            let items: Vec<String> = entry
-                .items
-                .iter()
-                .map(|id| format!("`{}`", short(id)))
-                .collect();
-            write!(rows, " {} |", items.join(", ")).expect("as above");
+            let items = entry.items.iter().map(|id| format!("`{}`", short(id)));
+            rows += &format!(" {} |", items.collect::<Vec<_>>().join(", "));
             for cell in &cells {
                 let count = cells::times(&counts, cell);
-                let why = listed.reason(task, entry, cell);
-                match (count >= FEWEST, why) {
-                    (true, _) => {
-                        self.asked += 1;
-                        write!(rows, " {count} |").expect("as above");
-                    }
-                    (false, Some(why)) => {
-                        self.excused += 1;
-                        write!(rows, " {} |", letter(&mut reasons, why)).expect("as above");
-                    }
-                    (false, None) => {
-                        self.problems.push(format!(
-                            "{}: {sentence:?} is asked {count} times at {cell}",
-                            task.id
-                        ));
-                        write!(rows, " **{count}** |").expect("as above");
-                    }
-                }
+                let shown = if count >= FEWEST {
+                    self.asked += 1;
+                    count.to_string()
+                } else if let Some(why) = listed.reason(task, entry, cell) {
+                    self.excused += 1;
+                    letter(&mut reasons, why)
+                } else {
+                    let task = task.id;
+                    let problem = format!("{task}: {sentence:?} is asked {count} times at {cell}");
+                    self.problems.push(problem);
+                    format!("**{count}**")
+                };
+                rows += &format!(" {shown} |");
             }
             rows.push('\n');
         }
-        writeln!(text, "\n## {}\n", task.title).expect("as above");
-        writeln!(text, "| sentence | items | {} |", cells.join(" | ")).expect("as above");
-        writeln!(text, "|---|---|{}", "--:|".repeat(cells.len())).expect("as above");
-        text.push_str(&rows);
+        self.table.contents += &format!(
+            "\n## {}\n\n| sentence | items | {} |\n|---|---|{}\n{rows}",
+            task.title,
+            cells.join(" | "),
+            "--:|".repeat(cells.len())
+        );
         for (index, why) in reasons.iter().enumerate() {
-            writeln!(text, "\n- {}: {why}", name(index)).expect("as above");
+            self.table.contents += &format!("\n- {}: {why}\n", name(index));
         }
     }
 
@@ -164,31 +144,24 @@ impl Coverage {
         let all: BTreeSet<&str> = of_task.map(|item| item.id.as_str()).collect();
         let asked = entries.iter().flat_map(|entry| &entry.items);
         let asked: BTreeSet<&str> = asked.map(String::as_str).collect();
-        for id in all.difference(&asked) {
-            self.problems
-                .push(format!("{SENTENCES}: no sentence is asked by {id}"));
-        }
-        for id in asked.difference(&all) {
-            self.problems
-                .push(format!("{SENTENCES}: there is no item {id}"));
-        }
-        for entry in entries {
-            if entry.items.is_empty() == entry.why_not.is_none() {
-                let text = &entry.text;
-                self.problems.push(format!(
-                    "{SENTENCES}: {text:?} needs either items or why_not"
-                ));
-            }
-        }
+        let unasked = all.difference(&asked);
+        let unasked = unasked.map(|id| format!("{SENTENCES}: no sentence is asked by {id}"));
+        let unknown = asked.difference(&all);
+        let unknown = unknown.map(|id| format!("{SENTENCES}: there is no item {id}"));
+        let unclear = |entry: &&&Sentence| entry.items.is_empty() == entry.why_not.is_none();
+        let unclear = entries.iter().filter(unclear).map(|entry| {
+            let text = &entry.text;
+            format!("{SENTENCES}: {text:?} needs either items or why_not")
+        });
+        let problems = unasked.chain(unknown).chain(unclear);
+        self.problems.extend(problems);
     }
 }
 
 fn counts(entry: &Sentence, exam: &Exam) -> Counts {
     let mut counts = Counts::new();
-    let items = exam
-        .items
-        .iter()
-        .filter(|item| entry.items.contains(&item.id));
+    let items = exam.items.iter();
+    let items = items.filter(|item| entry.items.contains(&item.id));
     for question in items.flat_map(|item| &item.questions) {
         cells::count(question, &mut counts);
     }
@@ -201,14 +174,11 @@ fn short(id: &str) -> &str {
 
 /// Returns the letter of a reason, which is added to the list if it is new.
 fn letter<'a>(reasons: &mut Vec<&'a str>, why: &'a str) -> String {
-    let index = reasons
-        .iter()
-        .position(|other| *other == why)
-        .unwrap_or_else(|| {
-            reasons.push(why);
-            reasons.len() - 1
-        });
-    name(index)
+    let known = reasons.iter().position(|other| *other == why);
+    name(known.unwrap_or_else(|| {
+        reasons.push(why);
+        reasons.len() - 1
+    }))
 }
 
 fn name(index: usize) -> String {

@@ -7,8 +7,8 @@ use class::cli::{ClassArguments, Cli as ClassCli};
 use grader::cli::Arguments;
 use grader::hand_in::HandInArguments;
 
+use super::SourceFile;
 use super::pages::{Page, Snippet};
-use super::source_file::SourceFile;
 use crate::cli::Cli;
 
 /// The files that define the options of `cargo render` and `cargo view`, each as a field. They are

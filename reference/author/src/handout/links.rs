@@ -51,21 +51,15 @@ pub const SUMMARY: &str = "SUMMARY.md";
 /// Returns the sections that an exam, or the assignment as its challenge, names but the chapters do
 /// not have, and the items without a section.
 pub fn missing_sections(pages: &[Page], exam: &Exam, challenge: Option<&str>) -> Vec<String> {
-    let headings: BTreeMap<&str, BTreeMap<String, &str>> = pages
-        .iter()
-        .map(|page| {
-            let headings = page.headings.iter();
-            let headings = headings.map(|heading| (anchor(&heading.text), heading.text.as_str()));
-            (page.name.as_str(), headings.collect())
-        })
-        .collect();
     let problem = |section: &Section| {
-        let headings = headings.get(section.chapter());
-        match headings.and_then(|headings| headings.get(section.anchor())) {
+        let chapter = pages.iter().find(|page| page.name == section.chapter());
+        let mut headings = chapter.into_iter().flat_map(|page| &page.headings);
+        match headings.find(|heading| anchor(&heading.text) == section.anchor()) {
             None => Some(format!("the handout has no section {section}")),
-            Some(heading) if *heading != section.heading() => Some(format!(
-                "{section} would be shown as \"{}\", but its heading is \"{heading}\"",
-                section.heading()
+            Some(heading) if heading.text != section.heading() => Some(format!(
+                "{section} would be shown as \"{}\", but its heading is \"{}\"",
+                section.heading(),
+                heading.text
             )),
             Some(_) => None,
         }

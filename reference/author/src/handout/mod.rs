@@ -6,7 +6,6 @@ pub mod commands;
 pub mod links;
 pub mod names;
 pub mod pages;
-pub mod source_file;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -18,7 +17,6 @@ use judging::section::CHAPTERS;
 
 use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
-use crate::handout::source_file::SourceFile;
 
 /// The folders in which the handout's names are looked up: the code that students see, and the code
 /// that writes files that students see.
@@ -37,6 +35,15 @@ const SOURCES: [&str; 10] = [
 
 /// Folders that are not searched for files.
 const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
+
+/// A source file in which names are looked up.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    /// The path relative to the workspace's root, with `/` as the separator.
+    pub path: String,
+    /// The complete text of the file.
+    pub text: String,
+}
 
 /// Returns all problems with the handout of the workspace at `root`: broken links, missing sections
 /// that the exam refers to, and unknown names and commands.

@@ -8,9 +8,8 @@ use std::collections::BTreeSet;
 
 use judging::exam::Exam;
 
-use super::commands;
 use super::pages::{Page, Snippet};
-use super::source_file::SourceFile;
+use super::{SourceFile, commands};
 
 /// Identifiers that the handout uses and that are defined by Rust or by another crate, not by the
 /// course.

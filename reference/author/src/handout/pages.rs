@@ -30,6 +30,8 @@ pub struct Page {
     pub commands: Vec<Snippet>,
     /// All other code blocks: pseudo-code and program output.
     pub blocks: Vec<Snippet>,
+    /// The formulas, each with its byte range, its LaTeX source, and whether it is a display formula.
+    pub formulas: Vec<(Range<usize>, String, bool)>,
 }
 
 /// Returns the Markdown extensions that the handout uses. GitHub and mdBook also support them.
@@ -47,7 +49,7 @@ impl Page {
         let mut reader = Reader::default();
         for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
             let line = 1 + markdown[..range.start].matches('\n').count();
-            reader.handle(event, line, &mut page);
+            reader.handle(event, range, line, &mut page);
         }
         page
     }
@@ -75,7 +77,7 @@ impl Reader {
         clippy::wildcard_enum_match_arm,
         reason = "the enum belongs to the parser, and all other events are ignored"
     )]
-    fn handle(&mut self, event: Event, line: usize, page: &mut Page) {
+    fn handle(&mut self, event: Event, range: Range<usize>, line: usize, page: &mut Page) {
         let snippet = |text: &str| Snippet {
             text: text.to_owned(),
             line,
@@ -96,9 +98,11 @@ impl Reader {
             }
             Event::End(TagEnd::CodeBlock) => {
                 if let Some((language, block)) = self.block.take() {
-                    page.end_block(&language, block);
+                    page.end_block(&language, block, range);
                 }
             }
+            Event::InlineMath(text) => page.formulas.push((range, text.to_string(), false)),
+            Event::DisplayMath(text) => page.formulas.push((range, text.to_string(), true)),
             Event::Code(text) => {
                 page.inline_code.push(snippet(&text));
                 if let Some(heading) = &mut self.heading {
@@ -116,24 +120,19 @@ impl Reader {
 }
 
 impl Page {
-    fn end_block(&mut self, language: &str, block: Snippet) {
+    fn end_block(&mut self, language: &str, block: Snippet, range: Range<usize>) {
         match language {
             "sh" => {
                 let lines = (block.line + 1..).zip(block.text.lines());
-                let commands = lines.map(|(line, text)| Snippet {
-                    text: text
-                        .split(" #")
-                        .next()
-                        .unwrap_or_default()
-                        .trim()
-                        .to_owned(),
-                    line,
+                let commands = lines.map(|(line, text)| {
+                    let text = text.split(" #").next().unwrap_or_default();
+                    let text = text.trim().to_owned();
+                    Snippet { text, line }
                 });
-                self.commands
-                    .extend(commands.filter(|command| !command.text.is_empty()));
+                let commands = commands.filter(|command| !command.text.is_empty());
+                self.commands.extend(commands);
             }
-            // Formulas are checked when the book is built.
-            "math" => {}
+            "math" => self.formulas.push((range, block.text, true)),
             _ => self.blocks.push(block),
         }
     }
@@ -163,38 +162,6 @@ pub fn pages(folder: &Path) -> Result<Vec<Page>, PathError> {
     Ok(pages)
 }
 
-/// Returns the formulas of a chapter, each with its byte range, its LaTeX source, and whether it is
-/// a display formula.
-#[expect(
-    clippy::wildcard_enum_match_arm,
-    reason = "the enum belongs to the parser, and all other events are ignored"
-)]
-pub fn formulas(markdown: &str) -> Vec<(Range<usize>, String, bool)> {
-    let mut formulas = Vec::new();
-    let mut block: Option<String> = None;
-    for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
-        match event {
-            Event::InlineMath(text) => formulas.push((range, text.to_string(), false)),
-            Event::DisplayMath(text) => formulas.push((range, text.to_string(), true)),
-            Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(language)))
-                if &*language == "math" =>
-            {
-                block = Some(String::new());
-            }
-            Event::Text(text) => {
-                if let Some(block) = &mut block {
-                    block.push_str(&text);
-                }
-            }
-            Event::End(TagEnd::CodeBlock) => {
-                formulas.extend(block.take().map(|text| (range, text, true)));
-            }
-            _ => {}
-        }
-    }
-    formulas
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -217,8 +184,9 @@ mod tests {
 
     #[test]
     fn finds_inline_and_display_formulas() {
-        let found = formulas(CHAPTER);
-        let found: Vec<(&str, bool)> = found
+        let page = Page::new("a.md", CHAPTER);
+        let found: Vec<(&str, bool)> = page
+            .formulas
             .iter()
             .map(|(_, text, is_display)| (text.as_str(), *is_display))
             .collect();

@@ -5,10 +5,10 @@ use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 use judging::signatures::MistakeSignatures;
 
-use super::similarity::in_a_room;
-use crate::seed::Seed;
+use super::place::in_a_room;
+use crate::seed::{Rng, Seed};
 
-/// An item without its questions.
+/// An item whose numbers are not drawn yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Declaration {
     /// The task's id, a dot, and a name, such as `sphere.near_side`.
@@ -21,6 +21,8 @@ pub(super) struct Declaration {
     pub look: &'static str,
     /// The section of the handout that teaches it.
     pub section: &'static str,
+    /// Draws its questions.
+    pub questions: fn(&mut Rng) -> Vec<ExamQuestion>,
     /// The group that it belongs to, if items of other tasks need that group.
     pub group: Option<Group>,
     /// The groups of items of earlier tasks that it depends on.
@@ -61,6 +63,11 @@ impl DeclaredItem {
         &self.item
     }
 
+    /// Returns the item's questions, to which more can be added.
+    pub(super) fn questions(&mut self) -> &mut Vec<ExamQuestion> {
+        &mut self.item.questions
+    }
+
     /// Asks the item's first table again about things in a room, if it has a table of rays.
     pub(super) fn with_a_room(mut self, seed: Seed) -> Self {
         let mut rng = seed.rng(&format!("{}.room", self.item.id));
@@ -71,29 +78,46 @@ impl DeclaredItem {
     }
 }
 
-/// Creates an item from its declaration and its questions.
-pub(super) fn item(declaration: Declaration, questions: Vec<ExamQuestion>) -> DeclaredItem {
-    let Declaration {
-        id,
-        points,
-        title,
-        look,
-        section,
-        group,
-        needs,
-    } = declaration;
-    let item = Item {
-        id: id.to_owned(),
-        title: title.to_owned(),
-        task: task(id),
-        points,
-        look: look.to_owned(),
-        section: Some(Section::new(section)),
-        needs: Vec::new(),
-        questions,
-        signatures: MistakeSignatures::default(),
+impl Declaration {
+    /// The fields of an item that neither belongs to a group nor needs one. The others are empty.
+    pub const ALONE: Declaration = Declaration {
+        id: "",
+        points: 0,
+        title: "",
+        look: "",
+        section: "",
+        questions: |_| Vec::new(),
+        group: None,
+        needs: &[],
     };
-    DeclaredItem { item, group, needs }
+
+    /// Returns the fields of an item that belongs to a group and needs none. The others are empty.
+    pub const fn in_group(group: Group) -> Self {
+        Declaration {
+            group: Some(group),
+            ..Declaration::ALONE
+        }
+    }
+
+    /// Draws the item's questions.
+    pub(super) fn draw(&self, seed: Seed) -> DeclaredItem {
+        let item = Item {
+            id: self.id.to_owned(),
+            title: self.title.to_owned(),
+            task: task(self.id),
+            points: self.points,
+            look: self.look.to_owned(),
+            section: Some(Section::new(self.section)),
+            needs: Vec::new(),
+            questions: (self.questions)(&mut seed.rng(self.id)),
+            signatures: MistakeSignatures::default(),
+        };
+        DeclaredItem {
+            item,
+            group: self.group,
+            needs: self.needs,
+        }
+    }
 }
 
 fn task(id: &str) -> Task {
@@ -122,14 +146,12 @@ mod tests {
     fn declared(id: &'static str, group: Option<Group>, needs: &'static [Group]) -> DeclaredItem {
         let declaration = Declaration {
             id,
-            points: 1,
-            title: "",
-            look: "",
             section: "start.md",
             group,
             needs,
+            ..Declaration::ALONE
         };
-        item(declaration, Vec::new())
+        declaration.draw(Seed(1))
     }
 
     #[test]

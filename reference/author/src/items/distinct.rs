@@ -8,7 +8,7 @@ use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge};
 use protocol::{Answer, ElementOutcome, Interval, Ray, Rays, Trace};
 
-use crate::items::DeclaredItem;
+use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
 /// The items of the practice exam.
@@ -16,15 +16,15 @@ static PRACTICE: LazyLock<Vec<DeclaredItem>> =
     LazyLock::new(|| super::declared_items(Seed::PRACTICE).collect());
 
 /// Draws items. Those of a final exam differ from those of the practice exam in every question.
-pub(super) fn draw_items(seed: Seed, items: &[fn(Seed) -> DeclaredItem]) -> Vec<DeclaredItem> {
+pub(super) fn draw_items(seed: Seed, items: &[Declaration]) -> Vec<DeclaredItem> {
     let items = items.iter().map(|item| match seed {
-        Seed::PRACTICE => item(seed),
-        seed => draw_distinct(seed, *item),
+        Seed::PRACTICE => item.draw(seed),
+        seed => draw_distinct(seed, item),
     });
     items.collect()
 }
 
-fn draw_distinct(seed: Seed, item: fn(Seed) -> DeclaredItem) -> DeclaredItem {
+fn draw_distinct(seed: Seed, item: &Declaration) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
     let is_distinct = |drawn: &DeclaredItem| {
         let practice = PRACTICE.iter().map(DeclaredItem::item);
@@ -33,7 +33,7 @@ fn draw_distinct(seed: Seed, item: fn(Seed) -> DeclaredItem) -> DeclaredItem {
     };
     std::iter::successors(Some(seed), |seed| Some(seed.next()))
         .take(MAX_ATTEMPTS)
-        .map(item)
+        .map(|seed| item.draw(seed))
         .find(is_distinct)
         .expect("some numbers differ from those of the practice exam")
 }
@@ -123,8 +123,8 @@ mod tests {
         // There are few sizes of a small film, so some seeds draw one of the practice exam's.
         let sizes = |seed| camera::items(seed).remove(0);
         let practice = sizes(Seed::PRACTICE);
-        let corners = crate::items::camera::corners;
-        let shares = |seed: &Seed| shares_a_question(corners(*seed).item(), practice.item());
+        let corners = camera::CORNERS;
+        let shares = |seed: &Seed| shares_a_question(corners.draw(*seed).item(), practice.item());
         let seed = (0..100).map(Seed).find(shares).unwrap();
         assert!(!shares_a_question(sizes(seed).item(), practice.item()));
     }

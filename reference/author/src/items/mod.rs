@@ -12,7 +12,6 @@ mod distinct;
 pub mod meshes;
 pub mod picture;
 mod place;
-mod similarity;
 pub mod sphere;
 pub mod traverse;
 pub mod triangle;
@@ -25,7 +24,7 @@ use crate::items::traverse::RecordedPicture;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Seed;
 
-use declaration::{Declaration, Group, item};
+use declaration::{Declaration, Group};
 pub use declaration::{DeclaredItem, resolve};
 use distinct::draw_items;
 pub use distinct::shares_a_question;
@@ -56,11 +55,24 @@ fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question that asks for the closest hit of each ray. It calls the `hit` of every shape,
-/// without a tree.
-fn shapes_question(checks: &[HitCheck], shapes: Vec<Shape>, rays: Vec<Ray>) -> ExamQuestion {
-    let key = hits_key(checks, &rays, |ray64| scan::closest_hit(ray64, &shapes));
-    let rays = Rays::List(rays);
+/// Returns the ray, or one in the opposite direction.
+fn reversed_if(is_reversed: bool, ray: Ray) -> Ray {
+    if is_reversed {
+        Ray::new(ray.origin, -ray.dir)
+    } else {
+        ray
+    }
+}
+
+/// Creates a question that asks for the hit of each ray with a shape, without a tree.
+fn shape_question(
+    checks: &[HitCheck],
+    shape: Shape,
+    rays: impl IntoIterator<Item = Ray>,
+) -> ExamQuestion {
+    let rays: Vec<Ray> = rays.into_iter().collect();
+    let key = hits_key(checks, &rays, |ray64| scan::intersect(ray64, &shape));
+    let (shapes, rays) = (vec![shape], Rays::List(rays));
     ExamQuestion::new(Question::Shapes { shapes, rays }, key)
 }
 

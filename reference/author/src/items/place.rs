@@ -2,10 +2,13 @@
 //! sizes, or on being near the origin, is right in one place and wrong in another.
 
 use glam::{DVec3, Vec3};
-use protocol::{Interval, Ray, Shape, TreeNode};
+use judging::exam::{ExamQuestion, Key};
+use protocol::{Interval, Question, Ray, Rays, Shape, TreeNode};
 
 use crate::oracle::bbox::Bounds;
+use crate::oracle::scan;
 use crate::seed::Rng;
+use crate::tree::{Tree, decoy};
 
 /// A size and a place. Questions are drawn with sizes of about one, near the origin, and then moved
 /// here.
@@ -101,6 +104,29 @@ impl Place {
         shapes.iter().map(|shape| self.shape(shape)).collect()
     }
 
+    /// Moves a shape and its rays here.
+    pub(super) fn table(self, (shape, rays): &(Shape, Vec<Ray>)) -> (Shape, Vec<Ray>) {
+        (self.shape(shape), self.rays(rays))
+    }
+
+    /// Moves rays here.
+    pub(super) fn rays(self, rays: &[Ray]) -> Vec<Ray> {
+        rays.iter().map(|ray| self.ray(ray)).collect()
+    }
+
+    /// Moves a list of rays here; returns `None` for the rays of a picture.
+    fn list(self, rays: &Rays) -> Option<Rays> {
+        match rays {
+            Rays::List(rays) => Some(Rays::List(self.rays(rays))),
+            Rays::View(_) => None,
+        }
+    }
+
+    /// Moves a query of a box here.
+    pub(super) fn query(self, (ray, times): &(Ray, Interval)) -> (Ray, Interval) {
+        (self.ray(ray), self.interval(*times))
+    }
+
     /// Moves a ray here.
     pub(super) fn ray(self, ray: &Ray) -> Ray {
         Ray {
@@ -136,4 +162,102 @@ impl Place {
         }
         TreeNode { min, max, ..*node }
     }
+}
+
+/// Returns the same question about dust.
+///
+/// # Panics
+///
+/// If the question is not about shapes, boxes or trees with a list of rays.
+pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
+    moved(Place::dust(), asked).expect("the question has a list of rays")
+}
+
+/// Returns the same question about things that are as large and as far from the origin as those of
+/// the Cornell box, whatever their size was. Returns `None` if it is not about a list of rays, or
+/// about nothing.
+pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuestion> {
+    let bounds = match &asked.question {
+        Question::Shapes { shapes, .. } | Question::Traverse { shapes, .. } => shapes
+            .iter()
+            .map(scan::bounds)
+            .reduce(|all, next| all.union(&next))?,
+        Question::BBox { min, max, .. } => Bounds::new(*min, *max),
+        Question::Camera { .. }
+        | Question::Build { .. }
+        | Question::BuildAndTraverse { .. }
+        | Question::Radiance { .. }
+        | Question::Done => return None,
+    };
+    if bounds.diagonal() <= 0.0 {
+        return None;
+    }
+    // Far from the origin, rounding moves everything a little, and what was only just fair need not be.
+    rng.retry(|rng| {
+        let place = Place::exact_room(rng, bounds.diagonal());
+        let moved = moved(place, asked.clone());
+        moved.as_ref().is_none_or(is_fair).then_some(moved)
+    })
+}
+
+/// Returns whether a question about a tree is fair.
+fn is_fair(asked: &ExamQuestion) -> bool {
+    let tree = Tree::in_question(&asked.question);
+    tree.is_none_or(|(tree, rays)| decoy::is_fair(&tree, &rays.to_vec()))
+}
+
+/// Returns a question at another place, or `None` if it is not about a list of rays.
+fn moved(place: Place, asked: ExamQuestion) -> Option<ExamQuestion> {
+    let question = match asked.question {
+        Question::Shapes { shapes, rays } => Question::Shapes {
+            shapes: place.shapes(&shapes),
+            rays: place.list(&rays)?,
+        },
+        Question::BBox { min, max, queries } => Question::BBox {
+            min: place.point(min),
+            max: place.point(max),
+            queries: queries.iter().map(|query| place.query(query)).collect(),
+        },
+        Question::Build {
+            shapes,
+            max_leaf_size,
+        } => Question::Build {
+            shapes: place.shapes(&shapes),
+            max_leaf_size,
+        },
+        Question::Traverse {
+            shapes,
+            nodes,
+            root,
+            rays,
+        } => Question::Traverse {
+            shapes: place.shapes(&shapes),
+            nodes: nodes.iter().map(|node| place.node(node)).collect(),
+            root,
+            rays: place.list(&rays)?,
+        },
+        Question::Camera { .. }
+        | Question::BuildAndTraverse { .. }
+        | Question::Radiance { .. }
+        | Question::Done => return None,
+    };
+    let key = match asked.key {
+        Key::Hits { checks, mut hits } => {
+            for hit in hits.iter_mut().flatten() {
+                hit.distance = place.length(hit.distance);
+                hit.position = place.point(hit.position);
+            }
+            Key::Hits { checks, hits }
+        }
+        Key::Spans { mut spans } => {
+            for span in spans.iter_mut().flatten() {
+                *span = place.interval(*span);
+            }
+            Key::Spans { spans }
+        }
+        // A tree's cost is a ratio of areas.
+        key @ Key::Tree { .. } => key,
+        Key::Rays { .. } | Key::FirstHits { .. } | Key::Radiance { .. } => return None,
+    };
+    Some(ExamQuestion::new(question, key))
 }

@@ -48,6 +48,17 @@ impl Bounds {
         }
     }
 
+    /// Returns this box with infinite extent along all axes but one.
+    pub fn slab(&self, axis: usize) -> Bounds {
+        let mut slab = Bounds {
+            min: DVec3::NEG_INFINITY,
+            max: DVec3::INFINITY,
+        };
+        slab.min[axis] = self.min[axis];
+        slab.max[axis] = self.max[axis];
+        slab
+    }
+
     /// Returns the length of the diagonal.
     pub fn diagonal(&self) -> f64 {
         self.min.distance(self.max)

@@ -14,7 +14,7 @@ pub enum BucketExtent {
 
 /// The buckets that are counted as the two sides of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum SideRule {
+pub enum SideRule {
     /// All buckets to the left of the plane, and all to the right.
     AllBuckets,
     /// Only the last bucket before the plane and the first one after it: a common mistake.
@@ -25,31 +25,11 @@ enum SideRule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BucketedBuilder {
     /// The number of buckets along each axis.
-    count: usize,
-    extent: BucketExtent,
-    sides: SideRule,
-}
-
-impl BucketedBuilder {
-    /// Creates a correct builder, which counts all buckets on each side of a plane.
-    pub fn correct(count: usize, extent: BucketExtent) -> Self {
-        let sides = SideRule::AllBuckets;
-        BucketedBuilder {
-            count,
-            extent,
-            sides,
-        }
-    }
-
-    /// Creates a builder that mistakes the two buckets next to a plane for its two sides.
-    pub fn with_adjacent_buckets_only(count: usize, extent: BucketExtent) -> Self {
-        let sides = SideRule::AdjacentBuckets;
-        BucketedBuilder {
-            count,
-            extent,
-            sides,
-        }
-    }
+    pub count: usize,
+    /// The box that the buckets divide.
+    pub extent: BucketExtent,
+    /// The buckets on either side of a plane.
+    pub sides: SideRule,
 }
 
 /// Returns the cost of the tree that this builder builds, with C_trav = C_isect = 1 and areas
@@ -73,10 +53,9 @@ fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBui
     };
     let first = match cheapest_split(boxes, &over, builder) {
         Some((axis, plane)) => {
-            let count = builder.count;
-            let slices = AxisSlices { over, axis, count };
-            boxes.sort_by_key(|bounds| slices.index_of(bounds) >= plane);
-            boxes.partition_point(|bounds| slices.index_of(bounds) < plane)
+            let is_left = |bounds: &Bounds| builder.bucket_of(bounds, &over, axis) < plane;
+            boxes.sort_by_key(|bounds| !is_left(bounds));
+            boxes.partition_point(is_left)
         }
         None => {
             let size = over.max - over.min;
@@ -91,17 +70,11 @@ fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBui
     bounds.area() + left + right
 }
 
-/// Slices of equal width through a box along one axis.
-struct AxisSlices {
-    over: Bounds,
-    axis: usize,
-    count: usize,
-}
-
-impl AxisSlices {
-    fn index_of(&self, bounds: &Bounds) -> usize {
-        let size = self.over.max[self.axis] - self.over.min[self.axis];
-        let part = (bounds.center()[self.axis] - self.over.min[self.axis]) / size;
+impl BucketedBuilder {
+    /// Returns the index of the bucket of a primitive's centre along an axis of the box `over`.
+    fn bucket_of(self, bounds: &Bounds, over: &Bounds, axis: usize) -> usize {
+        let size = over.max[axis] - over.min[axis];
+        let part = (bounds.center()[axis] - over.min[axis]) / size;
         ((part * self.count as f64) as usize).min(self.count - 1)
     }
 }
@@ -149,14 +122,9 @@ fn cheapest_split(
     let BucketedBuilder { count, sides, .. } = builder;
     let mut best: Option<(f64, (usize, usize))> = None;
     for axis in (0..3).filter(|&axis| over.max[axis] > over.min[axis]) {
-        let slices = AxisSlices {
-            over: *over,
-            axis,
-            count,
-        };
         let mut buckets = vec![EMPTY; count];
         for &bounds in boxes {
-            let bucket = &mut buckets[slices.index_of(&bounds)];
+            let bucket = &mut buckets[builder.bucket_of(&bounds, over, axis)];
             *bucket = bucket.union(BucketContents { bounds, count: 1 });
         }
         let sums = |buckets: &mut dyn Iterator<Item = &BucketContents>| -> Vec<BucketContents> {

@@ -1,5 +1,6 @@
 //! Linear scans: finds the closest hit of a ray by testing every shape in a list.
 
+use glam::DVec3;
 use protocol::Shape;
 
 use super::bbox::Bounds;
@@ -78,19 +79,27 @@ impl<'a> Scan<'a> {
     }
 }
 
+/// Returns the corners of a triangle, or `None` for any other shape.
+pub fn corners(shape: &Shape) -> Option<[DVec3; 3]> {
+    match shape {
+        Shape::Triangle { vertices, .. } => Some(triangle::corners(vertices)),
+        Shape::FlatTriangle { corners, .. } => Some(corners.map(|corner| corner.as_dvec3())),
+        Shape::Sphere { .. } => None,
+    }
+}
+
 /// Returns the tightest box around a shape.
 pub fn bounds(shape: &Shape) -> Bounds {
     match *shape {
-        Shape::Triangle { ref vertices, .. } => Bounds::around(triangle::corners(vertices)),
-        Shape::FlatTriangle { corners, .. } => {
-            Bounds::around(corners.map(|corner| corner.as_dvec3()))
-        }
         Shape::Sphere { center, radius, .. } => {
             let Sphere { center, radius } = sphere(center, radius);
             Bounds {
                 min: center - radius,
                 max: center + radius,
             }
+        }
+        Shape::Triangle { .. } | Shape::FlatTriangle { .. } => {
+            Bounds::around(corners(shape).into_iter().flatten())
         }
     }
 }
@@ -108,16 +117,14 @@ pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
     let bounds = bounds(shape);
     let margin = END_MARGIN * (bounds.max - bounds.min).max_element();
     let is_away_from_ends = |t: f64| (t - ray.min).abs() >= margin && (t - ray.max).abs() >= margin;
-    let corners = match *shape {
-        Shape::Triangle { ref vertices, .. } => triangle::corners(vertices),
-        Shape::FlatTriangle { corners, .. } => corners.map(|corner| corner.as_dvec3()),
-        Shape::Sphere { center, radius, .. } => {
-            let line = sphere(center, radius).intersect_line(ray);
-            return (line.closest_approach - 1.0).abs() >= TANGENT_MARGIN
-                && (line.closest_approach > 1.0 || line.roots.into_iter().all(is_away_from_ends));
-        }
+    if let Shape::Sphere { center, radius, .. } = *shape {
+        let line = sphere(center, radius).intersect_line(ray);
+        return (line.closest_approach - 1.0).abs() >= TANGENT_MARGIN
+            && (line.closest_approach > 1.0 || line.roots.into_iter().all(is_away_from_ends));
+    }
+    let Some(corners @ [p0, p1, p2]) = corners(shape) else {
+        return false;
     };
-    let [p0, p1, p2] = corners;
     let slope = (p1 - p0).cross(p2 - p0).normalize().dot(ray.dir).abs();
     match triangle::intersect_plane(ray, corners) {
         None => false,
@@ -139,7 +146,7 @@ fn sphere(center: glam::Vec3, radius: f32) -> Sphere {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec3, Vec3, vec3};
+    use glam::{Vec3, vec3};
     use protocol::Ray;
 
     use super::*;

@@ -10,7 +10,8 @@ use judging::judge::{Credit, judge, measure};
 use protocol::Answer;
 
 use crate::generated_file::GeneratedFile;
-use crate::solutions::workbench::Answers;
+use crate::solutions::solution::Solution;
+use crate::solutions::workbench::{Answers, BuiltSolution};
 
 /// The fewest wrong answers in a table, unless they are the share below.
 const TABLE_ANSWERS: usize = 3;
@@ -119,33 +120,36 @@ pub struct Catches {
 }
 
 impl Catches {
+    /// Adds the catches of these mistakes in some exams.
+    pub fn add_all(
+        &mut self,
+        mistakes: &[&(&Solution, BuiltSolution)],
+        of_exams: &[Vec<Vec<Catch>>],
+    ) {
+        for of_exam in of_exams {
+            for ((mistake, _), catches) in mistakes.iter().zip(of_exam) {
+                self.add(&mistake.id, catches);
+            }
+        }
+    }
+
     /// Adds the catches of a mistake in one exam.
-    pub fn add(&mut self, mistake: &str, catches: &[Catch]) {
-        let clearest = catches
-            .iter()
-            .max_by(|a, b| a.clarity().total_cmp(&b.clarity()));
-        let clarity = |caught: Option<&Catch>| caught.map_or(-1.0, Catch::clarity);
-        match self.thinnest.get_mut(mistake) {
-            None => {
-                let entry = (1, clearest.cloned());
-                self.thinnest.insert(mistake.to_owned(), entry);
-            }
-            Some((exams, thinnest)) => {
-                *exams += 1;
-                if clarity(clearest) < clarity(thinnest.as_ref()) {
-                    *thinnest = clearest.cloned();
-                }
-            }
+    fn add(&mut self, mistake: &str, catches: &[Catch]) {
+        let catches = catches.iter();
+        let clearest = catches.max_by(|a, b| a.clarity().total_cmp(&b.clarity()));
+        let known = self.thinnest.entry(mistake.to_owned());
+        let (exams, thinnest) = known.or_insert_with(|| (0, clearest.cloned()));
+        *exams += 1;
+        if clarity(clearest) < clarity(thinnest.as_ref()) {
+            *thinnest = clearest.cloned();
         }
     }
 
     /// Returns the mistakes with the least clear catches first.
     pub fn by_clarity(&self) -> Vec<(&str, u64, Option<&Catch>)> {
         let all = self.thinnest.iter();
-        let mut all: Vec<_> = all
-            .map(|(id, (exams, caught))| (id.as_str(), *exams, caught.as_ref()))
-            .collect();
-        let clarity = |caught: Option<&Catch>| caught.map_or(-1.0, Catch::clarity);
+        let all = all.map(|(id, (exams, caught))| (id.as_str(), *exams, caught.as_ref()));
+        let mut all: Vec<_> = all.collect();
         all.sort_by(|a, b| clarity(a.2).total_cmp(&clarity(b.2)));
         all
     }
@@ -176,28 +180,28 @@ impl Catches {
             100.0 * TABLE_SHARE
         );
         for (id, exams, caught) in self.by_clarity() {
-            let row = match caught {
+            text += &match caught {
                 None => format!("| `{id}` | {exams} | | nothing | 0 |\n"),
-                Some(caught) => format!(
-                    "| `{id}` | {exams} | `{}` | {caught} | {} |\n",
-                    caught.item,
-                    multiple(caught.clarity())
-                ),
+                Some(caught) => {
+                    let (item, multiple) = (&caught.item, multiple(caught.clarity()));
+                    format!("| `{id}` | {exams} | `{item}` | {caught} | {multiple} |\n")
+                }
             };
-            text.push_str(&row);
         }
-        GeneratedFile::new(
-            format!("{}/mistakes/catches.md", handed_out.solutions()),
-            text,
-        )
+        let path = format!("{}/mistakes/catches.md", handed_out.solutions());
+        GeneratedFile::new(path, text)
     }
 }
 
+/// Returns how clear a catch is; less than any catch if there is none.
+fn clarity(caught: Option<&Catch>) -> f64 {
+    caught.map_or(-1.0, Catch::clarity)
+}
+
 fn multiple(clarity: f64) -> String {
-    if clarity.is_finite() {
-        format!("{clarity:.1}")
-    } else {
-        "∞".to_owned()
+    match clarity {
+        f64::INFINITY => "∞".to_owned(),
+        clarity => format!("{clarity:.1}"),
     }
 }
 
@@ -217,22 +221,18 @@ mod tests {
 
     #[test]
     fn three_answers_or_a_fifth_two_trees_or_all_and_three_times_the_tolerance_are_clear() {
-        let clarity = |answers, trees, picture| caught("", answers, trees, picture).clarity();
-        for clear in [
-            clarity((3, 100), (0, 0), 0.0),
-            clarity((1, 5), (0, 0), 0.0),
-            clarity((0, 0), (2, 9), 0.0),
-            clarity((0, 0), (1, 1), 0.0),
-            clarity((0, 0), (0, 0), 3.0),
+        for (answers, trees, picture, is_clear) in [
+            ((3, 100), (0, 0), 0.0, true),
+            ((1, 5), (0, 0), 0.0, true),
+            ((0, 0), (2, 9), 0.0, true),
+            ((0, 0), (1, 1), 0.0, true),
+            ((0, 0), (0, 0), 3.0, true),
+            ((2, 11), (0, 0), 0.0, false),
+            ((0, 0), (1, 3), 0.0, false),
+            ((0, 0), (0, 0), 2.9, false),
         ] {
-            assert!(clear >= 1.0, "{clear}");
-        }
-        for thin in [
-            clarity((2, 11), (0, 0), 0.0),
-            clarity((0, 0), (1, 3), 0.0),
-            clarity((0, 0), (0, 0), 2.9),
-        ] {
-            assert!(thin < 1.0, "{thin}");
+            let clarity = caught("", answers, trees, picture).clarity();
+            assert_eq!(clarity >= 1.0, is_clear, "{answers:?} {trees:?} {picture}");
         }
     }
 

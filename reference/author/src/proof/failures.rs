@@ -7,15 +7,11 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use anyhow::Result;
-use indicatif::ParallelProgressIterator;
 use judging::exam::{Exam, Item};
 use rayon::prelude::*;
 
-use crate::exams;
 use crate::proof::catches::{Catch, Catches};
-use crate::proof::progress::progress_bar;
-use crate::proof::run::run;
-use crate::seed::Seed;
+use crate::proof::run::{exam_of, for_seeds, run};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::{self, FailedItems};
 use crate::solutions::solution::Solution;
@@ -58,37 +54,26 @@ pub fn failed_items(
     seeds: SeedCounts,
 ) -> Result<(FailedItems, Catches)> {
     let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
-    let built = run(workbench, mistakes, "mistakes built", |_, built| Ok(built))?;
+    let built = run(workbench, mistakes, "mistakes built", |mistake, built| {
+        Ok((mistake, built))
+    })?;
     let all: Vec<&(&Solution, BuiltSolution)> = built.iter().collect();
-    let of_seeds = caught_with_seeds(solutions, &all, 0..seeds.all)?;
-    let of_practice = caught_in(&all, practice)?;
-
+    let mut of_exams = caught_with_seeds(solutions, &all, 0..seeds.all)?;
+    of_exams.push(caught_in(&all, practice)?);
     let mut catches = Catches::default();
-    for of_exam in of_seeds.iter().chain([&of_practice]) {
-        for ((mistake, _), caught) in built.iter().zip(of_exam) {
-            catches.add(&mistake.id, caught);
-        }
-    }
-    let thinnest: BTreeSet<String> = catches
-        .by_clarity()
-        .into_iter()
-        .take(THINNEST)
-        .map(|(id, ..)| id.to_owned())
-        .collect();
-    let again: Vec<_> = built
-        .iter()
-        .filter(|(mistake, _)| thinnest.contains(&mistake.id))
-        .collect();
-    for of_exam in caught_with_seeds(solutions, &again, seeds.all..seeds.thinnest)? {
-        for ((mistake, _), caught) in again.iter().zip(&of_exam) {
-            catches.add(&mistake.id, caught);
-        }
-    }
+    catches.add_all(&all, &of_exams);
+    let thinnest = catches.by_clarity().into_iter().take(THINNEST);
+    let thinnest: BTreeSet<&str> = thinnest.map(|(id, ..)| id).collect();
+    let again = all.into_iter();
+    let again = again.filter(|(mistake, _)| thinnest.contains(mistake.id.as_str()));
+    let again: Vec<_> = again.collect();
+    let more = caught_with_seeds(solutions, &again, seeds.all..seeds.thinnest)?;
+    catches.add_all(&again, &more);
 
     let with_every_seed = |index: usize| -> Vec<String> {
         let items = practice.items.iter().map(|item| &item.id);
         let always = items.filter(|id| {
-            let mut all = of_seeds.iter().chain([&of_practice]);
+            let mut all = of_exams.iter();
             all.all(|caught| caught[index].iter().any(|caught| caught.item == **id))
         });
         always.cloned().collect()
@@ -109,12 +94,7 @@ fn caught_with_seeds(
     built: &[&(&Solution, BuiltSolution)],
     seeds: Range<u64>,
 ) -> Result<Vec<Vec<Vec<Catch>>>> {
-    let bar = progress_bar(seeds.end - seeds.start, "seeds");
-    let all = seeds.into_par_iter().progress_with(bar).map(|seed| {
-        let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
-        caught_in(built, &exam)
-    });
-    all.collect()
+    for_seeds(seeds, |seed| caught_in(built, &exam_of(solutions, seed)?))
 }
 
 /// Returns the catches of each mistake in one exam.
@@ -129,11 +109,8 @@ fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<V
 fn catches(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Catch>> {
     let mut caught = Vec::new();
     for task in &mistake.expected.tasks {
-        let items: Vec<&Item> = exam
-            .items
-            .iter()
-            .filter(|item| item.task == *task)
-            .collect();
+        let items = exam.items.iter().filter(|item| item.task == *task);
+        let items: Vec<&Item> = items.collect();
         let answers = solution.answers_to_each(&items)?;
         let answered = items.into_iter().zip(&answers);
         caught.extend(answered.filter_map(|(item, answers)| Catch::of_item(item, answers)));
@@ -146,15 +123,10 @@ fn catches(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<
 pub fn problems(committed: &FailedItems, found: &FailedItems) -> Vec<String> {
     let command = "run `cargo author mistakes`";
     let path = failed_items::FILE;
-    let unlisted = found
-        .fails
-        .keys()
-        .filter(|id| !committed.fails.contains_key(*id));
+    let (known, listed) = (&found.fails, &committed.fails);
+    let unlisted = known.keys().filter(|id| !listed.contains_key(*id));
     let unlisted = unlisted.map(|id| format!("{path} does not list {id}: {command}"));
-    let unknown = committed
-        .fails
-        .keys()
-        .filter(|id| !found.fails.contains_key(*id));
+    let unknown = listed.keys().filter(|id| !known.contains_key(*id));
     let unknown = unknown.map(|id| format!("{path} lists {id}, which does not exist: {command}"));
     let passed = found.fails.iter().flat_map(|(id, found)| {
         let listed = committed.of_mistake(id).iter();
@@ -170,12 +142,11 @@ mod tests {
 
     fn failed(seeds: u64, fails: &[(&str, &[&str])]) -> FailedItems {
         let owned = |items: &[&str]| items.iter().map(|&item| item.to_owned()).collect();
+        let fails = fails.iter();
+        let fails = fails.map(|&(id, items)| (id.to_owned(), owned(items)));
         FailedItems {
             seeds,
-            fails: fails
-                .iter()
-                .map(|&(id, items)| (id.to_owned(), owned(items)))
-                .collect(),
+            fails: fails.collect(),
         }
     }
 

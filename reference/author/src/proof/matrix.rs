@@ -24,7 +24,6 @@ pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFil
     let graded = run(workbench, mistakes, "mistakes", |mistake, built| {
         Graded::new(mistake, &built, exam)
     })?;
-    let graded: Vec<Graded> = graded.into_iter().map(|(_, graded)| graded).collect();
     let problems: Vec<String> = graded.iter().flat_map(Graded::problems).collect();
     if !problems.is_empty() {
         bail!(
@@ -50,10 +49,9 @@ fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> GeneratedFi
     );
     for task in assignment.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        let of_task = graded
-            .iter()
-            .filter(|graded| graded.solution.task() == task);
-        task_table(&mut text, assignment.info(task), &items, of_task)
+        let of_task = |graded: &&Graded| graded.solution.task() == task;
+        let graded = graded.iter().filter(of_task);
+        task_table(&mut text, assignment.info(task), &items, graded)
             .expect("writing to a String cannot fail");
     }
     GeneratedFile::new(PATH, text)
@@ -75,15 +73,11 @@ fn task_table<'a>(
     writeln!(out, "\n| mistake | what the code does | lost |{numbers}")?;
     writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
     for Graded { solution, score } in graded {
-        let lines: Vec<&ItemScore> = score
-            .items()
-            .filter(|line| items.iter().any(|item| item.id == line.id))
-            .collect();
+        let of_task = |line: &&ItemScore| items.iter().any(|item| item.id == line.id);
+        let lines: Vec<&ItemScore> = score.items().filter(of_task).collect();
         let lost: u32 = lines.iter().map(|line| line.max_points - line.points).sum();
-        let cells: String = lines
-            .iter()
-            .map(|line| format!(" {} |", cell(line, solution)))
-            .collect();
+        let cells = lines.iter().map(|line| cell(line, solution));
+        let cells: String = cells.map(|cell| format!(" {cell} |")).collect();
         let name = solution.id.split('.').nth(1).unwrap_or_default();
         writeln!(out, "| `{name}` | {} | {lost} |{cells}", solution.title)?;
     }

@@ -7,7 +7,6 @@ pub mod failures;
 pub mod grade;
 pub mod matrix;
 pub mod mutants;
-mod progress;
 pub mod prove;
 pub mod recognition;
 mod run;

@@ -10,15 +10,11 @@ use std::sync::Mutex;
 
 use anyhow::Result;
 use grader::files::{self, AtPath, PathError};
-use indicatif::ParallelProgressIterator;
 use judging::content_hash::ContentHash;
-use rayon::prelude::*;
 
-use crate::exams;
 use crate::proof::grade::{Graded, variant_losses};
-use crate::proof::progress::progress_bar;
+use crate::proof::run::{exam_of, for_seeds};
 use crate::proof::summary::{ProofSummary, SeedResult};
-use crate::seed::Seed;
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
@@ -31,7 +27,7 @@ fn prove_seed(
     with_mistakes: bool,
     is_listed: bool,
 ) -> Result<SeedResult> {
-    let exam = exams::generate("proof", Seed(seed), &solutions.recorder)?;
+    let exam = exam_of(solutions, seed)?;
     let mut result = SeedResult {
         seed,
         with_mistakes,
@@ -68,34 +64,24 @@ fn prove_seed(
 pub fn prove(solutions: &Solutions, seeds: Range<u64>, with_mistakes: u64) -> Result<ProofSummary> {
     let workbench = &solutions.workbench;
     let listed_seeds = FailedItems::load(workbench.root(), workbench.handed_out())?.seeds;
-    let path = solutions
-        .workbench
-        .scratch()
-        .join("proofs")
-        .join(format!("{}.jsonl", cache_key(solutions, listed_seeds)?));
-    let cache = ProofCache::open(path)?;
+    let key = cache_key(solutions, listed_seeds)?;
+    let cache = ProofCache::open(workbench.scratch().join(format!("proofs/{key}.jsonl")))?;
     let wants_mistakes = |seed: u64| seed - seeds.start < with_mistakes;
-    let bar = progress_bar(seeds.end - seeds.start, "seeds");
-    let results: Result<Vec<SeedResult>> = seeds
-        .clone()
-        .into_par_iter()
-        .progress_with(bar)
-        .map(|seed| {
-            let cached = cache.seeds.get(&seed);
-            match cached.filter(|result| result.with_mistakes || !wants_mistakes(seed)) {
-                Some(result) => Ok(result.clone()),
-                None => {
-                    let result =
-                        prove_seed(solutions, seed, wants_mistakes(seed), seed < listed_seeds)?;
-                    cache.append(&result)?;
-                    Ok(result)
-                }
+    let results = for_seeds(seeds.clone(), |seed| {
+        let cached = cache.seeds.get(&seed);
+        match cached.filter(|result| result.with_mistakes || !wants_mistakes(seed)) {
+            Some(result) => Ok(result.clone()),
+            None => {
+                let result =
+                    prove_seed(solutions, seed, wants_mistakes(seed), seed < listed_seeds)?;
+                cache.append(&result)?;
+                Ok(result)
             }
-        })
-        .collect();
+        }
+    })?;
     Ok(ProofSummary {
         seeds,
-        results: results?,
+        results,
         mistakes: solutions.mistakes.len(),
         variants: solutions.variants.len(),
     })
@@ -113,15 +99,14 @@ impl ProofCache {
         files::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
         let text = fs::read_to_string(&path).unwrap_or_default();
         // The last line is incomplete if a run was killed while writing it.
-        let seeds = text
+        let results = text
             .lines()
-            .filter_map(|line| serde_json::from_str::<SeedResult>(line).ok())
-            .map(|result| (result.seed, result))
-            .collect();
+            .filter_map(|line| serde_json::from_str(line).ok());
+        let seeds = results.map(|result: SeedResult| (result.seed, result));
         let file = OpenOptions::new().create(true).append(true).open(&path);
         let file = file.at("write", &path)?;
         Ok(ProofCache {
-            seeds,
+            seeds: seeds.collect(),
             path,
             file: Mutex::new(file),
         })

@@ -1,37 +1,43 @@
-//! The runner of all solutions: builds each of them, and asks it.
+//! The runner of all solutions: builds each of them and asks it. Also generates the exams of many
+//! seeds. Both take long, so they show progress bars.
+
+use std::ops::Range;
 
 use anyhow::Result;
-use indicatif::ParallelProgressIterator;
+use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use judging::exam::Exam;
 use rayon::prelude::*;
 
-use crate::proof::progress::progress_bar;
+use crate::exams;
+use crate::seed::Seed;
+use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, NotCompiledError, Workbench};
 
-/// Builds solutions and returns each with what `ask` returns for its program. A solution that does not
-/// compile is an error. `unit` is shown with the progress.
+/// Builds solutions and returns what `ask` returns for each. A solution that does not compile is an
+/// error. `unit` is shown with the progress.
 pub(super) fn run<'a, R: Send>(
     workbench: &Workbench,
     solutions: impl IntoIterator<Item = &'a Solution>,
     unit: &'static str,
-    ask: impl Fn(&'a Solution, BuiltSolution) -> Result<R> + Sync,
-) -> Result<Vec<(&'a Solution, R)>> {
+    ask: impl Fn(&'a Solution, BuiltSolution) -> Result<R> + Sync + Send,
+) -> Result<Vec<R>> {
     in_parallel(solutions, unit, |solution| {
         ask(solution, workbench.build(&solution.sources, &solution.id)?)
     })
 }
 
-/// Does the same with solutions that need not compile. If one does not, its result is `None`.
+/// Does the same with solutions that need not compile. If one does not, `ask` gets no program.
 pub(super) fn run_compiled<'a, R: Send>(
     workbench: &Workbench,
     solutions: impl IntoIterator<Item = &'a Solution>,
     unit: &'static str,
-    ask: impl Fn(&'a Solution, BuiltSolution) -> Result<R> + Sync,
-) -> Result<Vec<(&'a Solution, Option<R>)>> {
+    ask: impl Fn(&'a Solution, Option<BuiltSolution>) -> Result<R> + Sync + Send,
+) -> Result<Vec<R>> {
     in_parallel(solutions, unit, |solution| {
         match workbench.build(&solution.sources, &solution.id) {
-            Err(error) if error.is::<NotCompiledError>() => Ok(None),
-            built => ask(solution, built?).map(Some),
+            Err(error) if error.is::<NotCompiledError>() => ask(solution, None),
+            built => ask(solution, Some(built?)),
         }
     })
 }
@@ -39,11 +45,32 @@ pub(super) fn run_compiled<'a, R: Send>(
 fn in_parallel<'a, R: Send>(
     solutions: impl IntoIterator<Item = &'a Solution>,
     unit: &'static str,
-    ask: impl Fn(&'a Solution) -> Result<R> + Sync,
-) -> Result<Vec<(&'a Solution, R)>> {
+    ask: impl Fn(&'a Solution) -> Result<R> + Sync + Send,
+) -> Result<Vec<R>> {
     let solutions: Vec<&Solution> = solutions.into_iter().collect();
     let bar = progress_bar(solutions.len() as u64, unit);
-    let rows = solutions.into_par_iter().progress_with(bar);
-    rows.map(|solution| Ok((solution, ask(solution)?)))
-        .collect()
+    let solutions = solutions.into_par_iter().progress_with(bar);
+    solutions.map(ask).collect()
+}
+
+/// Returns what `ask` returns for each seed.
+pub(super) fn for_seeds<R: Send>(
+    seeds: Range<u64>,
+    ask: impl Fn(u64) -> Result<R> + Sync + Send,
+) -> Result<Vec<R>> {
+    let bar = progress_bar(seeds.end - seeds.start, "seeds");
+    seeds.into_par_iter().progress_with(bar).map(ask).collect()
+}
+
+/// Generates the exam of a seed without hints.
+pub(super) fn exam_of(solutions: &Solutions, seed: u64) -> Result<Exam> {
+    exams::generate("proof", Seed(seed), &solutions.recorder)
+}
+
+/// Returns a progress bar for this many units, such as "seeds".
+fn progress_bar(count: u64, unit: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left");
+    ProgressBar::new(count)
+        .with_style(style.expect("the template is valid"))
+        .with_message(unit)
 }

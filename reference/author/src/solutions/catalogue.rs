@@ -7,7 +7,6 @@
 //! - Unknown mistakes in `unknown/*.toml`: no hint is written for them, so they tell whether wrong code
 //!   gets a hint that is not true of it.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use anyhow::{Result, bail};
@@ -107,33 +106,26 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
 
 /// Copies the texts that mistakes share, and checks the ids by which mistakes refer to each other.
 fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
-    let texts: BTreeMap<String, (String, String)> = mistakes
-        .iter()
-        .filter(|mistake| mistake.same_hint_as.is_none())
-        .map(|mistake| {
-            let texts = (mistake.nudge.clone(), mistake.hint.clone());
-            (mistake.id.clone(), texts)
-        })
-        .collect();
-    let ids: BTreeSet<String> = mistakes.iter().map(|mistake| mistake.id.clone()).collect();
+    let known = mistakes.to_vec();
+    let find = |id: &String| known.iter().find(|other| other.id == *id);
     for mistake in mistakes {
-        let own_task = mistake.task();
         let is_complete = match &mistake.same_hint_as {
             None => !mistake.nudge.is_empty() && !mistake.hint.is_empty(),
             Some(other) => {
                 let has_none = mistake.nudge.is_empty() && mistake.hint.is_empty();
-                let same_task = Task::in_id(other) == Some(own_task);
-                let shared = texts.get(other).filter(|_| has_none && same_task);
-                shared.is_some_and(|(nudge, hint)| {
-                    mistake.nudge.clone_from(nudge);
-                    mistake.hint.clone_from(hint);
+                let other = find(other).filter(|other| {
+                    has_none && other.same_hint_as.is_none() && other.task() == mistake.task()
+                });
+                other.is_some_and(|other| {
+                    mistake.nudge.clone_from(&other.nudge);
+                    mistake.hint.clone_from(&other.hint);
                     true
                 })
             }
         };
         let others = mistake.also_true_of.iter();
         let mut others = others.chain(mistake.true_of_pairs.iter().flatten());
-        if !is_complete || !others.all(|other| ids.contains(other)) {
+        if !is_complete || !others.all(|other| find(other).is_some()) {
             bail!(
                 "{}: give it a `nudge` and a `hint`, or name in `same_hint_as` another mistake of its \
                  task that has them; `also_true_of` and `true_of_pairs` name other mistakes",
@@ -153,24 +145,15 @@ fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Ve
         mistake: Vec<Mistake>,
     }
 
-    let folder = root
-        .join(handed_out.solutions())
-        .join("mistakes")
-        .join(folder);
+    let folder = root.join(format!("{}/mistakes/{folder}", handed_out.solutions()));
     if !folder.exists() {
         return Ok(Vec::new());
     }
-    let mut all = Vec::new();
-    for path in files::read_dir(folder)? {
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "toml")
-        {
-            let file: File = read_toml(&path)?;
-            all.extend(file.mistake);
-        }
-    }
-    Ok(all)
+    let mut paths = files::read_dir(folder)?;
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    let files = paths.iter().map(|path| read_toml(path));
+    let files: Vec<File> = files.collect::<Result<_>>()?;
+    Ok(files.into_iter().flat_map(|file| file.mistake).collect())
 }
 
 /// Reads the independent mistakes, and applies them to their variants.

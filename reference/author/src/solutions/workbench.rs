@@ -2,12 +2,11 @@
 //! times.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::{Result, anyhow};
-use grader::build::{Build, Builder, NotCompiled};
+use grader::build::{Build, Builder};
 use grader::handed_out::HandedOut;
 use grader::probe::{Budget, Fault, ItemLimits, Launcher, Probe};
 use grader::run_exam::run_exam;
@@ -16,7 +15,6 @@ use grader::verdict::{file_message, pending_score};
 use grader::workspace::Workspace;
 use judging::exam::{Exam, Item};
 use judging::exam_file::ExamName;
-
 use protocol::Answer;
 
 use crate::solutions::sources::Sources;
@@ -92,8 +90,8 @@ impl Workbench {
             id: id.to_owned(),
             message,
         };
-        if let Some(message) = compile_error(&build.not_compiled) {
-            return Err(error(message).into());
+        if let Some((file, reason)) = build.not_compiled.first_key_value() {
+            return Err(error(file_message(file, reason)).into());
         }
         let program = build.probe.clone();
         let program = program.ok_or_else(|| error("the build has no program".to_owned()))?;
@@ -104,12 +102,6 @@ impl Workbench {
             build,
         })
     }
-}
-
-/// Returns the message of the first file that does not compile.
-fn compile_error(not_compiled: &BTreeMap<&'static str, NotCompiled>) -> Option<String> {
-    let (file, reason) = not_compiled.first_key_value()?;
-    Some(file_message(file, reason))
 }
 
 /// A solution that was built and can be run.
@@ -128,16 +120,9 @@ impl BuiltSolution {
         &self.launcher
     }
 
-    fn start(&self) -> Result<Probe> {
-        let probe = self.launcher.start(PROCESS_CPU);
-        probe.map_err(|error| anyhow!("cannot start a probe: {error}"))
-    }
-
     /// Runs the solution in a new probe, and returns its answers to one item.
     pub fn answers(&self, item: &Item) -> Result<Answers> {
-        let mut probe = self.start()?;
-        let questions = item.questions.iter().map(|question| &question.question);
-        Ok(probe.ask(questions, LIMITS))
+        Ok(self.answers_to_each(&[item])?.remove(0))
     }
 
     /// Runs the solution, and returns its answers to each item. As in grading, one process answers
@@ -147,9 +132,12 @@ impl BuiltSolution {
         let mut running = None;
         let mut all = Vec::new();
         for item in items {
-            let mut probe = match running.take() {
+            let mut probe: Probe = match running.take() {
                 Some(probe) => probe,
-                None => self.start()?,
+                None => {
+                    let started = self.launcher.start(PROCESS_CPU);
+                    started.map_err(|error| anyhow!("cannot start a probe: {error}"))?
+                }
             };
             let questions = item.questions.iter().map(|question| &question.question);
             let answers = probe.ask(questions, LIMITS);

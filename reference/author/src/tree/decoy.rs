@@ -1,8 +1,7 @@
 //! Decoys: primitives outside the box of the leaf that holds them, which a correct traversal never
 //! tests. A traversal that tests a decoy returns a wrong hit.
 
-use glam::DVec3;
-use protocol::{Ray, Shape};
+use protocol::{Ray, Shape, TreeNode};
 
 use super::Tree;
 use super::traversal::{MARGIN, Traversal, TraversalRule};
@@ -22,33 +21,23 @@ pub enum SkipReason {
     LeafPruned,
 }
 
-/// One of the two children of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The child `l`.
-    L,
-    /// The child `r`.
-    R,
-}
+/// Returns one of the two children of a node.
+pub type Child = fn(&TreeNode) -> u32;
 
 /// Returns whether the leaf is this child of a node that every correct traversal enters, and the ray
 /// clearly misses the leaf's box. So the boxes of the two children alone decide about the leaf.
-pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, side: Side) -> bool {
+pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
     let path = tree.path(leaf);
     let [.., parent, _] = path[..] else {
         return false;
-    };
-    let child = match side {
-        Side::L => tree.nodes[parent].l,
-        Side::R => tree.nodes[parent].r,
     };
     let is_entered = |rule| {
         let traversal = Traversal::correct(tree, ray64, rule);
         traversal.reached_nodes.contains(&(parent, true))
     };
-    child as usize == leaf
+    child(&tree.nodes[parent]) as usize == leaf
         && skip_reason(tree, leaf, ray64) == Some(SkipReason::Missed)
-        && TraversalRule::ALL.into_iter().all(is_entered)
+        && TraversalRule::all().into_iter().all(is_entered)
 }
 
 /// Returns whether the ray misses the box of the leaf's sibling.
@@ -127,11 +116,8 @@ pub fn find_fork(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<PathFork> {
     let expected = tree.expected_hit(ray64)?;
     let hit_leaf = tree.leaf_of_hit(ray64)?;
     let (leaf_path, hit_path) = (tree.path(leaf), tree.path(hit_leaf));
-    let shared = leaf_path
-        .iter()
-        .zip(&hit_path)
-        .take_while(|(x, y)| x == y)
-        .count();
+    let both = leaf_path.iter().zip(&hit_path);
+    let shared = both.take_while(|(x, y)| x == y).count();
     Some(PathFork {
         parent: *leaf_path.get(shared - 1)?,
         toward_leaf: *leaf_path.get(shared)?,
@@ -143,8 +129,7 @@ pub fn find_fork(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<PathFork> {
 
 /// Returns the distance at which the ray enters a node's box, or `None` if it misses the box.
 fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
-    let (entry, _) = tree.bounds(index).span(&ray64.ahead())?;
-    Some(entry)
+    Some(tree.bounds(index).span(&ray64.ahead())?.0)
 }
 
 /// Returns whether, on the path from the fork down to the leaf, the ray misses the sibling of every
@@ -155,16 +140,15 @@ pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bo
         return false;
     };
     let path = tree.path(leaf);
-    let below = path
-        .iter()
-        .skip_while(|index| **index != fork.toward_leaf)
-        .skip(1);
-    let mut beyond = below.filter(|&&index| {
-        entry_distance(tree, index, ray64).is_some_and(|at| at > fork.hit_distance)
-    });
+    let entry = |index: usize| entry_distance(tree, index, ray64);
+    let below = path.iter();
+    let below = below.skip_while(|index| **index != fork.toward_leaf);
+    let mut beyond = below
+        .skip(1)
+        .filter(|&&index| entry(index).is_some_and(|at| at > fork.hit_distance));
     beyond.all(|&index| {
         let sibling = tree.sibling(index);
-        sibling.is_some_and(|sibling| entry_distance(tree, sibling, ray64).is_none())
+        sibling.is_some_and(|sibling| entry(sibling).is_none())
     })
 }
 
@@ -184,9 +168,8 @@ fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
     /// The minimum distance between the hit and a decoy behind it that cannot be mistaken for it, in
     /// sizes of the decoy.
     const BEHIND: f64 = 0.03;
-    let expected = tree
-        .expected_hit(ray64)
-        .map_or(ray64.max, |hit| hit.distance);
+    let hit = tree.expected_hit(ray64);
+    let expected = hit.map_or(ray64.max, |hit| hit.distance);
     let ordinary = tree.ordinary_primitives();
     let is_dangerous = |index: usize| {
         let shape = &tree.shapes[index];
@@ -202,7 +185,7 @@ fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
 /// Returns whether traversal by every rule finds the expected hit.
 fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
     let expected = tree.expected_hit(ray64);
-    TraversalRule::ALL
+    TraversalRule::all()
         .into_iter()
         .all(|rule| Traversal::correct(tree, ray64, rule).closest == expected)
 }
@@ -239,12 +222,9 @@ pub fn triangle_across(rng: &mut Rng, ray: &Ray, distance: f64, size: f64, mater
     let middle = ray.origin.as_dvec3() + distance * dir;
     let x = rng.perpendicular_to(dir);
     let y = dir.cross(x);
-    let corner = |across: f64, up: f64| -> DVec3 { middle + size * (across * x + up * y) };
+    let corner = |across: f64, up: f64| (middle + size * (across * x + up * y)).as_vec3();
     let corners = [corner(-1.0, -0.6), corner(1.0, -0.6), corner(0.0, 1.2)];
-    Shape::FlatTriangle {
-        corners: corners.map(|corner| corner.as_vec3()),
-        material,
-    }
+    Shape::FlatTriangle { corners, material }
 }
 
 /// Returns the tree with a decoy added in front of a ray's closest hit, in a random leaf that
@@ -259,11 +239,8 @@ pub fn add_decoy(
     fits: &dyn Fn(&Tree, usize, &Ray64) -> bool,
 ) -> Option<Tree> {
     let ray64 = Ray64::from(&rays[ray]);
-    let leaves: Vec<usize> = tree
-        .leaves()
-        .into_iter()
-        .filter(|&leaf| leaf != tree.root && fits(tree, leaf, &ray64))
-        .collect();
+    let mut leaves = tree.leaves();
+    leaves.retain(|&leaf| leaf != tree.root && fits(tree, leaf, &ray64));
     if leaves.is_empty() {
         return None;
     }
@@ -272,8 +249,7 @@ pub fn add_decoy(
     let end = tree.expected_hit(&ray64).map_or(4.0, |hit| hit.distance);
     let distance = ray64.min + (end - ray64.min) * rng.uniform(0.2, 0.8);
     let decoy = triangle_across(rng, &rays[ray], distance, 0.1, material);
-    let span = tree.bounds(leaf).span(&Ray64::from(&rays[ray]).ahead());
-    if span.is_some_and(|(enter, _)| enter < distance + 0.05) {
+    if entry_distance(tree, leaf, &ray64).is_some_and(|enter| enter < distance + 0.05) {
         return None;
     }
     let mut with_decoy = tree.clone();

@@ -99,12 +99,8 @@ impl Tree {
                 let node = &self.nodes[**index];
                 !node.is_leaf() && (node.l as usize == child || node.r as usize == child)
             };
-            path.push(
-                *nodes
-                    .iter()
-                    .find(is_parent)
-                    .expect("the node is in the tree"),
-            );
+            let parent = nodes.iter().find(is_parent);
+            path.push(*parent.expect("the node is in the tree"));
         }
         path.reverse();
         path
@@ -122,10 +118,8 @@ impl Tree {
     /// that leaf's box. All other primitives are decoys or unreferenced.
     pub fn ordinary_primitives(&self) -> Vec<bool> {
         let leaves = self.leaves();
-        let indices = 0..self.shapes.len();
-        indices
-            .map(|index| self.is_ordinary(index, &leaves))
-            .collect()
+        let shapes = 0..self.shapes.len();
+        shapes.map(|it| self.is_ordinary(it, &leaves)).collect()
     }
 
     /// Returns whether a primitive is in one of these leaves and inside that leaf's box.
@@ -192,20 +186,10 @@ impl Tree {
         for (new, &old) in order.iter().enumerate() {
             moved[old] = new;
         }
-        let node = |&old: &usize| {
-            let node = self.nodes[old];
-            if node.is_leaf() {
-                return node;
-            }
-            TreeNode {
-                l: moved[node.l as usize] as u32,
-                r: moved[node.r as usize] as u32,
-                ..node
-            }
-        };
+        let nodes = order.iter().map(|&old| self.nodes[old]);
         Tree {
             shapes: self.shapes.clone(),
-            nodes: order.iter().map(node).collect(),
+            nodes: nodes.map(|node| renumbered(node, |it| moved[it])).collect(),
             root: root_index,
         }
     }
@@ -219,19 +203,9 @@ impl Tree {
     /// nodes.
     pub fn with_roots_at_both_ends(&self, rng: &mut Rng) -> Tree {
         let mut tree = self.with_nodes_shuffled(rng, RootPosition::First);
-        let count = tree.nodes.len() as u32;
-        let copied = |node: &TreeNode| {
-            if node.is_leaf() {
-                *node
-            } else {
-                // Node 1 is copied to the index after the last node, and so on.
-                TreeNode {
-                    l: node.l + count - 1,
-                    r: node.r + count - 1,
-                    ..*node
-                }
-            }
-        };
+        let count = tree.nodes.len();
+        // Node 1 is copied to the index after the last node, and so on.
+        let copied = |node: &TreeNode| renumbered(*node, |index| index + count - 1);
         let mut copy: Vec<TreeNode> = tree.nodes.iter().map(copied).collect();
         copy.rotate_left(1);
         tree.nodes.extend(copy);
@@ -246,9 +220,8 @@ impl Tree {
             index => index,
         };
         self.nodes.swap(a, b);
-        for node in self.nodes.iter_mut().filter(|node| !node.is_leaf()) {
-            node.l = moved(node.l as usize) as u32;
-            node.r = moved(node.r as usize) as u32;
+        for node in &mut self.nodes {
+            *node = renumbered(*node, moved);
         }
         self.root = moved(self.root);
     }
@@ -262,4 +235,13 @@ impl Tree {
             rays: Rays::List(rays),
         }
     }
+}
+
+/// Returns a node with the new indices of its children, if it has any.
+fn renumbered(node: TreeNode, new: impl Fn(usize) -> usize) -> TreeNode {
+    if node.is_leaf() {
+        return node;
+    }
+    let [l, r] = [node.l, node.r].map(|child| new(child as usize) as u32);
+    TreeNode { l, r, ..node }
 }

@@ -6,8 +6,6 @@ pub mod attempt;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod probe;
-#[cfg(test)]
-pub(crate) mod sphere_submission;
 mod system;
 #[cfg(feature = "cli")]
 pub mod view;

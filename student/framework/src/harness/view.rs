@@ -53,24 +53,13 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
         }
         ViewMode::Bvh => {
             let tolerance = RELATIVE_TOLERANCE * extent;
-            let locations: Vec<TreeLocation> = hits
-                .iter()
-                .map(|hit| {
-                    hit.map_or(TreeLocation::default(), |hit| {
-                        locate(tree, hit.position, tolerance)
-                    })
-                })
-                .collect();
-            let counts = locations.iter().map(|location| location.boxes);
+            let location = |hit: &Trace| locate(tree, hit.position, tolerance);
+            let counts = hits.iter().flatten().map(|hit| location(hit).boxes);
             let max = counts.max().unwrap_or(0);
-            let colour = |location: &TreeLocation| {
-                leaf_brightness(location.leaf) * heat_colour(location.boxes, max)
-            };
-            let pixel = |(hit, location): (&Option<Trace>, &TreeLocation)| match hit {
-                Some(_) => colour(location),
-                None => Vec3::ZERO,
-            };
-            hits.iter().zip(&locations).map(pixel).collect()
+            each(&|hit| {
+                let TreeLocation { boxes, leaf } = location(hit);
+                leaf_brightness(leaf) * heat_colour(boxes, max)
+            })
         }
     }
 }
@@ -79,15 +68,11 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
 /// distances, and u and v. Without a hit, the distance is infinite, and the others are zero. For
 /// `Shaded` and `Bvh`, which show no value of a hit, returns `None`.
 pub fn raw_values(view: ViewMode, hits: &[Option<Trace>]) -> Option<Vec<Vec3>> {
-    let value: fn(&Trace) -> Vec3 = match view {
-        ViewMode::Normals => |hit| hit.normal,
-        ViewMode::Depth => |hit| Vec3::splat(hit.distance),
-        ViewMode::Uv => |hit| hit.uv.extend(0.0),
+    let (miss, value): (Vec3, fn(&Trace) -> Vec3) = match view {
+        ViewMode::Normals => (Vec3::ZERO, |hit| hit.normal),
+        ViewMode::Depth => (Vec3::INFINITY, |hit| Vec3::splat(hit.distance)),
+        ViewMode::Uv => (Vec3::ZERO, |hit| hit.uv.extend(0.0)),
         ViewMode::Shaded | ViewMode::Bvh => return None,
-    };
-    let miss = match view {
-        ViewMode::Depth => Vec3::INFINITY,
-        ViewMode::Shaded | ViewMode::Normals | ViewMode::Uv | ViewMode::Bvh => Vec3::ZERO,
     };
     let of_pixel = |hit: &Option<Trace>| hit.as_ref().map_or(miss, value);
     Some(hits.iter().map(of_pixel).collect())

@@ -2,13 +2,13 @@
 
 use glam::{Mat3, UVec2, Vec3};
 use protocol::{PinholeCamera, Ray};
-use serde::Deserialize;
 
-use super::{MAX_FILM_SIDE, number};
+use super::MAX_FILM_SIDE;
+use super::error::SceneError;
+use super::value::Value;
 
 /// A camera and its position in the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "CameraEntry")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// The parameters of the submission's `Camera`.
     pub pinhole: PinholeCamera,
@@ -30,6 +30,61 @@ pub struct Placement {
 }
 
 impl Camera {
+    /// Reads the value of `camera` in a scene file.
+    pub(super) fn read(value: &Value) -> Result<Camera, SceneError> {
+        let keys = value.object(&[
+            "vertical_fov",
+            "film",
+            "aspect_ratio",
+            "position",
+            "look_at",
+            "up",
+        ])?;
+        let vertical_fov = keys.required("vertical_fov", |value| {
+            let expected = "a number of degrees above 0 and below 180";
+            value.number(expected, |degrees| degrees > 0.0 && degrees < 180.0)
+        })?;
+        let film = keys.required("film", |value| {
+            let expected =
+                format!("two whole numbers from 1 to {MAX_FILM_SIDE}, the pixels across and up");
+            let is_valid = |side: &u32| (1..=MAX_FILM_SIDE).contains(side);
+            value.parsed(&expected, |film: &[u32; 2]| film.iter().all(is_valid))
+        })?;
+        let film = UVec2::from_array(film);
+        // The width of the sensor divided by its height.
+        let aspect_ratio = keys.optional("aspect_ratio", Value::positive)?;
+        let position = keys.required("position", Value::point)?;
+        let look_at = keys.required("look_at", Value::point)?;
+        // The direction that points upward in the picture. It does not have to be perpendicular to
+        // the view direction.
+        let up = keys.required("up", Value::point)?;
+
+        let Some(forward) = (look_at - position).try_normalize() else {
+            let message = "`look_at` and `position` are the same point: change one of them";
+            return Err(keys.value("look_at")?.error(message));
+        };
+        // Both vectors have length one, so the length of their cross product is the sine of the
+        // angle between them.
+        let across = forward.cross(up.normalize_or_zero());
+        if across.length() < 1e-4 {
+            let message = "`up` is parallel to the view direction: change it";
+            return Err(keys.value("up")?.error(message));
+        }
+        let right = across.normalize();
+        Ok(Camera {
+            pinhole: PinholeCamera {
+                vertical_fov,
+                aspect_ratio: aspect_ratio.unwrap_or(aspect_of(film)),
+                film,
+            },
+            placement: Placement {
+                position,
+                axes: Mat3::from_cols(right, right.cross(forward), -forward),
+            },
+            fixed_aspect: aspect_ratio.is_some(),
+        })
+    }
+
     /// Implements [`Scene::on_film`](super::Scene::on_film).
     pub(super) fn on_film(self, film: UVec2) -> Camera {
         let aspect_ratio = if self.fixed_aspect {
@@ -59,80 +114,6 @@ impl Placement {
     }
 }
 
-/// The entry `camera` of a scene file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CameraEntry {
-    /// The full vertical field of view, in degrees.
-    #[serde(deserialize_with = "number::positive")]
-    vertical_fov: f32,
-    /// The number of pixels, across and up.
-    #[serde(deserialize_with = "number::film")]
-    film: [u32; 2],
-    /// The width of the sensor divided by its height; default: the aspect ratio of the film.
-    #[serde(default, deserialize_with = "number::optional")]
-    aspect_ratio: Option<f32>,
-    #[serde(deserialize_with = "number::triple")]
-    position: Vec3,
-    #[serde(deserialize_with = "number::triple")]
-    look_at: Vec3,
-    /// The direction that points upward in the picture. It does not have to be perpendicular to the
-    /// view direction.
-    #[serde(deserialize_with = "number::triple")]
-    up: Vec3,
-}
-
-/// An error in a camera whose numbers are individually valid.
-#[derive(Debug, thiserror::Error)]
-enum CameraError {
-    #[error("`film` is {0} x {1} pixels: each side must be from 1 to {MAX_FILM_SIDE}")]
-    Film(u32, u32),
-    #[error("`vertical_fov` is {0}: it must be less than 180 degrees")]
-    FieldOfView(f32),
-    #[error("`look_at` and `position` are the same point: change one of them")]
-    LooksAtItself,
-    #[error("`up` is parallel to the view direction: change it")]
-    UpAlongTheView,
-}
-
-impl TryFrom<CameraEntry> for Camera {
-    type Error = CameraError;
-
-    fn try_from(file: CameraEntry) -> Result<Self, CameraError> {
-        let [width, height] = file.film;
-        let side = 1..=MAX_FILM_SIDE;
-        if !side.contains(&width) || !side.contains(&height) {
-            return Err(CameraError::Film(width, height));
-        }
-        if file.vertical_fov >= 180.0 {
-            return Err(CameraError::FieldOfView(file.vertical_fov));
-        }
-        let view = (file.look_at - file.position).try_normalize();
-        let forward = view.ok_or(CameraError::LooksAtItself)?;
-        // Both vectors have length one, so the length of their cross product is the sine of the
-        // angle between them.
-        let across = forward.cross(file.up.normalize_or_zero());
-        if across.length() < 1e-4 {
-            return Err(CameraError::UpAlongTheView);
-        }
-        let right = across.normalize();
-
-        let film = UVec2::new(width, height);
-        Ok(Camera {
-            pinhole: PinholeCamera {
-                vertical_fov: file.vertical_fov,
-                aspect_ratio: file.aspect_ratio.unwrap_or(aspect_of(film)),
-                film,
-            },
-            placement: Placement {
-                position: file.position,
-                axes: Mat3::from_cols(right, right.cross(forward), -forward),
-            },
-            fixed_aspect: file.aspect_ratio.is_some(),
-        })
-    }
-}
-
 fn aspect_of(film: UVec2) -> f32 {
     film.x as f32 / film.y as f32
 }
@@ -148,7 +129,8 @@ mod tests {
             r#"{{ "vertical_fov": 90, "film": [4, 2], {extra}
                  "position": [1, 2, 3], "look_at": [5, 2, 3], "up": [1, 1, 0] }}"#
         );
-        serde_json::from_str(&text).expect("the camera is valid")
+        let value = Value::parse(&text).expect("the text is JSON");
+        Camera::read(&value).expect("the camera is valid")
     }
 
     #[test]

@@ -85,24 +85,6 @@ fn names_in_a_mesh_can_have_any_encoding() {
 }
 
 #[test]
-fn a_subdivided_mesh_has_four_times_the_triangles_and_smooth_normals() {
-    let folder = Folder::new("subdivided");
-    let tetrahedron =
-        "v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n";
-    folder.write("a.obj", tetrahedron);
-    let scene = Scene::load(&folder.write("s.json", scene_with(r#", "subdivide": 3"#)));
-    let scene = scene.expect("the scene is valid");
-    assert_eq!(scene.shapes.len(), 4 * 64);
-    let outward = scene.shapes.iter().all(|shape| match shape {
-        Shape::Triangle { vertices, .. } => vertices.iter().all(|vertex| {
-            vertex.normal.is_normalized() && vertex.normal.dot(vertex.position) > 0.0
-        }),
-        Shape::FlatTriangle { .. } | Shape::Sphere { .. } => false,
-    });
-    assert!(outward);
-}
-
-#[test]
 fn reports_a_missing_mesh_at_the_line_that_names_it() {
     let folder = Folder::new("missing");
     let message = folder.problem(&folder.write("s.json", scene_with("")));
@@ -119,17 +101,6 @@ fn reports_a_bad_line_of_a_mesh_in_the_mesh_file() {
     let message = folder.problem(&folder.write("s.json", scene_with("")));
     let expected = "mesh: a.obj:5: there is no position 9: the indices are 1 to 4\n    5 | f 1 2 9";
     assert!(message.contains(expected), "{message}");
-}
-
-#[test]
-fn rejects_a_subdivision_that_would_not_fit_in_memory() {
-    let folder = Folder::new("fine");
-    folder.write("a.obj", SQUARE);
-    let message = folder.problem(&folder.write("s.json", scene_with(r#", "subdivide": 40"#)));
-    assert!(
-        message.contains("with `subdivide` 40 the mesh has") && message.contains("use a smaller"),
-        "{message}"
-    );
 }
 
 #[test]

@@ -1,54 +1,85 @@
 //! Materials of surfaces.
 
 use glam::{Vec2, Vec3};
-use serde::Deserialize;
 
-use super::number;
+use super::error::SceneError;
+use super::value::Value;
 
 /// The way in which a surface scatters or emits light.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
     /// A matte surface, on both sides. It reflects the same radiance in all directions.
     Lambertian {
         /// The fraction of light that is scattered, for each colour channel.
-        #[serde(deserialize_with = "number::reflectance")]
         albedo: Vec3,
     },
     /// A matte surface, on both sides, with a chequerboard of two albedos.
     Checker {
         /// The albedo of the square at u = v = 0.
-        #[serde(deserialize_with = "number::reflectance")]
         a: Vec3,
         /// The albedo of the neighbouring squares.
-        #[serde(deserialize_with = "number::reflectance")]
         b: Vec3,
         /// The number of squares from u = 0 to u = 1, and also from v = 0 to v = 1.
-        #[serde(deserialize_with = "number::positive")]
         scale: f32,
     },
     /// A perfect mirror, on both sides.
     Mirror {
         /// The fraction of light that is reflected, for each colour channel.
-        #[serde(deserialize_with = "number::reflectance")]
         reflectance: Vec3,
     },
     /// Clear glass. The normal points out of the glass.
     Glass {
         /// The index of refraction of the glass. Outside, it is 1.
-        #[serde(deserialize_with = "number::positive")]
         ior: f32,
     },
     /// A light. It emits the same radiance in all directions on the side of the normal, and
     /// reflects nothing.
     Emitter {
         /// The emitted radiance.
-        #[serde(deserialize_with = "number::radiance")]
         radiance: Vec3,
     },
 }
 
+const KINDS: [&str; 5] = ["lambertian", "checker", "mirror", "glass", "emitter"];
+
 impl Material {
+    /// Reads an entry of `materials` in a scene file.
+    pub(super) fn read(value: &Value) -> Result<Material, SceneError> {
+        let (kind, value) = value.kind()?;
+        Ok(match kind.key.as_str() {
+            "lambertian" => Material::Lambertian {
+                albedo: value
+                    .object(&["albedo"])?
+                    .required("albedo", Value::reflectance)?,
+            },
+            "checker" => {
+                let keys = value.object(&["a", "b", "scale"])?;
+                Material::Checker {
+                    a: keys.required("a", Value::reflectance)?,
+                    b: keys.required("b", Value::reflectance)?,
+                    scale: keys.required("scale", Value::positive)?,
+                }
+            }
+            "mirror" => {
+                let keys = value.object(&["reflectance"])?;
+                let reflectance = keys.required("reflectance", Value::reflectance)?;
+                Material::Mirror { reflectance }
+            }
+            "glass" => Material::Glass {
+                ior: value.object(&["ior"])?.required("ior", Value::positive)?,
+            },
+            "emitter" => Material::Emitter {
+                radiance: value
+                    .object(&["radiance"])?
+                    .required("radiance", Value::radiance)?,
+            },
+            name => {
+                let problem = "there is no kind of material";
+                return Err(kind.unknown(problem, name, ("the kinds are", &KINDS)));
+            }
+        })
+    }
+
     /// Returns the radiance that the surface emits, or `None` if it is not an emitter.
     pub fn emitted(&self) -> Option<Vec3> {
         match *self {

@@ -1,87 +1,63 @@
 //! Meshes, as an intermediate form between the OBJ file and the shapes of a scene.
 
 use glam::{Mat3, Vec2, Vec3};
-use protocol::{Shape, Vertex};
+use protocol::Vertex;
 
-use super::error::SceneErrorKind;
-use super::file::MeshEntry;
-use super::number::MAX_COORDINATE;
+use super::value::MAX_COORDINATE;
 use crate::math::sin_cos;
 
-/// An indexed triangle mesh. Triangles share positions, which subdivision uses to find neighbours.
-/// Normals and texture coordinates are stored per corner of a triangle, because they differ at
-/// seams.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Mesh {
-    pub(super) positions: Vec<Vec3>,
-    pub(super) faces: Vec<Face>,
-}
-
-/// One triangle of a [`Mesh`].
+/// A triangle of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
-    /// Indices into [`Mesh::positions`].
-    pub(super) corners: [usize; 3],
+    pub(super) corners: [Vec3; 3],
     pub(super) uv: [Vec2; 3],
     /// The normals at the corners. `None` if the file has no normals; the triangle is then flat.
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
-impl Mesh {
-    /// Returns the mesh's triangles, transformed as `entry` specifies and numbered from `first`.
-    /// Triangles without area are left out, because they have no normal and no ray can hit them.
-    pub(super) fn shapes(
-        &self,
-        entry: &MeshEntry,
-        first: u32,
-    ) -> Result<Vec<Shape>, SceneErrorKind> {
-        let rotation = rotation(entry.rotate);
-        let transform = |p: Vec3| rotation * (p * entry.scale) + entry.translate;
-        let positions: Vec<Vec3> = self.positions.iter().copied().map(transform).collect();
-        let is_in_range = |p: &Vec3| p.abs().max_element() <= MAX_COORDINATE;
-        if !positions.iter().all(is_in_range) {
-            return Err(SceneErrorKind::MeshTooLarge);
-        }
-        let vertices = |face: &Face| {
-            let corners = face.corners.map(|corner| positions[corner]);
-            let flat = cross(corners).try_normalize()?;
+/// The position of a mesh in the scene. It is scaled, rotated about the x-, y- and z-axes in this
+/// order, and then translated.
+pub(super) struct Transform {
+    pub(super) scale: f32,
+    /// The angles about the x-, y- and z-axes, in degrees.
+    pub(super) rotate: Vec3,
+    pub(super) translate: Vec3,
+}
+
+impl Transform {
+    /// Returns the transformed triangles of a mesh. Triangles without area are left out, because
+    /// they have no normal and no ray can hit them.
+    pub(super) fn apply(&self, mesh: &[Face]) -> Result<Vec<[Vertex; 3]>, String> {
+        let rotation = rotation(self.rotate);
+        let transform = |p: Vec3| rotation * (p * self.scale) + self.translate;
+        let mut triangles = Vec::new();
+        for face in mesh {
+            let corners = face.corners.map(transform);
+            if corners
+                .iter()
+                .any(|p| p.abs().max_element() > MAX_COORDINATE)
+            {
+                let message = "the mesh has a coordinate beyond 1e9 after `scale`, `rotate` and \
+                               `translate`: use smaller numbers";
+                return Err(message.to_owned());
+            }
+            let [p0, p1, p2] = corners;
+            let Some(flat) = (p1 - p0).cross(p2 - p0).try_normalize() else {
+                continue;
+            };
             let normals = match face.normals {
                 Some(normals) => normals.map(|normal| (rotation * normal).normalize_or(flat)),
                 None => [flat; 3],
             };
-            let vertex = |i: usize| Vertex::new(corners[i], normals[i], face.uv[i]);
-            Some([vertex(0), vertex(1), vertex(2)])
-        };
-        let numbered = self.faces.iter().filter_map(vertices).zip(first..);
-        let shape = |(vertices, material)| Shape::Triangle { vertices, material };
-        let shapes: Vec<Shape> = numbered.map(shape).collect();
-        if shapes.is_empty() {
-            return Err(SceneErrorKind::MeshWithoutArea);
+            triangles.push([0, 1, 2].map(|i| Vertex::new(corners[i], normals[i], face.uv[i])));
         }
-        Ok(shapes)
+        if triangles.is_empty() {
+            let message = "no triangle of the mesh has an area, so no ray can hit it: use another \
+                           mesh or `scale`";
+            return Err(message.to_owned());
+        }
+        Ok(triangles)
     }
-
-    /// Returns the same mesh with a normal at each position: the mean of the normals of the faces
-    /// around it, weighted by area.
-    pub(super) fn with_smooth_normals(mut self) -> Self {
-        let mut normals = vec![Vec3::ZERO; self.positions.len()];
-        for face in &self.faces {
-            let weighted = cross(face.corners.map(|corner| self.positions[corner]));
-            for corner in face.corners {
-                normals[corner] += weighted;
-            }
-        }
-        for face in &mut self.faces {
-            let around = face.corners.map(|corner| normals[corner]);
-            face.normals = Some(around.map(Vec3::normalize_or_zero));
-        }
-        self
-    }
-}
-
-/// Returns the vector along a triangle's normal that is as long as twice the triangle's area.
-fn cross([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
-    (p1 - p0).cross(p2 - p0)
 }
 
 /// Returns the rotation about the x-, y- and z-axes, in this order, by angles in degrees.

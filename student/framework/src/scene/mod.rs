@@ -1,22 +1,20 @@
 //! Scenes: a camera, materials, shapes and the light of the environment.
 //!
-//! A scene is plain data, read from a JSON file whose keys are defined by the types in `file`. A
-//! submission converts it to its own types.
+//! A scene is plain data, read from a JSON file by the module `read`. A submission converts it to its
+//! own types.
 
 mod camera;
 mod error;
-mod file;
-mod json_error;
-mod json_path;
 mod material;
 mod mesh;
-mod number;
 #[cfg(feature = "cli")]
 mod obj;
-mod ordered_map;
 mod polygon;
 mod read;
-mod subdivide;
+#[cfg(feature = "cli")]
+mod text_file;
+mod triangulate;
+mod value;
 
 #[cfg(feature = "cli")]
 use std::path::Path;
@@ -25,7 +23,7 @@ use glam::{UVec2, Vec3};
 use protocol::Shape;
 
 pub use camera::{Camera, Placement};
-pub use error::{SceneError, SceneErrorKind, TextPosition};
+pub use error::SceneError;
 pub use material::Material;
 
 pub(crate) use material::checker;
@@ -62,8 +60,9 @@ impl Scene {
     /// # Errors
     /// Fails if the text is not a valid scene, or if the scene uses a mesh.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
-        let parsed = read::scene(text, &mut |_| Err(SceneErrorKind::MeshWithoutFolder));
-        parsed.map(|(scene, _)| scene)
+        let message = "meshes are separate files, so only a scene that is read from a file can use \
+                       one";
+        read::scene(text, &|_| Err(message.to_owned())).map(|(scene, _)| scene)
     }
 
     /// Loads a scene from a file. Paths of meshes are relative to the file's folder.
@@ -81,13 +80,18 @@ impl Scene {
     pub(crate) fn load_with_names(path: &Path) -> Result<(Scene, Vec<String>), SceneError> {
         let is_mesh = path.extension().is_some_and(|ending| ending == "obj");
         if let (true, Some(name)) = (is_mesh, path.file_name()) {
-            let kind = SceneErrorKind::MeshAsScene(name.to_string_lossy().into_owned());
-            return Err(SceneError::new(None, kind).in_file(path));
+            let message = format!(
+                "this is a mesh, not a scene. A scene can show it, with this entry in its `shapes`: \
+                 {{ \"mesh\": {{ \"file\": {:?}, \"material\": \"…\" }} }}; see scenes/README.md",
+                name.to_string_lossy()
+            );
+            return Err(SceneError::new(None, message).in_file(path));
         }
-        let text = error::read_text(path)?;
+        let text = text_file::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        read::scene(&text, &mut |file| obj::load(&folder.join(file)))
-            .map_err(|error| error.in_file(path))
+        let load =
+            |file: &str| obj::load(&folder.join(file)).map_err(|error| format!("mesh: {error}"));
+        read::scene(&text, &load).map_err(|error| error.in_file(path))
     }
 
     /// Returns the same scene with a film of another size. If the scene file sets the aspect ratio
@@ -108,15 +112,10 @@ impl Scene {
 
     /// Returns the largest absolute value of any coordinate in the scene.
     pub fn extent(&self) -> f32 {
-        let of_shape = |shape: &Shape| match shape {
-            Shape::Triangle { vertices, .. } => vertices
-                .iter()
-                .map(|vertex| vertex.position.abs().max_element())
-                .fold(0.0, f32::max),
-            Shape::FlatTriangle { corners, .. } => corners
-                .iter()
-                .map(|corner| corner.abs().max_element())
-                .fold(0.0, f32::max),
+        let of_triangle = |[a, b, c]: [Vec3; 3]| a.abs().max(b.abs()).max(c.abs()).max_element();
+        let of_shape = |shape: &Shape| match *shape {
+            Shape::Triangle { vertices, .. } => of_triangle(vertices.map(|vertex| vertex.position)),
+            Shape::FlatTriangle { corners, .. } => of_triangle(corners),
             Shape::Sphere { center, radius, .. } => center.abs().max_element() + radius,
         };
         let of_camera = self.camera.placement.position.abs().max_element();

@@ -1,69 +1,55 @@
-//! Parses scene files.
+//! Reads scene files.
 
-use protocol::Shape;
+use protocol::{Shape, Vertex};
 
-use super::error::{SceneError, SceneErrorKind, TextPosition};
-use super::file::{MeshEntry, SceneFile, ShapeEntry};
-use super::json_error::scene_error;
-use super::mesh::Mesh;
-use super::subdivide::subdivide;
-use super::{MAX_LEAF_SIZE, Scene};
+use super::camera::Camera;
+use super::error::{SceneError, TextPosition};
+use super::material::Material;
+use super::mesh::{Face, Transform};
+use super::value::{Object, Value};
+use super::{MAX_LEAF_SIZE, Scene, polygon};
 
-/// The maximum number of triangles in one mesh. A mesh of this size takes about 2 GB of memory.
-const MAX_TRIANGLES: u64 = 1 << 24;
+/// Loads a mesh from the path in a scene file, or returns why it cannot.
+pub(super) type LoadMesh<'a> = &'a dyn Fn(&str) -> Result<Vec<Face>, String>;
 
-/// Parses the scene in `text`, and returns it with the names of its materials. `load` loads a mesh
-/// from the path in the scene file.
-pub(super) fn scene(
-    text: &str,
-    load: &mut dyn FnMut(&str) -> Result<Mesh, SceneErrorKind>,
-) -> Result<(Scene, Vec<String>), SceneError> {
-    if text.trim().is_empty() {
-        return Err(SceneError::new(None, SceneErrorKind::Empty));
+/// Reads the scene in `text`, and returns it with the names of its materials.
+pub(super) fn scene(text: &str, load: LoadMesh) -> Result<(Scene, Vec<String>), SceneError> {
+    let start = text.trim_start();
+    if start.is_empty() {
+        let message = "the scene is empty: it needs at least a camera, materials and shapes";
+        return Err(SceneError::new(None, message));
     }
-    let first = text.len() - text.trim_start().len();
-    if !text[first..].starts_with('{') {
-        let position = TextPosition::at_offset(text, first);
-        return Err(SceneError::new(Some(position), SceneErrorKind::NotAScene));
+    if !start.starts_with('{') {
+        let position = TextPosition::at_offset(text, text.len() - start.len());
+        let message = "this is not a scene: a scene begins with `{`. scenes/README.md describes \
+                       the format";
+        return Err(SceneError::new(Some(position), message));
     }
-    let file = parse(text)?;
-    let (names, materials): (Vec<String>, Vec<_>) = file.materials.0.into_iter().unzip();
-    let index_of = |name: &str| {
-        let index = names.iter().position(|known| known == name);
-        index.map(|index| index as u32).ok_or_else(|| {
-            let known = names.clone();
-            let name = name.to_owned();
-            let position = TextPosition::of_value(text, "material", &name);
-            SceneError::new(position, SceneErrorKind::UnknownMaterial { name, known })
-        })
-    };
-
+    let file = Value::parse(text)?;
+    let keys = file.object(&["about", "camera", "environment", "materials", "shapes"])?;
+    let about = keys.optional("about", Value::string)?;
+    let camera = keys.required("camera", Camera::read)?;
+    let environment = keys.optional("environment", Value::radiance)?;
+    let (mut names, mut materials) = (Vec::new(), Vec::new());
+    for (name, material) in keys.required("materials", Value::members)? {
+        names.push(name.key);
+        materials.push(Material::read(&material)?);
+    }
     let mut shapes = Vec::new();
     let mut shape_materials = Vec::new();
-    for entry in &file.shapes {
-        let material = index_of(entry.material())?;
-        let first = shapes.len() as u32;
-        match entry {
-            ShapeEntry::Sphere { center, radius, .. } => shapes.push(Shape::Sphere {
-                center: *center,
-                radius: *radius,
-                material: first,
-            }),
-            ShapeEntry::Polygon(polygon) => shapes.extend(polygon.shapes(first)),
-            ShapeEntry::Mesh(entry) => {
-                let failed =
-                    |kind| SceneError::new(TextPosition::of_value(text, "file", &entry.file), kind);
-                let mesh = load(&entry.file).and_then(|mesh| subdivide_mesh(mesh, entry));
-                let mesh = mesh.and_then(|mesh| mesh.shapes(entry, first));
-                shapes.extend(mesh.map_err(failed)?);
-            }
-        }
-        shape_materials.resize(shapes.len(), material);
-    }
+    keys.required("shapes", |list| {
+        list.list(|entry| {
+            let (keys, new) = read_shape(entry, shapes.len() as u32, load)?;
+            shapes.extend(new);
+            let material = material_index(&keys.value("material")?, &names)?;
+            shape_materials.resize(shapes.len(), material);
+            Ok(())
+        })
+    })?;
     let scene = Scene {
-        about: file.about,
-        camera: file.camera,
-        environment: file.environment,
+        about: about.unwrap_or_default(),
+        camera,
+        environment: environment.unwrap_or_default(),
         materials,
         shapes,
         shape_materials,
@@ -72,32 +58,68 @@ pub(super) fn scene(
     Ok((scene, names))
 }
 
-fn parse(text: &str) -> Result<SceneFile, SceneError> {
-    let mut parser = serde_json::Deserializer::from_str(text);
-    let file = serde_path_to_error::deserialize(&mut parser)
-        .map_err(|error| scene_error(text, error.path(), error.inner()))?;
-    let whole_text = serde_path_to_error::Track::new().path();
-    parser
-        .end()
-        .map_err(|error| scene_error(text, &whole_text, &error))?;
-    Ok(file)
+/// Returns the index of the material with the name in `value`.
+fn material_index(value: &Value, names: &[String]) -> Result<u32, SceneError> {
+    let name = value.string()?;
+    let index = names.iter().position(|known| *known == name);
+    index.map(|index| index as u32).ok_or_else(|| {
+        let problem = "there is no material";
+        value.unknown(problem, &name, ("the scene defines", names))
+    })
 }
 
-/// Subdivides a mesh as many times as `entry` specifies.
-fn subdivide_mesh(mut mesh: Mesh, entry: &MeshEntry) -> Result<Mesh, SceneErrorKind> {
-    let triangles = (mesh.faces.len() as u64).saturating_mul(4_u64.saturating_pow(entry.subdivide));
-    if triangles > MAX_TRIANGLES {
-        return Err(SceneErrorKind::TooManyTriangles {
-            levels: entry.subdivide,
-            triangles,
-            limit: MAX_TRIANGLES,
-        });
+/// Reads an entry of `shapes`. Returns its keys, and its shapes, numbered from `first`.
+fn read_shape<'a>(
+    entry: &Value<'a>,
+    first: u32,
+    load: LoadMesh,
+) -> Result<(Object<'a>, Vec<Shape>), SceneError> {
+    let numbered = |triangles: Vec<[Vertex; 3]>| {
+        let numbered = triangles.into_iter().zip(first..);
+        let shapes = numbered.map(|(vertices, material)| Shape::Triangle { vertices, material });
+        shapes.collect::<Vec<Shape>>()
+    };
+    let (kind, value) = entry.kind()?;
+    match kind.key.as_str() {
+        "sphere" => {
+            let keys = value.object(&["center", "radius", "material"])?;
+            let sphere = Shape::Sphere {
+                center: keys.required("center", Value::point)?,
+                radius: keys.required("radius", Value::positive)?,
+                material: first,
+            };
+            Ok((keys, vec![sphere]))
+        }
+        "polygon" => {
+            let keys = value.object(&["points", "uv", "material"])?;
+            let triangles = polygon::read(&keys)?;
+            Ok((keys, numbered(triangles)))
+        }
+        "mesh" => {
+            let known = ["file", "material", "scale", "rotate", "translate"];
+            let keys = value.object(&known)?;
+            let triangles = read_mesh(&keys, load)?;
+            Ok((keys, numbered(triangles)))
+        }
+        name => {
+            let known = ["sphere", "polygon", "mesh"];
+            let problem = "there is no kind of shape";
+            Err(kind.unknown(problem, name, ("the kinds are", &known)))
+        }
     }
-    if entry.subdivide == 0 {
-        return Ok(mesh);
-    }
-    for _ in 0..entry.subdivide {
-        mesh = subdivide(&mesh);
-    }
-    Ok(mesh.with_smooth_normals())
+}
+
+/// Reads the entry of a mesh, which is in an OBJ file in or below the folder of the scene file.
+fn read_mesh(keys: &Object, load: LoadMesh) -> Result<Vec<[Vertex; 3]>, SceneError> {
+    let transform = Transform {
+        scale: keys.optional("scale", Value::positive)?.unwrap_or(1.0),
+        rotate: keys.optional("rotate", Value::point)?.unwrap_or_default(),
+        translate: keys
+            .optional("translate", Value::point)?
+            .unwrap_or_default(),
+    };
+    let file = keys.value("file")?;
+    load(&file.string()?)
+        .and_then(|mesh| transform.apply(&mesh))
+        .map_err(|message| file.error(message))
 }

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::sanitized;
 use super::submissions::report_link;
+use crate::plural::count;
 use crate::regrade_diff::{Changes, Drift};
 use crate::report::text::with_changed_points;
 
@@ -24,7 +25,7 @@ pub(super) fn sections(changes: &Changes) -> Markup {
                     h2 #grades { "Final grades that changed" }
                     @if !grades.causes.is_empty() { p { "Changed: " (grades.causes.join(", ")) "." } }
                     @if grades.changes.is_empty() { p { "No final grade changed." } }
-                    ul { @for change in &grades.changes { li { (sanitized(&change.to_string())) } } }
+                    ul { @for change in &grades.changes { li { (sanitized(change)) } } }
                 }
             }
         }
@@ -38,32 +39,27 @@ pub(super) fn sections(changes: &Changes) -> Markup {
         @if !changes.removed.is_empty() {
             section aria-labelledby="removed" {
                 h2 #removed { "No longer in the input" }
-                ul { @for entry in &changes.removed { li { (sanitized(&entry.to_string())) } } }
+                ul { @for entry in &changes.removed { li { (sanitized(entry)) } } }
             }
         }
     }
 }
 
 fn drifts(drifts: &[&Drift]) -> Markup {
-    let now = |drift: &Drift| {
-        drift
-            .now
-            .map_or("no score".to_owned(), |now| now.to_string())
-    };
-    let points = |points: Option<u32>| points.map_or("–".to_owned(), |points| points.to_string());
     html! {
         @if drifts.is_empty() { p { "No score changed." } }
         ul {
             @for drift in drifts {
                 li {
                     a href=(report_link(&drift.id)) { (sanitized(&drift.id)) }
-                    ": " strong { (drift.was) " → " (now(drift)) }
+                    ": " strong { (drift.was) " → " (drift.now_text()) }
                     @if !drift.items.is_empty() { details {
-                        summary { (item_count(drift.items.len())) }
+                        summary { (count(drift.items.len(), "item")) }
                         ul { @for item in &drift.items {
+                            @let [was, now] = item.point_texts();
                             li {
                                 code { (sanitized(&item.item)) } " "
-                                (points(item.was)) " → " (points(item.now)) ": "
+                                (was) " → " (now) ": "
                                 (sanitized(&item.why))
                             }
                         } } }
@@ -71,12 +67,5 @@ fn drifts(drifts: &[&Drift]) -> Markup {
                 }
             }
         }
-    }
-}
-
-fn item_count(count: usize) -> String {
-    match count {
-        1 => "1 item".to_owned(),
-        count => format!("{count} items"),
     }
 }

@@ -15,6 +15,7 @@ use sha2::{Digest, Sha256};
 
 use crate::distribution::Distribution;
 use crate::graded_class::GradedClass;
+use crate::plural::count;
 use crate::regrade_diff::Changes;
 use crate::summary::{ClassSummary, Outlier};
 
@@ -24,11 +25,8 @@ const SCRIPT: &str = include_str!("page.js");
 
 /// Renders the page of a class.
 pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Changes) -> String {
-    let count = match class.rows.len() {
-        1 => "1 submission".to_owned(),
-        count => format!("{count} submissions"),
-    };
-    let title = format!("{count}, {} exam", class.exam);
+    let submissions = count(class.rows.len(), "submission");
+    let title = format!("{submissions}, {} exam", class.exam);
     let page = html! {
         (DOCTYPE)
         html lang="en" {

@@ -4,7 +4,6 @@ use maud::{Markup, html};
 
 use super::sanitized;
 use crate::graded_class::{ClassRow, GradedClass};
-use crate::outcome::ScoreSummary;
 use crate::report::grades::LATE;
 
 pub(super) fn section(class: &GradedClass) -> Markup {
@@ -45,29 +44,21 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
     let who = sanitized(&row.result.info.display_names());
     html! {
         tr {
-            @match row.result.score() {
-                Some(score) => (score_cells(row, score, who)),
-                None => {
-                    th scope="row" { (who) }
-                    td .number { (counts(row)) }
-                    td .number { "–" }
-                    @for _ in 0..tasks { td {} }
-                    td { (notes(row)) }
-                },
+            @if let Some(score) = row.result.score() {
+                th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
+                td .number { strong { (counts(row)) } }
+                td .number { (score.points) }
+                @for task in &score.tasks {
+                    td .number .less[task.points < task.max_points] { (task.points) }
+                }
+            } @else {
+                th scope="row" { (who) }
+                td .number { (counts(row)) }
+                td .number { "–" }
+                @for _ in 0..tasks { td {} }
             }
+            td { (notes(row)) }
         }
-    }
-}
-
-fn score_cells(row: &ClassRow, score: &ScoreSummary, who: Markup) -> Markup {
-    html! {
-        th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
-        td .number { strong { (counts(row)) } }
-        td .number { (score.points) }
-        @for task in &score.tasks {
-            td .number .less[task.points < task.max_points] { (task.points) }
-        }
-        td { (notes(row)) }
     }
 }
 

@@ -1,13 +1,8 @@
 //! Twelve submissions, each with an oddity that could lose files or points.
 
-use std::fs;
-use std::io::{Cursor, Write};
-
 use grader::handed_out::RAYS;
-use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
 
-use crate::harness::workspace;
+use crate::harness::{source, zip};
 
 /// The files of a submission, with their paths.
 pub type Files = Vec<(String, Vec<u8>)>;
@@ -33,7 +28,7 @@ pub const PART: &str = "part";
 pub fn cases() -> Vec<Case> {
     let solution = || task_files("reference/src");
     let starter = || task_files("grader/starter");
-    let damaged = zipped(solution())[..100].to_vec();
+    let damaged = zip(solution())[..100].to_vec();
     let old = ("bvh.rs".to_owned(), b"old".to_vec());
     let early = ("camera.rs".to_owned(), b"an earlier version".to_vec());
     let broken = ("sphere.rs".to_owned(), b"fn (".to_vec());
@@ -84,7 +79,7 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             "beside",
-            vec![early, ("hw.zip".to_owned(), zipped(solution()))],
+            vec![early, ("hw.zip".to_owned(), zip(solution()))],
             "11/12/2026 10:00",
             "time unclear",
             None,
@@ -120,7 +115,7 @@ fn case(
 }
 
 fn task_files(folder: &str) -> Files {
-    let read = |name: &str| fs::read(workspace().join(folder).join(name)).unwrap();
+    let read = |name: &str| source(&format!("{folder}/{name}")).into_bytes();
     let names = RAYS.file_names();
     names.map(|name| (name.to_owned(), read(name))).collect()
 }
@@ -141,16 +136,4 @@ fn replaced(files: Files, file: (String, Vec<u8>)) -> Files {
 
 fn is_not(name: &str) -> impl Fn(&(String, Vec<u8>)) -> bool {
     move |(path, _)| path != name
-}
-
-/// Packs files into an archive.
-pub fn zipped(files: Files) -> Vec<u8> {
-    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
-    for (path, bytes) in files {
-        writer
-            .start_file(path, SimpleFileOptions::default())
-            .unwrap();
-        writer.write_all(&bytes).unwrap();
-    }
-    writer.finish().unwrap().into_inner()
 }

@@ -1,7 +1,7 @@
 //! The same submissions as each platform exports them, with its list of the class.
 
-use super::cases::{Case, Files, zipped};
-use crate::harness::TestClass;
+use super::cases::{Case, Files};
+use crate::harness::{TestClass, zip};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Platform {
@@ -111,64 +111,48 @@ impl Platform {
             } else {
                 format!("{prefix}hw.zip")
             };
-            return vec![(path, zipped(files.clone()))];
+            return vec![(path, zip(files.clone()))];
         }
         let named = files.iter();
         let named = named.map(|(path, bytes)| (format!("{prefix}{path}"), bytes.clone()));
         named.collect()
     }
 
-    /// Writes the platform's lists of the class, and returns the options that pass them.
-    pub fn lists(self, class: &TestClass, students: &[Student]) -> Vec<String> {
+    /// Returns the platform's lists of the class, by their kinds.
+    pub fn lists(self, students: &[Student]) -> Vec<(&'static str, String)> {
         let table = |header: &str, row: &dyn Fn(&Student) -> String| {
             let rows: String = students.iter().map(|student| row(student) + "\n").collect();
             format!("{header}\n{rows}")
         };
-        let write = |option: &str, text: String| {
-            let name = format!("{}.csv", option.trim_start_matches('-'));
-            [option.to_owned(), class.write_beside(&name, &text)]
-        };
-        let canvas = || {
-            table(
-                "Student,ID,SIS User ID,SIS Login ID,Section,Tracing (1)",
-                &|s| format!("{},{},,{},A,", s.name, 7000 + s.number, s.login),
-            )
+        let id = |student: &Student| 7000 + student.number;
+        let canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Tracing (1)";
+        let canvas = table(canvas, &|s| format!("{},{},,{},A,", s.name, id(s), s.login));
+        let times = |header: &str, key: &dyn Fn(&Student) -> String| {
+            let header = format!("{header},datetime");
+            table(&header, &|s| format!("{},\"{}\"", key(s), s.time()))
         };
         match self {
-            Platform::Gradescope => write(
-                "--gradescope",
-                table("First Name,Last Name,SID,Email,Total Score", &|s| {
+            Platform::Gradescope => {
+                let grades = table("First Name,Last Name,SID,Email,Total Score", &|s| {
                     format!("Zoë,{},,{},", &s.name["Zoë ".len()..], s.email())
-                }),
-            )
-            .to_vec(),
-            Platform::Canvas => {
-                let times = table("Student,ID,datetime", &|s| {
-                    format!("{},{},\"{}\"", s.name, 7000 + s.number, s.time())
                 });
-                [write("--canvas", canvas()), write("--roster", times)].concat()
+                vec![("gradescope", grades)]
             }
-            Platform::Moodle => write(
-                "--moodle",
-                table(
-                    "Identifier,Full name,Email address,Grade,Last modified (submission)",
-                    &|s| {
-                        format!(
-                            "Participant {},{},{},,\"{}\"",
-                            s.number,
-                            s.name,
-                            s.email(),
-                            s.time()
-                        )
-                    },
-                ),
-            )
-            .to_vec(),
-            Platform::GitHub | Platform::Plain => {
-                let times = table("name,username,datetime", &|s| {
-                    format!("{},{},\"{}\"", s.name, s.login, s.time())
+            Platform::Canvas => {
+                let times = times("Student,ID", &|s| format!("{},{}", s.name, id(s)));
+                vec![("canvas", canvas), ("roster", times)]
+            }
+            Platform::Moodle => {
+                let header = "Identifier,Full name,Email address,Grade,Last modified (submission)";
+                let worksheet = table(header, &|s| {
+                    let (number, name, email, time) = (s.number, &s.name, s.email(), s.time());
+                    format!("Participant {number},{name},{email},,\"{time}\"")
                 });
-                [write("--canvas", canvas()), write("--roster", times)].concat()
+                vec![("moodle", worksheet)]
+            }
+            Platform::GitHub | Platform::Plain => {
+                let times = times("name,username", &|s| format!("{},{}", s.name, s.login));
+                vec![("canvas", canvas), ("roster", times)]
             }
         }
     }

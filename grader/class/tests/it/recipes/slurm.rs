@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use super::cluster::Cluster;
 use super::{ITEMS, is_installed, recipe_command};
-use crate::harness::{TestClass, comparable_files, successful_stdout};
+use crate::harness::{TestClass, assert_contains, comparable_files, successful_stdout};
 
 /// A replacement for the binary that is killed in the middle of the second part, once. That part
 /// has an endless loop, so it takes longer than the limit of CPU time.
@@ -112,12 +112,6 @@ fn merge_logs(out: &Path) -> Vec<String> {
     });
     let read = |path: &PathBuf| fs::read_to_string(path).unwrap();
     merges.iter().map(read).collect()
-}
-
-fn assert_contains(text: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(text.contains(part), "{part} is not in\n{text}");
-    }
 }
 
 #[test]

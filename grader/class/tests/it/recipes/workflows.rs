@@ -1,14 +1,13 @@
 //! The recipe for GitHub Actions and the workflows of this repository, checked with SchemaStore's
 //! schema of GitHub workflows.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::Value;
 
+use super::assert_exam_and_policy;
 use super::schema::{Schema, parse_yaml};
-use super::{assert_exam_and_policy, recipe};
-use crate::harness::workspace;
+use crate::harness::{files_below, source, workspace};
 
 /// The recipe, the workflow that students get, and those that test this repository and the bundle.
 const WORKFLOWS: [&str; 4] = [
@@ -18,15 +17,11 @@ const WORKFLOWS: [&str; 4] = [
     ".github/workflows/bundle.yml",
 ];
 
-fn read(path: &str) -> String {
-    fs::read_to_string(workspace().join(path)).unwrap()
-}
-
 #[test]
 fn every_workflow_matches_the_published_schema() {
     let schema = Schema::read("github-workflow.json");
     for path in WORKFLOWS {
-        let text = read(path);
+        let text = source(path);
         schema.check(path, &parse_yaml(&text));
         for (from, to) in [
             ("runs-on:", "run-on:"),
@@ -39,24 +34,12 @@ fn every_workflow_matches_the_published_schema() {
     }
 }
 
-/// Adds the workflows below a folder: every file that ends in `.yml`.
-fn collect_workflows(folder: &Path, workflows: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            collect_workflows(&path, workflows);
-        } else if path.extension().is_some_and(|ending| ending == "yml") {
-            workflows.push(path);
-        }
-    }
-}
-
 #[test]
 fn no_workflow_is_left_out() {
-    let mut found = Vec::new();
-    for folder in ["grader/class/recipes", "reference/author/src", ".github"] {
-        collect_workflows(&workspace().join(folder), &mut found);
-    }
+    let folders = ["grader/class/recipes", "reference/author/src", ".github"];
+    let files = folders.map(|folder| files_below(&workspace().join(folder)));
+    let is_workflow = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "yml");
+    let mut found: Vec<PathBuf> = files.concat().into_iter().filter(is_workflow).collect();
     found.sort();
     let mut expected = WORKFLOWS.map(|path| workspace().join(path));
     expected.sort();
@@ -73,7 +56,7 @@ fn commands(job: &Value) -> String {
 /// Checks what the schema allows, but the recipe must not do.
 #[test]
 fn the_recipe_grades_every_part_and_then_merges() {
-    let text = fs::read_to_string(recipe("github-matrix.yml")).unwrap();
+    let text = source(WORKFLOWS[0]);
     let workflow = parse_yaml(&text);
     // It must not start with every push.
     assert_eq!(

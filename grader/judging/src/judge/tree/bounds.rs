@@ -54,6 +54,11 @@ impl Bounds {
         self.max = self.max.max(other.max);
     }
 
+    /// Returns the centre.
+    pub fn center(self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+
     /// Returns the length of the diagonal.
     pub fn diagonal(self) -> f64 {
         (self.max - self.min).length()

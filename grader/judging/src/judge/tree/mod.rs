@@ -2,6 +2,7 @@
 //! single correct tree.
 
 pub mod bounds;
+pub mod defect;
 pub mod reached_nodes;
 
 use protocol::{ElementOutcome, Shape, Tree};
@@ -14,7 +15,8 @@ use crate::judge::{
 };
 
 use bounds::Bounds;
-use reached_nodes::{ReachedNode, TreeDefect, reached_nodes};
+use defect::{NodeBox, TreeDefect};
+use reached_nodes::{ReachedNode, reached_nodes};
 
 /// Maximum cost for full marks, relative to the cost of the exact sweep's tree.
 pub const FULL_MARKS_RATIO: f64 = 1.12;
@@ -27,20 +29,23 @@ pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
 /// contents. This allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
-/// The name of the defect that a box does not contain its primitives.
-pub const BOX_TOO_SMALL: &str = "box too small";
-/// The name of the defect that a box is larger than necessary.
-pub const BOX_TOO_LARGE: &str = "box too large";
-/// The name of the defect that a primitive is not in exactly one leaf.
-pub const LEAVES: &str = "leaves";
-
 /// A tree and the checks on it.
 pub(super) struct TreeAnswer<'a> {
-    pub(super) checks: &'a [TreeCheck],
-    pub(super) sweep_cost: Option<f64>,
-    pub(super) shapes: &'a [Shape],
-    pub(super) max_leaf_size: u32,
+    pub(super) criteria: TreeCriteria<'a>,
     pub(super) answer: &'a ElementOutcome<Tree>,
+}
+
+/// The criteria by which a tree is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct TreeCriteria<'a> {
+    /// The properties of the tree that are checked.
+    pub checks: &'a [TreeCheck],
+    /// The cost of the exact sweep's tree, if the cost is judged.
+    pub sweep_cost: Option<f64>,
+    /// The primitives that the tree is built over.
+    pub shapes: &'a [Shape],
+    /// The maximum number of primitives in a leaf.
+    pub max_leaf_size: u32,
 }
 
 impl Comparison for TreeAnswer<'_> {
@@ -56,73 +61,45 @@ impl Comparison for TreeAnswer<'_> {
             }
             ElementOutcome::Skipped => return Judgement::protocol("skipped"),
         };
-        let nodes = match reached_nodes(self.shapes, tree) {
-            Ok(nodes) => nodes,
-            Err(defect) => return wrong_tree(defect),
-        };
-        let mut checks = self.checks.iter();
-        let defect = checks.find_map(|part| self.check_defect(*part, &nodes));
-        match (defect, self.sweep_cost) {
-            (Some(defect), _) => wrong_tree(defect),
-            (None, None) => Judgement::RIGHT,
-            // The cost is meaningful only if the tree holds every primitive exactly once.
-            (None, Some(sweep)) => match partition_defect(&nodes, self.shapes.len()) {
-                Some(defect) => wrong_tree(defect),
-                None => judge_cost(cost(&nodes) / sweep),
+        match self.criteria.defect(tree) {
+            None => Judgement::RIGHT,
+            Some(defect) => Judgement {
+                credit: if matches!(defect, TreeDefect::Cost(ratio) if ratio <= HALF_MARKS_RATIO) {
+                    Credit::HALF
+                } else {
+                    Credit::NONE
+                },
+                failure: Some(Failure {
+                    element: 0,
+                    kind: FailureKind::Wrong {
+                        what: defect.what().to_owned(),
+                        got: defect.got(),
+                        wanted: defect.wanted(),
+                    },
+                    count: None,
+                }),
             },
         }
     }
 
     fn measure(&self) -> Vec<Measurement> {
-        let nodes = match self.answer {
-            ElementOutcome::Value(tree) => reached_nodes(self.shapes, tree).ok(),
+        let TreeAnswer { criteria, answer } = self;
+        let nodes = match answer {
+            ElementOutcome::Value(tree) => reached_nodes(criteria.shapes, tree).ok(),
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
         };
         let Some(nodes) = nodes else {
             return deviation::worst_by_threshold([Deviation::WRONG]);
         };
-        let parts = self.checks.iter();
-        let parts = parts.flat_map(|part| self.check_deviations(*part, &nodes));
-        let cost = self
-            .sweep_cost
-            .map(|sweep| match partition_defect(&nodes, self.shapes.len()) {
+        let parts = criteria.checks.iter();
+        let parts = parts.flat_map(|part| criteria.check_deviations(*part, &nodes));
+        let cost = criteria.sweep_cost.map(|sweep| {
+            match partition_defect(&nodes, criteria.shapes.len()) {
                 Some(_) => Deviation::WRONG,
                 None => cost_deviation(cost(&nodes) / sweep),
-            });
+            }
+        });
         deviation::worst_by_threshold(parts.chain(cost))
-    }
-}
-
-fn wrong_tree(defect: TreeDefect) -> Judgement {
-    Judgement::wrong(Failure {
-        element: 0,
-        kind: FailureKind::Wrong {
-            what: defect.what.to_owned(),
-            got: defect.got,
-            wanted: defect.wanted,
-        },
-        count: None,
-    })
-}
-
-fn judge_cost(ratio: f64) -> Judgement {
-    if cost_deviation(ratio).is_right() {
-        return Judgement::RIGHT;
-    }
-    let judgement = wrong_tree(TreeDefect {
-        what: "SAH cost",
-        got: format!("{ratio:.2} times that of the best split at every node"),
-        wanted: format!(
-            "at most {FULL_MARKS_RATIO:.2} times ({HALF_MARKS_RATIO:.2} for half the points)"
-        ),
-    });
-    Judgement {
-        credit: if ratio <= HALF_MARKS_RATIO {
-            Credit::HALF
-        } else {
-            Credit::NONE
-        },
-        ..judgement
     }
 }
 
@@ -134,34 +111,47 @@ fn cost_deviation(ratio: f64) -> Deviation {
     )
 }
 
-impl TreeAnswer<'_> {
-    fn check_defect(&self, part: TreeCheck, nodes: &[ReachedNode]) -> Option<TreeDefect> {
+impl TreeCriteria<'_> {
+    /// Returns the first defect of a tree.
+    pub fn defect(&self, tree: &Tree) -> Option<TreeDefect> {
+        let nodes = match reached_nodes(self.shapes, tree) {
+            Ok(nodes) => nodes,
+            Err(defect) => return Some(defect),
+        };
+        let mut checks = self.checks.iter();
+        checks
+            .find_map(|check| self.check_defect(*check, &nodes))
+            .or_else(|| {
+                // The cost is meaningful only if the tree holds every primitive exactly once.
+                let sweep = self.sweep_cost?;
+                partition_defect(&nodes, self.shapes.len()).or_else(|| {
+                    let ratio = cost(&nodes) / sweep;
+                    (!cost_deviation(ratio).is_right()).then_some(TreeDefect::Cost(ratio))
+                })
+            })
+    }
+
+    fn check_defect(&self, check: TreeCheck, nodes: &[ReachedNode]) -> Option<TreeDefect> {
         let (all, most) = (self.shapes.len(), self.max_leaf_size as usize);
-        let node = || nodes.iter().find(|node| breaks(part, node, all, most));
-        match part {
+        let node = || nodes.iter().find(|node| breaks(check, node, all, most));
+        match check {
             TreeCheck::Partition => partition_defect(nodes, all),
-            TreeCheck::Contains => Some(node()?.box_defect(BOX_TOO_SMALL)),
-            TreeCheck::Tight => Some(node()?.box_defect(BOX_TOO_LARGE)),
-            TreeCheck::Split => node().map(|leaf| TreeDefect {
-                what: "splits",
-                got: format!(
-                    "leaf {} holds {} of {all} primitives",
-                    leaf.index, leaf.count
-                ),
-                wanted: "less than half of them in any leaf".to_owned(),
+            TreeCheck::Contains => Some(TreeDefect::BoxTooSmall(NodeBox::of(node()?))),
+            TreeCheck::Tight => Some(TreeDefect::BoxTooLarge(NodeBox::of(node()?))),
+            TreeCheck::Split => node().map(|leaf| TreeDefect::NotSplit {
+                leaf: leaf.index,
+                count: leaf.count,
+                all,
             }),
-            TreeCheck::LeafSize => node().map(|leaf| TreeDefect {
-                what: "leaf size",
-                got: format!("leaf {} holds {} primitives", leaf.index, leaf.count),
-                wanted: format!("at most {most}"),
+            TreeCheck::LeafSize => node().map(|leaf| TreeDefect::LeafTooLarge {
+                leaf: leaf.index,
+                count: leaf.count,
+                most,
             }),
-            TreeCheck::Stops => node().map(|node| TreeDefect {
-                what: "splits",
-                got: format!(
-                    "node {} was split over {} primitives",
-                    node.index, node.count
-                ),
-                wanted: format!("a leaf for at most {most} primitives"),
+            TreeCheck::Stops => node().map(|node| TreeDefect::NeedlessSplit {
+                node: node.index,
+                count: node.count,
+                most,
             }),
         }
     }
@@ -234,10 +224,10 @@ fn partition_defect(nodes: &[ReachedNode], primitives: usize) -> Option<TreeDefe
         .iter()
         .enumerate()
         .find(|(_, leaves)| **leaves != 1)?;
-    Some(TreeDefect {
-        what: LEAVES,
-        got: format!("primitive {primitive} of {primitives} is in {leaves} leaves"),
-        wanted: "each primitive in exactly one".to_owned(),
+    Some(TreeDefect::Partition {
+        primitive,
+        primitives,
+        leaves: *leaves,
     })
 }
 

@@ -5,26 +5,12 @@ use std::collections::BTreeMap;
 
 use protocol::{Shape, Tree, TreeNode};
 
-use super::LEAVES;
 use super::bounds::Bounds;
-use crate::describe;
+use super::defect::TreeDefect;
 
 /// Maximum number of leaves that may list a primitive, on average. If there are more, the tree is
 /// rejected.
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
-
-/// A defect of a tree, as text for the report.
-///
-/// `what` is also part of the signatures of known mistakes in exam files, and `got` for some defects,
-/// so changing their texts makes existing exams recognise fewer mistakes.
-pub struct TreeDefect {
-    /// The name of the part or property of the tree that is wrong.
-    pub what: &'static str,
-    /// The value in the submission's tree.
-    pub got: String,
-    /// The expected value.
-    pub wanted: String,
-}
 
 /// A node that can be reached from the root.
 pub struct ReachedNode<'a> {
@@ -49,11 +35,8 @@ pub fn reached_nodes<'a>(
         if shapes.is_empty() {
             return Ok(Vec::new());
         }
-        return Err(TreeDefect {
-            what: "nodes",
-            got: "no node at all".to_owned(),
-            wanted: format!("a tree over {} primitives", shapes.len()),
-        });
+        let primitives = shapes.len();
+        return Err(TreeDefect::NoNodes { primitives });
     }
     // Each primitive has its own material, by which it is identified. Unknown materials have no
     // index.
@@ -71,18 +54,15 @@ pub fn reached_nodes<'a>(
     let mut nodes = Vec::new();
     let mut children = Vec::new();
     let mut open = vec![(tree.root, "root")];
-    while let Some((index, what)) = open.pop() {
-        let node = tree.nodes.get(index as usize).ok_or_else(|| TreeDefect {
-            what,
-            got: format!("node {index} of {}", tree.nodes.len()),
-            wanted: "the index of a node".to_owned(),
+    while let Some((index, field)) = open.pop() {
+        let node = tree.nodes.get(index as usize);
+        let node = node.ok_or(TreeDefect::UnknownNode {
+            field,
+            index,
+            nodes: tree.nodes.len(),
         })?;
         if std::mem::replace(&mut reached[index as usize], true) {
-            return Err(TreeDefect {
-                what: "nodes",
-                got: format!("node {index} is reached twice"),
-                wanted: "a tree, with one path to each node".to_owned(),
-            });
+            return Err(TreeDefect::ReachedTwice { index });
         }
         let leaf = node
             .is_leaf()
@@ -90,11 +70,8 @@ pub fn reached_nodes<'a>(
             .transpose()?;
         listed += leaf.as_ref().map_or(0, Vec::len);
         if listed > most {
-            return Err(TreeDefect {
-                what: LEAVES,
-                got: format!("leaves that hold more than {most} primitives in all"),
-                wanted: format!("each of the {} primitives in one leaf", shapes.len()),
-            });
+            let primitives = shapes.len();
+            return Err(TreeDefect::TooManyListed { most, primitives });
         }
         if leaf.is_none() {
             children.push((nodes.len(), [node.l, node.r]));
@@ -137,32 +114,10 @@ fn leaf_primitives(
     let start = node.start as usize;
     let listed = order.get(start..start.saturating_add(node.size as usize));
     let listed = listed.and_then(|listed| listed.iter().copied().collect::<Option<Vec<_>>>());
-    listed.ok_or_else(|| TreeDefect {
-        what: LEAVES,
-        got: format!(
-            "leaf {index} holds primitives {start} to {} of {}",
-            start as u64 + u64::from(node.size),
-            order.len()
-        ),
-        wanted: "a range of the tree's own primitives".to_owned(),
+    listed.ok_or(TreeDefect::UnknownPrimitives {
+        leaf: index,
+        start: node.start,
+        size: node.size,
+        listed: order.len(),
     })
-}
-
-impl ReachedNode<'_> {
-    /// Returns a defect of the node's box, called `what`, with the actual and the tightest box.
-    pub fn box_defect(&self, what: &'static str) -> TreeDefect {
-        let corners = |min, max| format!("{} to {}", describe::point(min), describe::point(max));
-        TreeDefect {
-            what,
-            got: format!(
-                "node {}: {}",
-                self.index,
-                corners(self.node.min, self.node.max)
-            ),
-            wanted: corners(
-                self.tight_bounds.min.as_vec3(),
-                self.tight_bounds.max.as_vec3(),
-            ),
-        }
-    }
 }

@@ -37,20 +37,22 @@ pub(crate) fn valid_tree() -> Tree {
     }
 }
 
+/// Judges a tree over a row of spheres.
 fn judge(
     checks: &[TreeCheck],
     sweep_cost: Option<f64>,
-    shapes: &[Shape],
+    count: u32,
     max_leaf_size: u32,
-    answer: &ElementOutcome<Tree>,
+    tree: Tree,
 ) -> Judgement {
-    let built = TreeAnswer {
+    let criteria = TreeCriteria {
         checks,
         sweep_cost,
-        shapes,
+        shapes: &row(count),
         max_leaf_size,
-        answer,
     };
+    let answer = &ElementOutcome::Value(tree);
+    let built = TreeAnswer { criteria, answer };
     let judgement = built.judge();
     let mut measured = built.measure().into_iter();
     let is_right = measured.all(|measured| measured.deciding_deviation().is_right());
@@ -66,57 +68,44 @@ pub(crate) const ALL_CHECKS: [TreeCheck; 5] = [
     TreeCheck::Stops,
 ];
 
-fn defect_of(tree: Tree) -> String {
-    match judge(&ALL_CHECKS, None, &row(4), 2, &ElementOutcome::Value(tree)).failure {
-        None => "right".to_owned(),
-        Some(failure) => match failure.kind {
-            FailureKind::Wrong { what, .. } => what,
-            FailureKind::Panicked(_) | FailureKind::Protocol(_) => {
-                unreachable!("the answer is a tree")
-            }
-        },
+/// Returns what is wrong with a tree over four spheres, and what it is instead.
+fn defect_of(tree: Tree) -> (String, String) {
+    let judgement = judge(&ALL_CHECKS, None, 4, 2, tree);
+    match judgement.failure.map(|failure| failure.kind) {
+        None => ("right".to_owned(), String::new()),
+        Some(FailureKind::Wrong { what, got, .. }) => (what, got),
+        Some(FailureKind::Panicked(_) | FailureKind::Protocol(_)) => {
+            unreachable!("the answer is a tree")
+        }
     }
-}
-
-fn defect_after(change: impl FnOnce(&mut Tree)) -> String {
-    let mut tree = valid_tree();
-    change(&mut tree);
-    defect_of(tree)
 }
 
 #[test]
 fn each_check_finds_its_defect() {
-    assert_eq!(defect_of(valid_tree()), "right");
-    assert_eq!(defect_after(|tree| tree.order = vec![0, 1, 2, 2]), "leaves");
-    assert_eq!(defect_after(|tree| tree.order = vec![0, 1, 2, 9]), "leaves");
-    assert_eq!(defect_after(|tree| tree.nodes[2].size = 3), "leaves");
-    assert_eq!(defect_after(|tree| tree.nodes[2].size = 1), "leaves");
-    assert_eq!(
-        defect_after(|tree| tree.nodes[1].max.x = 3.0),
-        "box too small"
-    );
-    assert_eq!(
-        defect_after(|tree| tree.nodes[0].min.y = -0.6),
-        "box too large"
-    );
-    assert_eq!(
-        defect_after(|tree| tree.nodes[0].min.y = f32::NAN),
-        "box too small"
-    );
-    assert_eq!(
-        defect_after(|tree| tree.nodes[0].min.y = f32::NEG_INFINITY),
-        "box too large"
-    );
-    assert_eq!(defect_after(|tree| tree.nodes[1].r = 7), "child r");
-    assert_eq!(defect_after(|tree| tree.nodes[1].r = 1), "nodes");
-    assert_eq!(defect_after(|tree| tree.root = 3), "root");
-    assert_eq!(defect_after(|tree| tree.nodes.clear()), "nodes");
-    let one_leaf = Tree {
-        nodes: vec![node(0, 3, 4, 0, 0)],
-        root: 0,
-        ..valid_tree()
-    };
-    assert_eq!(defect_of(one_leaf), "leaf size");
+    let changes: [(&str, fn(&mut Tree)); 15] = [
+        ("right", |_| {}),
+        ("leaves", |tree| tree.order = vec![0, 1, 2, 2]),
+        ("leaves", |tree| tree.order = vec![0, 1, 2, 9]),
+        ("leaves", |tree| tree.nodes[2].size = 3),
+        ("leaves", |tree| tree.nodes[2].size = 1),
+        ("box too small", |tree| tree.nodes[1].max.x = 3.0),
+        ("box too large", |tree| tree.nodes[0].min.y = -0.6),
+        ("box too small", |tree| tree.nodes[0].min.y = f32::NAN),
+        ("box too large", |tree| {
+            tree.nodes[0].min.y = f32::NEG_INFINITY
+        }),
+        ("child r", |tree| tree.nodes[1].r = 7),
+        ("nodes", |tree| tree.nodes[1].r = 1),
+        ("root", |tree| tree.root = 3),
+        ("nodes", |tree| tree.nodes.clear()),
+        ("leaf size", |tree| tree.nodes[1] = node(0, 3, 4, 0, 0)),
+        ("right", |tree| tree.nodes[1].start = 9),
+    ];
+    for (expected, change) in changes {
+        let mut tree = valid_tree();
+        change(&mut tree);
+        assert_eq!(defect_of(tree).0, expected);
+    }
 }
 
 #[test]
@@ -128,7 +117,7 @@ fn a_tree_may_be_deep_on_either_side() {
             node(first, 3, 0, l, r)
         };
         let tree = Tree {
-            nodes: vec![
+            nodes: [
                 fork(0, 1, 2),
                 leaf(0),
                 fork(1, 3, 4),
@@ -136,12 +125,12 @@ fn a_tree_may_be_deep_on_either_side() {
                 fork(2, 5, 6),
                 leaf(2),
                 leaf(3),
-            ],
+            ]
+            .to_vec(),
             root: 0,
             order: vec![0, 1, 2, 3],
         };
-        let answer = ElementOutcome::Value(tree);
-        let judgement = judge(&ALL_CHECKS, None, &row(4), 1, &answer);
+        let judgement = judge(&ALL_CHECKS, None, 4, 1, tree);
         assert_eq!(judgement.credit, Credit::FULL, "{judgement:?}");
     }
 }
@@ -163,12 +152,10 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
         root: 0,
         order: vec![0; listed as usize],
     };
-    let judgement = judge(&ALL_CHECKS, None, &row(4), 2, &ElementOutcome::Value(tree));
-    let failure = judgement.failure.expect("the tree is wrong");
-    let FailureKind::Wrong { got, .. } = failure.kind else {
-        panic!("the answer is a tree");
-    };
-    assert_eq!(got, "leaves that hold more than 4096 primitives in all");
+    assert_eq!(
+        defect_of(tree).1,
+        "leaves that hold more than 4096 primitives in all"
+    );
     // A single leaf that lists exactly as many is counted to its end.
     let full = Tree {
         nodes: vec![node(0, 3, 4096, 0, 0)],
@@ -186,14 +173,7 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
             root: 0,
             order: (0..count).collect(),
         };
-        judge(
-            &[TreeCheck::Split],
-            None,
-            &row(count),
-            1,
-            &ElementOutcome::Value(tree),
-        )
-        .credit
+        judge(&[TreeCheck::Split], None, count, 1, tree).credit
     };
     assert_eq!(credit(1, vec![node(0, 0, 1, 0, 0)]), Credit::FULL);
     assert_eq!(credit(4, vec![node(0, 3, 4, 0, 0)]), Credit::NONE);
@@ -219,8 +199,7 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
 
 #[test]
 fn reports_a_node_that_should_be_a_leaf() {
-    let split = ElementOutcome::Value(valid_tree());
-    let judgement = judge(&[TreeCheck::Stops], None, &row(4), 4, &split);
+    let judgement = judge(&[TreeCheck::Stops], None, 4, 4, valid_tree());
     assert_eq!(judgement.credit, Credit::NONE);
 }
 
@@ -236,14 +215,7 @@ fn cost_matches_a_hand_calculation() {
 
     let credit = |ratio: f64| {
         let sweep = Some(by_hand / ratio);
-        judge(
-            &ALL_CHECKS,
-            sweep,
-            &row(4),
-            2,
-            &ElementOutcome::Value(valid_tree()),
-        )
-        .credit
+        judge(&ALL_CHECKS, sweep, 4, 2, valid_tree()).credit
     };
     assert_eq!(credit(1.11), Credit::FULL);
     assert_eq!(credit(1.13), Credit::HALF);
@@ -258,17 +230,10 @@ fn an_empty_tree_has_no_node_or_one_empty_leaf() {
             root: 0,
             order: Vec::new(),
         };
-        judge(&ALL_CHECKS, None, &[], 1, &ElementOutcome::Value(tree)).credit
+        judge(&ALL_CHECKS, None, 0, 1, tree).credit
     };
     assert_eq!(empty(Vec::new()), Credit::FULL);
-    let leaf = TreeNode {
-        min: Vec3::INFINITY,
-        max: Vec3::NEG_INFINITY,
-        start: 0,
-        size: 0,
-        l: 0,
-        r: 0,
-    };
+    let leaf = TreeNode::new(Vec3::INFINITY, Vec3::NEG_INFINITY, 0, 0, 0, 0);
     assert_eq!(empty(vec![leaf]), Credit::FULL);
     assert_eq!(empty(vec![TreeNode { size: 1, ..leaf }]), Credit::NONE);
 }
@@ -276,14 +241,14 @@ fn an_empty_tree_has_no_node_or_one_empty_leaf() {
 #[test]
 fn measures_box_excess_and_cost() {
     let measured = |tree: Tree, sweep_cost| {
-        let built = TreeAnswer {
+        let criteria = TreeCriteria {
             checks: &ALL_CHECKS,
             sweep_cost,
             shapes: &row(4),
             max_leaf_size: 2,
-            answer: &ElementOutcome::Value(tree),
         };
-        built.measure()
+        let answer = &ElementOutcome::Value(tree);
+        TreeAnswer { criteria, answer }.measure()
     };
     let value = |measured: &[Measurement], threshold| {
         let mut offs = measured.iter().map(|measured| measured.deviation);
@@ -310,8 +275,7 @@ fn boxes_are_judged_relative_to_their_diagonals() {
     let is_right = |excess: f64| {
         let mut tree = valid_tree();
         tree.nodes[1].max.x += excess as f32;
-        let answer = ElementOutcome::Value(tree);
-        judge(&ALL_CHECKS, None, &row(4), 2, &answer).credit == Credit::FULL
+        defect_of(tree).0 == "right"
     };
     // The diagonal is 7.1.
     assert!(is_right(5.0 * TIGHT_TOLERANCE) && !is_right(9.0 * TIGHT_TOLERANCE));

@@ -1,35 +1,55 @@
 //! Tests of recognition with small exams, in which each element of an item has one number.
+//!
+//! Exams and answers are written as text: items are separated by `|`, and their elements by spaces. `7`
+//! is a number that is far from others, `7*3` stands for `7 7 7`, `miss` for a ray that hits nothing,
+//! `panic`, `index`, `stack` for no answer, and a name in quotes for the defect of a tree. In the answers
+//! of a mistake, an empty item is one that it leaves correct.
 
 use super::*;
 use crate::assignment::RAYS;
 use crate::exam::Exam;
 use crate::signatures::{MistakeAnswers, MistakeSignatures, PanicKind};
 
-/// A number that is far from others.
-fn number(number: i32) -> ObservedAnswer {
-    ObservedAnswer::Numbers(vec![number as f32 * 100.0])
+/// Returns the answers to each item that a text stands for.
+fn items(text: &str) -> Vec<Vec<ObservedAnswer>> {
+    let one = |word: &str| match word {
+        "miss" => ObservedAnswer::NoHit,
+        "panic" => ObservedAnswer::Panicked,
+        "index" => ObservedAnswer::PanickedBy(PanicKind::Index),
+        "stack" => ObservedAnswer::NoAnswer(NoAnswerReason::Stack),
+        "'valid'" => ObservedAnswer::Tree(None),
+        _ if word.starts_with('\'') => ObservedAnswer::Tree(Some((word.to_owned(), 0.0))),
+        _ => ObservedAnswer::Numbers(vec![100.0 * word.parse::<f32>().unwrap()]),
+    };
+    let repeated = |word: &str| {
+        let (word, count) = word.split_once('*').unwrap_or((word, "1"));
+        vec![one(word); count.parse().unwrap()]
+    };
+    let item = |item: &str| item.split_whitespace().flat_map(repeated).collect();
+    text.split('|').map(item).collect()
 }
 
-/// The answers of a mistake to the items of an exam, which it leaves correct where there is `None`.
-type Mistake<'a> = (&'a str, &'a [Option<Vec<ObservedAnswer>>]);
+/// The hint of a mistake, and its answers to the items of an exam.
+type Mistake<'a> = (&'a str, &'a str);
 
-/// Creates an exam of one task, given the correct answers to each item, and known mistakes, each with
-/// its hint. Mistakes with the same hint have the same name here.
-fn exam(correct: &[Vec<ObservedAnswer>], mistakes: &[Mistake]) -> Exam {
+/// Returns the hints at each item for a submission's answers, in an exam of one task with these correct
+/// answers and known mistakes. Mistakes with the same hint have the same name here.
+fn explain(correct: &str, mistakes: &[Mistake], answers: &str) -> String {
+    let correct = items(correct);
+    let wrong: Vec<_> = mistakes.iter().map(|(_, answers)| items(answers)).collect();
     let task = RAYS.tasks[0].task();
     let item = |(index, correct): (usize, &Vec<ObservedAnswer>)| {
-        let changed = mistakes.iter().enumerate();
-        let changed = changed.filter_map(|(mistake, (_, answers))| {
-            let answers = answers[index].as_ref()?;
-            let elements = (0..).zip(answers).zip(correct);
+        let changed = |(mistake, answers): (usize, &Vec<Vec<ObservedAnswer>>)| {
+            let elements = (0..).zip(&answers[index]).zip(correct);
             let wrong = elements.filter(|((_, answer), correct)| answer != correct);
-            Some(MistakeAnswers {
+            let answers: Vec<_> = wrong
+                .map(|((element, answer), _)| (element, answer.clone()))
+                .collect();
+            (!answers.is_empty()).then(|| MistakeAnswers {
                 mistakes: vec![mistake as u32],
-                answers: wrong
-                    .map(|((element, answer), _)| (element, answer.clone()))
-                    .collect(),
+                answers,
             })
-        });
+        };
         Item {
             id: format!("{task}.{index}"),
             title: String::new(),
@@ -42,7 +62,7 @@ fn exam(correct: &[Vec<ObservedAnswer>], mistakes: &[Mistake]) -> Exam {
             signatures: MistakeSignatures {
                 elements: (0..correct.len() as u32).collect(),
                 correct_answers: correct.clone(),
-                mistake_answers: changed.collect(),
+                mistake_answers: wrong.iter().enumerate().filter_map(changed).collect(),
             },
         }
     };
@@ -52,40 +72,31 @@ fn exam(correct: &[Vec<ObservedAnswer>], mistakes: &[Mistake]) -> Exam {
         hint: (*hint).to_owned(),
         section: None,
     });
-    Exam {
+    let exam = Exam {
         schema: 1,
         assignment: RAYS.id.to_owned(),
         id: "small".to_owned(),
         mistakes: known.collect(),
         items: correct.iter().enumerate().map(item).collect(),
-    }
-}
-
-/// Returns the ids of the mistakes that explain each item, given a submission's answers.
-fn explained(exam: &Exam, answers: &[Vec<ObservedAnswer>]) -> Vec<Vec<String>> {
+    };
     let ids = exam.items.iter().map(|item| item.id.clone());
     let observations = Observations {
-        answers: ids.zip(answers.iter().cloned()).collect(),
+        answers: ids.zip(items(answers)).collect(),
         ..Observations::default()
     };
-    let of_item = |item| {
-        let mistakes = observations.explain(exam, item).into_iter();
-        mistakes.map(|mistake| mistake.id.clone()).collect()
-    };
-    exam.items.iter().map(of_item).collect()
+    let named = exam.items.iter().map(|item| {
+        let mistakes = observations.explain(&exam, item).into_iter();
+        let ids: Vec<&str> = mistakes.map(|mistake| mistake.id.as_str()).collect();
+        ids.join(" ")
+    });
+    named.collect::<Vec<String>>().join("|")
 }
 
-/// Returns an item's answers with these numbers.
-fn numbers(all: &[i32]) -> Vec<ObservedAnswer> {
-    all.iter().copied().map(number).collect()
+/// Returns whether the mistake `known` is named at any item.
+fn names_known(correct: &str, mistakes: &[Mistake], answers: &str) -> bool {
+    let named = explain(correct, mistakes, answers);
+    named.split(['|', ' ']).any(|id| id == "known")
 }
-
-/// Returns an item's answers that are all this one.
-fn all(answer: ObservedAnswer, count: usize) -> Vec<ObservedAnswer> {
-    vec![answer; count]
-}
-
-const NOTHING: [&str; 0] = [];
 
 mod alone;
 mod beside_others;

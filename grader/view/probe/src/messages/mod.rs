@@ -4,11 +4,11 @@
 mod limits;
 mod recorded;
 
-use glam::{Mat3, UVec2, Vec3};
-use protocol::{ElementOutcome, Interval, Panic, PinholeCamera, Ray, Trace, Tree, TreeNode};
+use glam::{UVec2, Vec3};
+use protocol::{ElementOutcome, Interval, Panic, Ray, Trace, Tree, TreeNode};
 use serde::{Deserialize, Serialize};
 
-use crate::scene_data::SceneData;
+use crate::scene_data::{Aim, SceneData};
 
 use limits::{at_most, fixed_width};
 
@@ -30,21 +30,6 @@ pub enum Request {
     Follow(Follow),
     /// Calls `BBox::hit` of boxes.
     Boxes(BoxQueries),
-}
-
-/// A camera and its position, and the settings of paths.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Aim {
-    /// The parameters of the submission's camera.
-    pub pinhole: PinholeCamera,
-    /// The position of the camera in world space.
-    pub position: Vec3,
-    /// The camera's axes in world space, as columns.
-    pub axes: Mat3,
-    /// The maximum number of times that a path is scattered.
-    pub bounces: u32,
-    /// The seed of all random numbers.
-    pub seed: u64,
 }
 
 /// A rectangle of the film, of which some pixels are drawn.
@@ -264,6 +249,13 @@ pub struct TestCounts {
     pub boxes: u32,
     /// The number of calls of `Primitive::hit`.
     pub primitives: u32,
+}
+
+impl TestCounts {
+    /// Returns the number of all tests.
+    pub fn total(self) -> u32 {
+        self.boxes.saturating_add(self.primitives)
+    }
 }
 
 #[cfg(test)]

@@ -3,13 +3,13 @@
 mod remarks;
 mod types;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
-use glam::{UVec2, Vec3};
-use protocol::{Shape, Trace};
+use glam::UVec2;
+use protocol::Shape;
 use view_probe::messages::{Followed, FollowedRay, Test};
 
-use crate::model::rules::{self, MARGIN, NodeAddresses, NodeSpan, Row, Rule, Violation};
+use crate::model::rules::{self, NodeAddresses, NodeSpan, Row};
 use crate::model::tree::TreeModel;
 
 pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, Outcome};
@@ -18,37 +18,15 @@ pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, Outcome}
 pub struct Context<'a> {
     /// The tree, whose primitives have their numbers as materials.
     pub tree: &'a TreeModel,
-    /// The leaf of each shape.
-    pub leaves: &'a HashMap<u32, u32>,
     /// All shapes.
     pub shapes: &'a [Shape],
     /// Whether the shapes are tested as a list, because the question is not about a tree.
     pub is_list: bool,
-    /// The place of the nodes in memory, if it is known.
+    /// The addresses of the nodes in memory, if it is known.
     pub addresses: Option<NodeAddresses>,
 }
 
-/// Returns the nodes whose spans `explain_ray` needs.
-pub fn needed_nodes(ray: &FollowedRay, context: &Context) -> Vec<u32> {
-    let rows = rules::rows(ray, context.tree, context.leaves, context.addresses);
-    let mut nodes = rules::judged_nodes(&rows, context.tree);
-    let tested: BTreeSet<u32> = rows
-        .iter()
-        .flat_map(|row| row.nodes.first())
-        .copied()
-        .collect();
-    nodes.extend(tested);
-    nodes.into_iter().collect()
-}
-
-/// Returns the corners of a node's box, and those of a box that is larger by the margin.
-pub fn corners_with_margin(node: u32, tree: &TreeModel) -> Option<[(Vec3, Vec3); 2]> {
-    let node = tree.node(node)?;
-    let margin = MARGIN * node.min.distance(node.max);
-    Some([(node.min, node.max), (node.min - margin, node.max + margin)])
-}
-
-/// Explains the rays of a recording. `spans` has the spans of the needed nodes, for each ray.
+/// Explains the rays of a recording. `spans` has the spans of the judged nodes, for each ray.
 pub fn explain(
     pixel: Option<UVec2>,
     sample: Option<u32>,
@@ -71,10 +49,10 @@ pub fn explain(
         explain_ray(kind, ray, spans, context)
     });
     Explanation {
-        pixel: pixel.map(|pixel| pixel.to_array()),
+        pixel,
         sample,
         rays: explained.collect(),
-        radiance: followed.radiance.map(|radiance| radiance.to_array()),
+        radiance: followed.radiance,
         panic: followed
             .panic
             .clone()
@@ -88,7 +66,7 @@ fn explain_ray(
     spans: &BTreeMap<u32, NodeSpan>,
     context: &Context,
 ) -> ExplainedRay {
-    let rows = rules::rows(ray, context.tree, context.leaves, context.addresses);
+    let rows = rules::rows(ray, context.tree, context.addresses);
     let violations = rules::violations(ray, &rows, context.tree, spans);
     let entered: BTreeSet<u32> = rows
         .iter()
@@ -104,7 +82,9 @@ fn explain_ray(
     let tests: Vec<ExplainedTest> = all
         .map(|(index, (row, test))| {
             let mut explained = state.explain(row, test, ray, &entered, spans, context);
-            explained.marks = marks(index, &violations);
+            let here = violations.iter().filter(|violation| violation.row == index);
+            let marks = here.map(|violation| (violation.rule, violation.node));
+            explained.marks = marks.collect();
             explained
         })
         .collect();
@@ -112,28 +92,18 @@ fn explain_ray(
     let ray_end = |t: f32| t.is_finite().then_some(t);
     ExplainedRay {
         kind,
-        origin: ray.ray.origin.to_array(),
-        dir: ray.ray.dir.to_array(),
+        origin: ray.ray.origin,
+        dir: ray.ray.dir,
         range: [ray_end(ray.ray.range.min), ray_end(ray.ray.range.max)],
-        hit: ray.hit.as_ref().map(explained_hit),
+        hit: ray.hit.map(|trace| ExplainedHit {
+            distance: trace.distance,
+            position: trace.position,
+            shape: trace.material,
+        }),
         notes: remarks::remarks(ray, &tests, closest, context),
         rows: tests,
         boxes: ray.counts.boxes,
         primitives: ray.counts.primitives,
-    }
-}
-
-fn marks(row: usize, violations: &[Violation]) -> Vec<(Rule, u32)> {
-    let here = violations.iter().filter(|violation| violation.row == row);
-    here.map(|violation| (violation.rule, violation.node))
-        .collect()
-}
-
-fn explained_hit(trace: &Trace) -> ExplainedHit {
-    ExplainedHit {
-        distance: trace.distance,
-        position: trace.position.to_array(),
-        shape: trace.material,
     }
 }
 
@@ -186,7 +156,7 @@ impl State {
                 };
                 let span = inside.or(whole);
                 ExplainedTest {
-                    corners: Some([min.to_array(), max.to_array()]),
+                    corners: Some([min, max]),
                     outcome,
                     at: span.map_or(Vec::new(), |span| vec![span.min, span.max]),
                     ..base
@@ -203,12 +173,21 @@ impl State {
                     }
                     Some(_) => Outcome::Farther,
                 };
-                let shown = context.shapes.get(shape as usize);
+                let (corners, triangle) = match context.shapes.get(shape as usize) {
+                    None => (None, None),
+                    Some(Shape::Sphere { center, radius, .. }) => {
+                        (Some([center - radius, center + radius]), None)
+                    }
+                    Some(Shape::Triangle { vertices, .. }) => {
+                        (None, Some(vertices.map(|vertex| vertex.position)))
+                    }
+                    Some(Shape::FlatTriangle { corners, .. }) => (None, Some(*corners)),
+                };
                 ExplainedTest {
                     is_box: false,
                     shape: Some(shape),
-                    corners: shown.and_then(sphere_corners),
-                    triangle: shown.and_then(triangle_corners),
+                    corners,
+                    triangle,
                     outcome,
                     at: distance.into_iter().collect(),
                     closest: self.closest,
@@ -228,21 +207,4 @@ fn closest_hit(ray: &FollowedRay) -> Option<f32> {
     });
     let in_range = distances.filter(|distance| ray.ray.range.contains(*distance));
     in_range.reduce(f32::min)
-}
-
-fn sphere_corners(shape: &Shape) -> Option<[[f32; 3]; 2]> {
-    match *shape {
-        Shape::Sphere { center, radius, .. } => {
-            Some([(center - radius).to_array(), (center + radius).to_array()])
-        }
-        Shape::Triangle { .. } | Shape::FlatTriangle { .. } => None,
-    }
-}
-
-fn triangle_corners(shape: &Shape) -> Option<[[f32; 3]; 3]> {
-    match *shape {
-        Shape::Triangle { vertices, .. } => Some(vertices.map(|vertex| vertex.position.to_array())),
-        Shape::FlatTriangle { corners, .. } => Some(corners.map(|corner| corner.to_array())),
-        Shape::Sphere { .. } => None,
-    }
 }

@@ -1,5 +1,6 @@
 //! An explanation as it is sent to the page.
 
+use glam::{UVec2, Vec3};
 use serde::Serialize;
 
 use crate::model::rules::Rule;
@@ -8,13 +9,13 @@ use crate::model::rules::Rule;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
     /// The pixel, from the bottom left, or `None` for a ray of the exam.
-    pub pixel: Option<[u32; 2]>,
+    pub pixel: Option<UVec2>,
     /// The number of the path, or `None` for the ray through the centre.
     pub sample: Option<u32>,
     /// The rays, in the order in which they were traced.
     pub rays: Vec<ExplainedRay>,
     /// The radiance of the path.
-    pub radiance: Option<[f32; 3]>,
+    pub radiance: Option<Vec3>,
     /// The panic that ended the recording: its message and its location.
     pub panic: Option<[String; 2]>,
 }
@@ -25,9 +26,9 @@ pub struct ExplainedRay {
     /// The use of the ray, such as "camera ray".
     pub kind: String,
     /// The origin.
-    pub origin: [f32; 3],
+    pub origin: Vec3,
     /// The direction.
-    pub dir: [f32; 3],
+    pub dir: Vec3,
     /// The range; an infinite end is `None`.
     pub range: [Option<f32>; 2],
     /// The result of `Bvh::hit`.
@@ -48,7 +49,7 @@ pub struct ExplainedHit {
     /// The distance.
     pub distance: f32,
     /// The position.
-    pub position: [f32; 3],
+    pub position: Vec3,
     /// The index of the shape.
     pub shape: u32,
 }
@@ -65,9 +66,9 @@ pub struct ExplainedTest {
     /// The index of the shape.
     pub shape: Option<u32>,
     /// The lower and the upper corner of the box.
-    pub corners: Option<[[f32; 3]; 2]>,
+    pub corners: Option<[Vec3; 2]>,
     /// The corners of the triangle.
-    pub triangle: Option<[[f32; 3]; 3]>,
+    pub triangle: Option<[Vec3; 3]>,
     /// The outcome.
     pub outcome: Outcome,
     /// The part of the ray in the box, or the distance of the hit.

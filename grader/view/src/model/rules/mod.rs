@@ -2,8 +2,9 @@
 //! submission's own `BBox::hit`, and the margins of the exam: whatever is within 1 % of a box's
 //! diagonal is not judged.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
+use glam::Vec3;
 use protocol::{Interval, TreeNode};
 use serde::Serialize;
 use view_probe::messages::{FollowedRay, Test};
@@ -11,7 +12,7 @@ use view_probe::messages::{FollowedRay, Test};
 use crate::model::tree::TreeModel;
 
 /// The share of a box's diagonal within which nothing is judged.
-pub const MARGIN: f32 = 0.01;
+const MARGIN: f32 = 0.01;
 
 /// The parts of the ray that are in a node's box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,13 +105,8 @@ impl NodeAddresses {
     }
 }
 
-/// Finds the nodes that the tests of a ray belong to. `leaves` has the leaf of each shape.
-pub fn rows(
-    ray: &FollowedRay,
-    tree: &TreeModel,
-    leaves: &HashMap<u32, u32>,
-    addresses: Option<NodeAddresses>,
-) -> Vec<Row> {
+/// Finds the nodes that the tests of a ray belong to.
+pub fn rows(ray: &FollowedRay, tree: &TreeModel, addresses: Option<NodeAddresses>) -> Vec<Row> {
     let mut entered = BTreeSet::new();
     let mut rows = Vec::new();
     for test in &ray.tests {
@@ -128,7 +124,7 @@ pub fn rows(
                 (nodes, parents)
             }
             Test::Primitive { shape, .. } => {
-                let leaf: Vec<u32> = leaves.get(shape).copied().into_iter().collect();
+                let leaf: Vec<u32> = tree.leaf_of(*shape).into_iter().collect();
                 (leaf.clone(), leaf)
             }
         };
@@ -145,13 +141,20 @@ pub fn rows(
     rows
 }
 
-/// Returns the nodes whose spans [`violations`] needs: all that are entered, and their siblings.
+/// Returns the nodes whose spans [`violations`] and the explanation need: all that are entered, their
+/// siblings, and those whose boxes are tested.
 pub fn judged_nodes(rows: &[Row], tree: &TreeModel) -> BTreeSet<u32> {
     let entered = rows.iter().filter_map(|row| row.enters);
-    entered
-        .flat_map(|node| [Some(node), sibling(node, tree)])
-        .flatten()
-        .collect()
+    let judged = entered.flat_map(|node| [Some(node), tree.sibling(node)]);
+    let tested = rows.iter().map(|row| row.nodes.first().copied());
+    judged.chain(tested).flatten().collect()
+}
+
+/// Returns the corners of a node's box, and those of a box that is larger by the margin.
+pub fn corners_with_margin(node: u32, tree: &TreeModel) -> Option<[(Vec3, Vec3); 2]> {
+    let node = tree.node(node)?;
+    let margin = MARGIN * diagonal(node);
+    Some([(node.min, node.max), (node.min - margin, node.max + margin)])
 }
 
 /// Finds the violations in the tests of a ray. `spans` has the spans of the judged nodes.
@@ -211,7 +214,7 @@ fn broken_rule(
         return Some(Rule::BeyondClosestHit);
     }
     let parent = tree.node(tree.parent(node)?)?;
-    let other = sibling(node, tree)?;
+    let other = tree.sibling(node)?;
     let of_other = spans.get(&other)?.inside?;
     // A visit of an empty leaf tests nothing, so it cannot be seen.
     if tree.count(other) == 0 {
@@ -219,11 +222,6 @@ fn broken_rule(
     }
     let is_farther = inside.min > of_other.min + MARGIN * diagonal(parent);
     (is_farther && !visited.contains(&other)).then_some(Rule::FartherChildFirst)
-}
-
-fn sibling(node: u32, tree: &TreeModel) -> Option<u32> {
-    let parent = tree.node(tree.parent(node)?)?;
-    Some(if parent.l == node { parent.r } else { parent.l })
 }
 
 fn diagonal(node: &TreeNode) -> f32 {

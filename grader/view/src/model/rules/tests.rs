@@ -63,7 +63,7 @@ fn broken(tests: &[Test]) -> Vec<(Rule, u32)> {
         .into_iter()
         .map(|(node, inside)| (node, both(inside)))
         .collect();
-    let rows = rows(&ray, &tree(), &tree().leaves_by_number(), None);
+    let rows = rows(&ray, &tree(), None);
     let found = violations(&ray, &rows, &tree(), &spans);
     found
         .iter()

@@ -2,7 +2,6 @@
 //! here assumes that it is a tree.
 
 mod strip;
-mod unheld;
 
 use std::collections::HashMap;
 
@@ -11,10 +10,13 @@ use protocol::{Tree, TreeNode};
 use serde::Serialize;
 
 pub use strip::Bar;
-use unheld::Unheld;
 
 /// The maximum number of nodes that are listed for one box.
 const MAX_EQUAL: usize = 100;
+/// The number of leaves that are read for each primitive, on average. More would take too long if
+/// all leaves hold all primitives.
+const MAX_LEAVES: usize = 64;
+
 /// A tree with facts about its nodes.
 #[derive(Clone, Debug)]
 pub struct TreeModel {
@@ -30,8 +32,9 @@ pub struct TreeModel {
     order: Vec<u32>,
     /// The number of levels.
     depth: u32,
-    /// The leaf that holds the primitive at each index: the first in depth-first order.
-    leaves: Vec<Option<u32>>,
+    /// The leaf that holds each primitive, by the number in its material: the first in depth-first
+    /// order.
+    leaves: HashMap<u32, u32>,
     /// The nodes in the order of the bits of their boxes.
     by_box: Vec<u32>,
 }
@@ -48,9 +51,9 @@ pub struct NodeInfo {
     /// The children of an interior node.
     pub children: Option<[u32; 2]>,
     /// The lower corner of its box.
-    pub min: [f32; 3],
+    pub min: Vec3,
     /// The upper corner of its box.
-    pub max: [f32; 3],
+    pub max: Vec3,
     /// Whether it is a leaf.
     pub leaf: bool,
     /// The number of primitives below it.
@@ -75,7 +78,7 @@ impl TreeModel {
             counts: vec![0; nodes],
             order: Vec::new(),
             depth: 0,
-            leaves: vec![None; tree.order.len()],
+            leaves: HashMap::new(),
             by_box: Vec::new(),
             tree,
         };
@@ -91,7 +94,7 @@ impl TreeModel {
     /// Visits each node that can be reached from the root once, and fills in the lists.
     fn visit(&mut self) {
         let mut stack = vec![(self.tree.root, None, 0)];
-        let mut unheld = Unheld::new(self.leaves.len());
+        let mut left = MAX_LEAVES * self.tree.order.len();
         while let Some((index, parent, level)) = stack.pop() {
             let Some(node) = self.tree.nodes.get(index as usize).copied() else {
                 continue;
@@ -106,17 +109,14 @@ impl TreeModel {
             self.parents[index as usize] = parent;
             self.order.push(index);
             if node.is_leaf() {
-                let first = self.leaves.len().min(node.start as usize);
-                let end = self
-                    .leaves
-                    .len()
-                    .min(first.saturating_add(node.size as usize));
+                let order = &self.tree.order;
+                let first = order.len().min(node.start as usize);
+                let end = order.len().min(first.saturating_add(node.size as usize));
                 self.counts[index as usize] = TreeNode::saturating_index(end - first);
-                let mut primitive = unheld.first_from(first);
-                while primitive < end {
-                    self.leaves[primitive] = Some(index);
-                    unheld.remove(primitive);
-                    primitive = unheld.first_from(primitive);
+                let read = first..end.min(first + left);
+                left -= read.len();
+                for number in &order[read] {
+                    self.leaves.entry(*number).or_insert(index);
                 }
             } else {
                 stack.push((node.r, Some(index), level + 1));
@@ -174,36 +174,41 @@ impl TreeModel {
         self.level(node).is_some() && self.node(node).is_some_and(is_equal)
     }
 
-    /// Returns the leaf that holds each primitive, by the number in its material.
-    pub fn leaves_by_number(&self) -> HashMap<u32, u32> {
-        let pairs = self.tree.order.iter().zip(&self.leaves);
-        pairs
-            .filter_map(|(number, leaf)| Some((*number, (*leaf)?)))
-            .collect()
+    /// Returns the leaf that holds the primitive with this number as its material.
+    pub fn leaf_of(&self, number: u32) -> Option<u32> {
+        self.leaves.get(&number).copied()
+    }
+
+    /// Returns the other child of a node's parent.
+    pub fn sibling(&self, node: u32) -> Option<u32> {
+        let parent = self.node(self.parent(node)?)?;
+        Some(if parent.l == node { parent.r } else { parent.l })
     }
 
     /// Returns what the page shows of a node.
     pub fn info(&self, index: u32) -> Option<NodeInfo> {
         let node = self.node(index)?;
+        let (leaf, primitives) = (node.is_leaf(), self.count(index));
         let area = self.area_share(index);
-        let children = (!node.is_leaf()).then(|| self.area_share(node.l) + self.area_share(node.r));
+        let children = (!leaf).then_some([node.l, node.r]);
+        let in_children = |children: [u32; 2]| -> f32 {
+            children
+                .into_iter()
+                .map(|child| self.area_share(child))
+                .sum()
+        };
         Some(NodeInfo {
             node: index,
             level: self.level(index)?,
             parent: self.parent(index),
-            children: (!node.is_leaf()).then_some([node.l, node.r]),
-            min: node.min.to_array(),
-            max: node.max.to_array(),
-            leaf: node.is_leaf(),
-            primitives: self.counts[index as usize],
+            children,
+            min: node.min,
+            max: node.max,
+            leaf,
+            primitives,
             area,
-            cost: area
-                * if node.is_leaf() {
-                    self.counts[index as usize] as f32
-                } else {
-                    1.0
-                },
-            overlap: children.map(|children| children / area.max(f32::MIN_POSITIVE)),
+            cost: area * if leaf { primitives as f32 } else { 1.0 },
+            overlap: children.map(|both| in_children(both) / area.max(f32::MIN_POSITIVE)),
         })
     }
 

@@ -27,12 +27,7 @@ impl TreeModel {
     /// for each such width, so that there are not more than can be seen. Of a very deep tree, only the
     /// first levels are returned.
     pub fn strip(&self, narrowest: f32) -> Vec<Bar> {
-        let total = self
-            .counts
-            .get(self.tree.root as usize)
-            .copied()
-            .unwrap_or(0)
-            .max(1) as f32;
+        let total = self.count(self.tree.root).max(1) as f32;
         let mut bars = Vec::new();
         let mut starts = vec![0; self.tree.nodes.len()];
         // The right ends of each level's bars so far. The order is depth-first, so it is from left to

@@ -33,7 +33,7 @@ fn levels_counts_and_costs_follow_from_the_tree() {
     assert_eq!((leaf.level, leaf.primitives, leaf.cost), (2, 2, 0.125));
     // 1 + 1/4 for the interior nodes, 1/16 + 2/16 + 1/4 for the leaves.
     assert_eq!(model.cost(), 1.0 + 0.25 + 0.0625 + 0.125 + 0.25);
-    assert_eq!(model.leaves_by_number()[&7], 2);
+    assert_eq!(model.leaf_of(7), Some(2));
     assert_eq!(model.with_box(Vec3::ZERO, Vec3::splat(2.0)), [1]);
 }
 
@@ -123,7 +123,7 @@ fn a_million_levels_and_equal_leaves_take_no_longer_than_other_trees() {
         assert_eq!(model.levels(), interior as u32 + 1);
         assert_eq!(model.count(1), held);
         assert_eq!(model.count(0), (interior as u32).saturating_mul(held));
-        assert_eq!(model.leaves_by_number().len(), held as usize);
+        assert_eq!(model.leaves.len(), held as usize);
         assert_eq!(model.with_box(Vec3::ZERO, Vec3::ONE).len(), MAX_EQUAL);
         assert_eq!(model.at_level(0, true, 9).1, 2 * interior);
         assert_eq!(model.worst(9).len(), 9);

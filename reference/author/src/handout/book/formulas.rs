@@ -1,33 +1,22 @@
 //! Converts the LaTeX formulas in Markdown to MathML, which browsers render without a script.
 
+use anyhow::{Result, anyhow};
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
-use crate::handout::pages::formulas;
-
-/// An error returned if a formula cannot be converted.
-#[derive(Debug, thiserror::Error)]
-#[error("{chapter}: the formula `{formula}`: {problem}")]
-pub struct FormulaError {
-    /// The chapter's title.
-    pub chapter: String,
-    /// The LaTeX source.
-    pub formula: String,
-    /// The converter's message.
-    pub problem: String,
-}
+use crate::handout::pages::Page;
 
 /// Returns the chapter with its formulas as MathML.
-pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String, FormulaError> {
-    let formula_error = |formula: &str, problem: String| FormulaError {
-        chapter: chapter.to_owned(),
-        formula: formula.trim().to_owned(),
-        problem,
+pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String> {
+    let formula_error = |formula: &str, problem: String| {
+        let formula = formula.trim();
+        anyhow!("{chapter}: the formula `{formula}`: {problem}; correct the formula in handout/src")
     };
     let converter = LatexToMathML::new(MathCoreConfig::default())
         .map_err(|problem| formula_error("", format!("{problem:?}")))?;
     let mut text = markdown.to_owned();
     // From the end, so that the ranges of earlier formulas stay valid.
-    for (range, latex, is_display) in formulas(markdown).into_iter().rev() {
+    let formulas = Page::new(chapter, markdown).formulas;
+    for (range, latex, is_display) in formulas.into_iter().rev() {
         let display = if is_display {
             MathDisplay::Block
         } else {

@@ -7,7 +7,8 @@ mod pictures;
 
 use std::path::Path;
 
-use grader::files::{AtPath, PathError};
+use anyhow::{Result, anyhow, ensure};
+use grader::files::AtPath;
 use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem};
 use mdbook_driver::errors::Error;
@@ -18,38 +19,28 @@ use self::formulas::render_formulas;
 use self::pages::problems;
 use self::pictures::inline_figures;
 
-/// The reason why the book cannot be built.
-#[derive(Debug, thiserror::Error)]
-pub enum BookError {
-    /// A formula is invalid.
-    #[error("{0}; correct the formula in handout/src")]
-    Formula(#[from] formulas::FormulaError),
-    /// A page lacks a heading, or loads something from the network.
-    #[error("the pages of the book have problems:\n{}", .0.join("\n"))]
-    Pages(Vec<String>),
-    /// A page or chapter cannot be read.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// mdBook failed.
-    #[error("mdBook: {0:#}")]
-    Driver(Error),
-}
-
 /// Builds the book of the workspace at `root` into the folder `to`.
-pub fn build(root: &Path, to: &Path) -> Result<(), BookError> {
-    let mut book = MDBook::load(root.join("handout")).map_err(BookError::Driver)?;
+pub fn build(root: &Path, to: &Path) -> Result<()> {
+    let mut book = MDBook::load(root.join("handout")).map_err(driver_error)?;
     book.config.build.build_dir = to.to_owned();
     let chapters = book.source_dir();
     render_chapters(&mut book.book, &chapters)?;
-    book.build().map_err(BookError::Driver)?;
-    match problems(root, to)? {
-        problems if problems.is_empty() => Ok(()),
-        problems => Err(BookError::Pages(problems)),
-    }
+    book.build().map_err(driver_error)?;
+    let problems = problems(root, to)?;
+    ensure!(
+        problems.is_empty(),
+        "the pages of the book have problems:\n{}",
+        problems.join("\n")
+    );
+    Ok(())
+}
+
+fn driver_error(error: Error) -> anyhow::Error {
+    anyhow!("mdBook: {error:#}")
 }
 
 /// Builds the book of the chapters in a bundle, which has none for instructors, into the folder `to`.
-pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<(), BookError> {
+pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     let mut chapters = Bundle::default();
     let of_handout = bundle
         .files
@@ -64,7 +55,7 @@ pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<(), BookError> {
 }
 
 /// Replaces formulas with MathML, and figures, which are in `chapters`, with inline SVG.
-fn render_chapters(book: &mut Book, chapters: &Path) -> Result<(), BookError> {
+fn render_chapters(book: &mut Book, chapters: &Path) -> Result<()> {
     let mut result = Ok(());
     book.for_each_mut(|item| {
         if let BookItem::Chapter(chapter) = item
@@ -77,7 +68,7 @@ fn render_chapters(book: &mut Book, chapters: &Path) -> Result<(), BookError> {
     result
 }
 
-fn render(name: &str, content: &str, chapters: &Path) -> Result<String, BookError> {
+fn render(name: &str, content: &str, chapters: &Path) -> Result<String> {
     let content = render_formulas(name, content)?;
     Ok(inline_figures(&content, chapters)?)
 }

@@ -1,90 +1,85 @@
 //! Items about hits and misses of rays from all sides.
 
-use glam::{DVec3, Vec3, dvec3};
+use glam::{Vec3, dvec3};
+use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
 use super::{
-    Query, almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box,
-    ray_from_around,
+    almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around,
 };
-use crate::items::place::Place;
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, Group, item, ray};
+use crate::items::place::{Place, dust};
+use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
-use crate::oracle::bbox::Bounds;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
-pub(super) fn through(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.through");
+pub(super) const THROUGH: Declaration = Declaration {
+    id: "bbox.through",
+    points: 1,
+    title: "for a ray through the box, the times of entry and exit are returned",
+    look: "Work out by hand for the ray shown when it is between the two planes of each axis. The \
+           answer is the interval that these three intervals and the argument times have in \
+           common, or None if there is none.",
+    section: "boxes.md#from-the-last-entry-to-the-first-exit",
+    questions: through,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn through(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut question = || {
-        let bounds = random_box(&mut rng);
-        let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+        let bounds = random_box(rng);
+        let queries = hits_and_misses(rng, &bounds, |rng| {
             (ray_from_around(rng, &bounds), Interval::AHEAD)
         });
         (bounds, queries)
     };
     let [near, far] = [question(), question()];
-    let room = Place::room(&mut rng);
-    let moved = |(ray, times): &Query| (room.ray(ray), room.interval(*times));
-    let far = bbox_question(room.bounds(&far.0), far.1.iter().map(moved).collect());
-    item(
-        Declaration {
-            id: "bbox.through",
-            points: 1,
-            title: "for a ray through the box, the times of entry and exit are returned",
-            look: "Work out by hand for the ray shown when it is between the two planes of each \
-                   axis. The answer is the interval that these three intervals and the argument \
-                   times have in common, or None if there is none.",
-            section: "boxes.md#from-the-last-entry-to-the-first-exit",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![bbox_question(near.0, near.1), far],
-    )
+    let room = Place::room(rng);
+    let queries = far.1.iter().map(|query| room.query(query)).collect();
+    let far = bbox_question(room.bounds(&far.0), queries);
+    vec![bbox_question(near.0, near.1), far]
 }
 
-pub(super) fn slab_after_slab(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.slab_after_slab");
+pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
+    id: "bbox.slab_after_slab",
+    points: 1,
+    title: "a ray that is never in all three slabs at the same time misses",
+    look: "Compare the axes with each other, and with times: it is a miss if and only if the \
+           latest entry comes after the earliest exit, however small both are.",
+    section: "boxes.md#the-slab-intervals-must-overlap",
+    questions: slab_after_slab,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn slab_after_slab(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut question = || {
-        let bounds = random_box(&mut rng);
+        let bounds = random_box(rng);
         // Hits, and misses that cross all three slabs, but never at the same time.
-        let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+        let queries = hits_and_misses(rng, &bounds, |rng| {
             let ray = rng.retry(|rng| {
                 let ray = ray_from_around(rng, &bounds);
                 let ray64 = Ray64::from(&ray);
-                let crosses = |axis: usize| {
-                    let mut slab = Bounds {
-                        min: DVec3::NEG_INFINITY,
-                        max: DVec3::INFINITY,
-                    };
-                    slab.min[axis] = bounds.min[axis];
-                    slab.max[axis] = bounds.max[axis];
-                    slab.span(&ray64).is_some()
-                };
+                let crosses = |axis: usize| bounds.slab(axis).span(&ray64).is_some();
                 (0..3).all(crosses).then_some(ray)
             });
             (ray, Interval::AHEAD)
         });
         bbox_question(bounds, queries)
     };
-    item(
-        Declaration {
-            id: "bbox.slab_after_slab",
-            points: 1,
-            title: "a ray that is never in all three slabs at the same time misses",
-            look: "Compare the axes with each other, and with times: it is a miss if and only if the \
-                   latest entry comes after the earliest exit, however small both are.",
-            section: "boxes.md#the-slab-intervals-must-overlap",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![question(), dust(question())],
-    )
+    vec![question(), dust(question())]
 }
 
-pub(super) fn octants(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.octants");
-    let bounds = random_box(&mut rng);
+pub(super) const OCTANTS: Declaration = Declaration {
+    id: "bbox.octants",
+    points: 1,
+    title: "rays in all directions enter and leave at the right times",
+    look: "On an axis where the direction is negative, the ray reaches the larger plane first.",
+    section: "boxes.md#a-negative-direction-swaps-the-planes",
+    questions: octants,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn octants(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let bounds = random_box(rng);
     let mut queries = Vec::new();
     for octant in 0..8 {
         let sign = |axis: i32| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 };
@@ -99,26 +94,25 @@ pub(super) fn octants(seed: Seed) -> DeclaredItem {
             }));
         }
     }
-    item(
-        Declaration {
-            id: "bbox.octants",
-            points: 1,
-            title: "rays in all directions enter and leave at the right times",
-            look: "On an axis where the direction is negative, the ray reaches the larger plane \
-                   first.",
-            section: "boxes.md#a-negative-direction-swaps-the-planes",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![bbox_question(bounds, queries)],
-    )
+    vec![bbox_question(bounds, queries)]
 }
 
-pub(super) fn axis_parallel(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.axis_parallel");
-    let bounds = random_box(&mut rng);
+pub(super) const AXIS_PARALLEL: Declaration = Declaration {
+    id: "bbox.axis_parallel",
+    points: 1,
+    title: "directions with components 0, −0 and almost 0 work as well",
+    look: "A ray that does not move along an axis is always or never between its planes: dividing \
+           by zero gives infinities that say so, if your comparisons handle them. A component that \
+           is almost 0 still moves the ray.",
+    section: "boxes.md#zero-and-minus-zero",
+    questions: axis_parallel,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn axis_parallel(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let bounds = random_box(rng);
     let zero = |rng: &mut Rng| if rng.coin() { 0.0 } else { -0.0 };
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+    let queries = hits_and_misses(rng, &bounds, |rng| {
         let target = bounds.center() + rng.point(0.9) * (bounds.max - bounds.min);
         let axis = rng.index(3);
         // The direction is parallel to an axis, or perpendicular to one.
@@ -130,31 +124,28 @@ pub(super) fn axis_parallel(seed: Seed) -> DeclaredItem {
         let ray = Ray::new((target - 7.0 * dir.as_dvec3().normalize()).as_vec3(), dir);
         (ray, Interval::AHEAD)
     });
-    item(
-        Declaration {
-            id: "bbox.axis_parallel",
-            points: 1,
-            title: "directions with components 0, −0 and almost 0 work as well",
-            look: "A ray that does not move along an axis is always or never between its planes: \
-                   dividing by zero gives infinities that say so, if your comparisons handle them. \
-                   A component that is almost 0 still moves the ray.",
-            section: "boxes.md#zero-and-minus-zero",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![
-            bbox_question(bounds, queries),
-            almost_parallel::question(&mut rng),
-        ],
-    )
+    vec![
+        bbox_question(bounds, queries),
+        almost_parallel::question(rng),
+    ]
 }
 
-pub(super) fn flat(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.flat");
+pub(super) const FLAT: Declaration = Declaration {
+    id: "bbox.flat",
+    points: 1,
+    title: "a box without thickness can be hit",
+    look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the same \
+           time, and that is a hit.",
+    section: "boxes.md#flat-boxes-can-be-hit",
+    questions: flat,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn flat(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut question = |axis: usize| {
-        let mut bounds = random_box(&mut rng);
+        let mut bounds = random_box(rng);
         bounds.max[axis] = bounds.min[axis];
-        let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+        let queries = hits_and_misses(rng, &bounds, |rng| {
             rng.retry(|rng| {
                 let target = bounds.center() + rng.point(1.0) * (bounds.max - bounds.min);
                 let origin = bounds.center() + rng.direction() * rng.uniform(4.0, 8.0);
@@ -165,17 +156,5 @@ pub(super) fn flat(seed: Seed) -> DeclaredItem {
         });
         bbox_question(bounds, queries)
     };
-    item(
-        Declaration {
-            id: "bbox.flat",
-            points: 1,
-            title: "a box without thickness can be hit",
-            look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at \
-                   the same time, and that is a hit.",
-            section: "boxes.md#flat-boxes-can-be-hit",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![question(0), question(1), question(2)],
-    )
+    vec![question(0), question(1), question(2)]
 }

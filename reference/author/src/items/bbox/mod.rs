@@ -19,17 +19,17 @@ const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// Returns the items of the task `bbox`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 10] = [
-        hits::through,
-        hits::slab_after_slab,
-        hits::octants,
-        times::behind,
-        times::from_inside,
-        times::clipped,
-        times::wholly_inside,
-        times::times_not_range,
-        hits::axis_parallel,
-        hits::flat,
+    let all = [
+        hits::THROUGH,
+        hits::SLAB_AFTER_SLAB,
+        hits::OCTANTS,
+        times::BEHIND,
+        times::FROM_INSIDE,
+        times::CLIPPED,
+        times::WHOLLY_INSIDE,
+        times::TIMES_NOT_RANGE,
+        hits::AXIS_PARALLEL,
+        hits::FLAT,
     ];
     draw_items(seed, &all)
 }

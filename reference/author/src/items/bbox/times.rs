@@ -1,24 +1,35 @@
 //! Items about the times that count.
 
 use glam::DVec3;
+use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
 use super::{Query, bbox_question, hits_and_misses, random_box, ray_from_around};
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, Group, item, ray};
+use crate::items::place::dust;
+use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
 fn random_point_in(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     let fraction = rng.point(0.4) + 0.5;
     bounds.min + fraction * (bounds.max - bounds.min)
 }
 
-pub(super) fn behind(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.behind");
-    let bounds = random_box(&mut rng);
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+pub(super) const BEHIND: Declaration = Declaration {
+    id: "bbox.behind",
+    points: 1,
+    title: "a box behind the ray is missed",
+    look: "Behind the origin the times are negative, so nothing of the ray's way through the box \
+           is within times. An interval that would end before it begins is a miss.",
+    section: "boxes.md#use-times-and-not-the-range-of-the-ray",
+    questions: behind,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn behind(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let bounds = random_box(rng);
+    let queries = hits_and_misses(rng, &bounds, |rng| {
         let ray = if rng.coin() {
             ray_from_around(rng, &bounds)
         } else {
@@ -28,25 +39,23 @@ pub(super) fn behind(seed: Seed) -> DeclaredItem {
         };
         (ray, Interval::AHEAD)
     });
-    item(
-        Declaration {
-            id: "bbox.behind",
-            points: 1,
-            title: "a box behind the ray is missed",
-            look: "Behind the origin the times are negative, so nothing of the ray's way through \
-                   the box is within times. An interval that would end before it begins is a miss.",
-            section: "boxes.md#use-times-and-not-the-range-of-the-ray",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![bbox_question(bounds, queries)],
-    )
+    vec![bbox_question(bounds, queries)]
 }
 
-pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.from_inside");
-    let bounds = random_box(&mut rng);
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+pub(super) const FROM_INSIDE: Declaration = Declaration {
+    id: "bbox.from_inside",
+    points: 1,
+    title: "from inside, the interval starts at times.min, not behind the ray",
+    look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
+           times.",
+    section: "boxes.md#clip-the-result-to-times",
+    questions: from_inside,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn from_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let bounds = random_box(rng);
+    let queries = hits_and_misses(rng, &bounds, |rng| {
         let origin = if rng.coin() {
             random_point_in(rng, &bounds)
         } else {
@@ -56,19 +65,7 @@ pub(super) fn from_inside(seed: Seed) -> DeclaredItem {
         let ray = Ray::new(origin.as_vec3(), rng.direction().as_vec3());
         (ray, Interval::new(min, f32::INFINITY))
     });
-    item(
-        Declaration {
-            id: "bbox.from_inside",
-            points: 1,
-            title: "from inside, the interval starts at times.min, not behind the ray",
-            look: "A ray that starts in the box has entered it at a negative time: clip the \
-                   interval to times.",
-            section: "boxes.md#clip-the-result-to-times",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![bbox_question(bounds, queries)],
-    )
+    vec![bbox_question(bounds, queries)]
 }
 
 fn random_query(rng: &mut Rng, bounds: &Bounds) -> Query {
@@ -92,13 +89,23 @@ fn ends_inside(bounds: &Bounds, (ray, times): &Query) -> Option<(bool, bool)> {
     Some((enter == f64::from(times.min), leave == f64::from(times.max)))
 }
 
-pub(super) fn clipped(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.clipped");
+pub(super) const CLIPPED: Declaration = Declaration {
+    id: "bbox.clipped",
+    points: 1,
+    title: "only the part of times in which the ray is in the box is returned",
+    look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
+           only if the box is entered after times.max or left before times.min.",
+    section: "boxes.md#clip-the-result-to-times",
+    questions: clipped,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn clipped(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut question = || {
-        let bounds = random_box(&mut rng);
+        let bounds = random_box(rng);
         // Hits begin inside the box, end inside it, do both, and do neither, in turn.
         let mut count = 0;
-        let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+        let queries = hits_and_misses(rng, &bounds, |rng| {
             rng.retry(|rng| {
                 let query = random_query(rng, &bounds);
                 let Some(inside) = ends_inside(&bounds, &query) else {
@@ -111,25 +118,23 @@ pub(super) fn clipped(seed: Seed) -> DeclaredItem {
         });
         bbox_question(bounds, queries)
     };
-    item(
-        Declaration {
-            id: "bbox.clipped",
-            points: 1,
-            title: "only the part of times in which the ray is in the box is returned",
-            look: "Clip the interval at both ends. If the ray's line passes through the box, it is \
-                   a miss only if the box is entered after times.max or left before times.min.",
-            section: "boxes.md#clip-the-result-to-times",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![question(), dust(question())],
-    )
+    vec![question(), dust(question())]
 }
 
-pub(super) fn wholly_inside(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.wholly_inside");
-    let bounds = random_box(&mut rng);
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
+    id: "bbox.wholly_inside",
+    points: 1,
+    title: "if the ray is in the box during all of times, all of times is returned",
+    look: "The ray then crosses no plane within times, but it is a hit, from times.min to \
+           times.max.",
+    section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
+    questions: wholly_inside,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn wholly_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let bounds = random_box(rng);
+    let queries = hits_and_misses(rng, &bounds, |rng| {
         let ray = ray_from_around(rng, &bounds);
         rng.retry(|rng| {
             let (min, size) = (rng.uniform(0.0, 12.0), rng.uniform(0.1, 0.6));
@@ -145,25 +150,22 @@ pub(super) fn wholly_inside(seed: Seed) -> DeclaredItem {
             ((inside(times.min) && inside(times.max)) || misses).then_some((ray, times))
         })
     });
-    item(
-        Declaration {
-            id: "bbox.wholly_inside",
-            points: 1,
-            title: "if the ray is in the box during all of times, all of times is returned",
-            look: "The ray then crosses no plane within times, but it is a hit, from times.min to \
-                   times.max.",
-            section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![bbox_question(bounds, queries)],
-    )
+    vec![bbox_question(bounds, queries)]
 }
 
-pub(super) fn times_not_range(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("bbox.times_not_range");
-    let bounds = random_box(&mut rng);
-    let queries = hits_and_misses(&mut rng, &bounds, |rng| {
+pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
+    id: "bbox.times_not_range",
+    points: 1,
+    title: "the times argument counts, not the ray's own range",
+    look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
+    section: "boxes.md#use-times-and-not-the-range-of-the-ray",
+    questions: times_not_range,
+    ..Declaration::in_group(Group::Boxes)
+};
+
+fn times_not_range(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let bounds = random_box(rng);
+    let queries = hits_and_misses(rng, &bounds, |rng| {
         let ray = ray_from_around(rng, &bounds);
         // One interval gives a hit and the other a miss; one becomes `times`, the other the range.
         let (short, long) = (Interval::new(0.0, 1.0), Interval::new(0.0, 30.0));
@@ -174,16 +176,5 @@ pub(super) fn times_not_range(seed: Seed) -> DeclaredItem {
         };
         (ray.within(range.min, range.max), times)
     });
-    item(
-        Declaration {
-            id: "bbox.times_not_range",
-            points: 1,
-            title: "the times argument counts, not the ray's own range",
-            look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
-            section: "boxes.md#use-times-and-not-the-range-of-the-ray",
-            group: Some(Group::Boxes),
-            needs: &[],
-        },
-        vec![bbox_question(bounds, queries)],
-    )
+    vec![bbox_question(bounds, queries)]
 }

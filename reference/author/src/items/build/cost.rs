@@ -3,13 +3,12 @@
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Question, Shape};
 
-use super::item;
 use crate::items::place::Place;
-use crate::items::{Declaration, DeclaredItem, meshes};
+use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder};
+use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder, SideRule};
 use crate::oracle::{scan, sweep};
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
 /// Creates a question about a tree whose cost is the only thing that is judged.
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
@@ -35,17 +34,16 @@ const MAX_CORRECT_COST: f64 = 1.06;
 /// common mistake.
 const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// Creates an item with questions about two random meshes, one around the origin and one far from it.
+/// Creates questions about two random meshes, one around the origin and one far from it.
 /// For them, correct builders come close to the exact sweep, and builders that compare only adjacent
 /// buckets do not.
-fn cost_item(seed: Seed, declaration: Declaration, mesh: MeshFn) -> DeclaredItem {
-    let mut rng = seed.rng(declaration.id);
-    let near = question_about(&mut rng, mesh);
-    let far = question_about(&mut rng, |rng| {
+fn cost_questions(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> Vec<ExamQuestion> {
+    let near = question_about(rng, &mesh);
+    let far = question_about(rng, |rng| {
         let shapes = mesh(rng);
         Place::elsewhere(rng).shapes(&shapes)
     });
-    item(seed, declaration, vec![near, far])
+    vec![near, far]
 }
 
 fn question_about(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> ExamQuestion {
@@ -61,9 +59,16 @@ fn question_about(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> ExamQ
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
 /// of a builder narrowly miss the best split, so that its tree is expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
+    let sides = SideRule::AllBuckets;
     let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
-        [BucketExtent::Centers, BucketExtent::Bounds]
-            .map(|extent| relative_cost(question, BucketedBuilder::correct(count, extent)))
+        [BucketExtent::Centers, BucketExtent::Bounds].map(|extent| {
+            let builder = BucketedBuilder {
+                count,
+                extent,
+                sides,
+            };
+            relative_cost(question, builder)
+        })
     });
     costs.fold(0.0, f64::max)
 }
@@ -71,10 +76,15 @@ fn highest_correct_cost(question: &ExamQuestion) -> f64 {
 /// Returns the lowest relative cost among builders that mistake the two buckets next to a plane for
 /// its two sides. For some meshes, such builders find good planes by luck.
 fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
+    let (extent, sides) = (BucketExtent::Centers, SideRule::AdjacentBuckets);
     let costs = [8, 12, 16, 24, 32].map(|count| {
         relative_cost(
             question,
-            BucketedBuilder::with_adjacent_buckets_only(count, BucketExtent::Centers),
+            BucketedBuilder {
+                count,
+                extent,
+                sides,
+            },
         )
     });
     costs.into_iter().fold(f64::INFINITY, f64::min)
@@ -100,56 +110,36 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
     }
 }
 
-type MeshFn = fn(&mut Rng) -> Vec<Shape>;
+pub(super) const COST_STRANDS: Declaration = Declaration {
+    id: "build.cost_strands",
+    points: 1,
+    title: "the best of all three axes is chosen, for strands along x, y and z",
+    look: "At every node, compare the partitions along all three axes by the same cost, which \
+           depends on the areas of boxes around whole primitives and on their numbers. The \
+           cheapest need not be along the longest axis.",
+    section: "building.md#try-all-three-axes-at-every-node",
+    questions: |rng| cost_questions(rng, |rng| meshes::strands(rng, 750)),
+    ..Declaration::ALONE
+};
 
-pub(super) fn cost_strands(seed: Seed) -> DeclaredItem {
-    cost_item(
-        seed,
-        Declaration {
-            id: "build.cost_strands",
-            points: 1,
-            title: "the best of all three axes is chosen, for strands along x, y and z",
-            look: "At every node, compare the partitions along all three axes by the same cost, \
-                   which depends on the areas of boxes around whole primitives and on their \
-                   numbers. The cheapest need not be along the longest axis.",
-            section: "building.md#try-all-three-axes-at-every-node",
-            group: None,
-            needs: &[],
-        },
-        |rng| meshes::strands(rng, 750),
-    )
-}
+pub(super) const COST_SHEETS: Declaration = Declaration {
+    id: "build.cost_sheets",
+    points: 1,
+    title: "the areas of both sides decide, for sheets stacked above each other",
+    look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
+           buckets from the left and from the right.",
+    section: "building.md#areas-and-counts-in-the-cost-formula",
+    questions: |rng| cost_questions(rng, |rng| meshes::sheets(rng, 900)),
+    ..Declaration::ALONE
+};
 
-pub(super) fn cost_sheets(seed: Seed) -> DeclaredItem {
-    cost_item(
-        seed,
-        Declaration {
-            id: "build.cost_sheets",
-            points: 1,
-            title: "the areas of both sides decide, for sheets stacked above each other",
-            look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge \
-                   the buckets from the left and from the right.",
-            section: "building.md#areas-and-counts-in-the-cost-formula",
-            group: None,
-            needs: &[],
-        },
-        |rng| meshes::sheets(rng, 900),
-    )
-}
-
-pub(super) fn cost_town(seed: Seed) -> DeclaredItem {
-    cost_item(
-        seed,
-        Declaration {
-            id: "build.cost_town",
-            points: 2,
-            title: "areas and counts decide together, for crowds on an open field",
-            look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
-                   together with its cost.",
-            section: "building.md#keep-track-of-the-best-cost",
-            group: None,
-            needs: &[],
-        },
-        |rng| meshes::town(rng, 1200),
-    )
-}
+pub(super) const COST_TOWN: Declaration = Declaration {
+    id: "build.cost_town",
+    points: 2,
+    title: "areas and counts decide together, for crowds on an open field",
+    look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
+           together with its cost.",
+    section: "building.md#keep-track-of-the-best-cost",
+    questions: |rng| cost_questions(rng, |rng| meshes::town(rng, 1200)),
+    ..Declaration::ALONE
+};

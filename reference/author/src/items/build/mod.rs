@@ -11,49 +11,57 @@ use judging::exam::{ExamQuestion, Key, TreeCheck};
 use protocol::{Question, Shape};
 
 use super::meshes;
-use crate::items::{Declaration, DeclaredItem, draw_items};
+use crate::items::{DeclaredItem, draw_items};
 use crate::seed::Seed;
 
 pub use cost::relative_cost;
 
 /// Returns the items of the task `build`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 16] = [
-        structure::partition,
-        structure::contains,
-        structure::tight,
-        structure::leaf_size,
-        structure::stops,
-        unusual_inputs::negative,
-        unusual_inputs::coplanar,
-        unusual_inputs::collinear,
-        unusual_inputs::outlier,
-        unusual_inputs::one_or_none,
-        split::one_split,
-        cost::cost_strands,
-        cost::cost_sheets,
-        cost::cost_town,
+    let all = [
+        structure::PARTITION,
+        structure::CONTAINS,
+        structure::TIGHT,
+        structure::LEAF_SIZE,
+        structure::STOPS,
+        unusual_inputs::NEGATIVE,
+        unusual_inputs::COPLANAR,
+        unusual_inputs::COLLINEAR,
+        unusual_inputs::OUTLIER,
+        unusual_inputs::ONE_OR_NONE,
+        split::ONE_SPLIT,
+        cost::COST_STRANDS,
+        cost::COST_SHEETS,
+        cost::COST_TOWN,
         // Last, because builders that recurse without end on these are often right otherwise, and a
         // task is stopped after two crashes.
-        unusual_inputs::coincident,
-        unusual_inputs::concentric,
+        unusual_inputs::COINCIDENT,
+        unusual_inputs::CONCENTRIC,
     ];
-    draw_items(seed, &all)
+    let mut items = draw_items(seed, &all);
+    let control = control(seed);
+    for item in &mut items {
+        item.questions().push(control.clone());
+    }
+    items
 }
 
-/// Creates an item, and adds a control question, whose answer is wrong if there is no tree or if
-/// half of the primitives are in one leaf. The control's primitives are far apart, so that no
-/// heuristic prefers to keep them together: the maximum leaf size is tested by another item.
-fn item(seed: Seed, declaration: Declaration, mut questions: Vec<ExamQuestion>) -> DeclaredItem {
-    let mut rng = seed.rng("build.control");
-    let soup = meshes::soup(&mut rng, 24, 2.0, 0.1);
-    questions.push(build_question(&[Partition, Split], soup, 4));
-    super::item(declaration, questions)
+/// Returns the last question of every item, whose answer is wrong if there is no tree or if half of
+/// the primitives are in one leaf. Its primitives are far apart, so that no heuristic prefers to keep
+/// them together: the maximum leaf size is tested by another item.
+fn control(seed: Seed) -> ExamQuestion {
+    let soup = meshes::soup(&mut seed.rng("build.control"), 24, 2.0, 0.1);
+    build_question(&[Partition, Split], soup, 4)
 }
 
-fn build_question(checks: &[TreeCheck], shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
+/// Creates a question about a tree over these shapes, whose materials are replaced with numbers.
+fn build_question(
+    checks: &[TreeCheck],
+    shapes: impl IntoIterator<Item = Shape>,
+    max_leaf_size: u32,
+) -> ExamQuestion {
     let question = Question::Build {
-        shapes,
+        shapes: meshes::number_shapes(shapes),
         max_leaf_size,
     };
     let key = Key::Tree {

@@ -6,12 +6,11 @@ use judging::exam::ExamQuestion;
 use protocol::Shape;
 
 use super::cost::cost_question;
-use super::item;
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, meshes};
+use crate::items::place::dust;
+use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
 /// The maximum leaf size. Both sides of the best partition fit in a leaf, but all primitives
 /// together do not.
@@ -59,34 +58,31 @@ const LARGE_END: Layout = Layout {
     first_size: 1.2,
 };
 
-pub(super) fn one_split(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("build.one_split");
+pub(super) const ONE_SPLIT: Declaration = Declaration {
+    id: "build.one_split",
+    points: 1,
+    title: "the best split of a few primitives in a row is found",
+    look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
+           areas and the counts of its sides: does your code try it, does it compute that cost, \
+           and does your root have these two sides?",
+    section: "building.md#which-partitions-to-try",
+    questions: one_split,
+    ..Declaration::ALONE
+};
+
+fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut questions = Vec::new();
     for layout in [CLUMPS, GAP, HEAVY_END, LARGE_END] {
         for axis in 0..3 {
             for is_mirrored in [false, true] {
-                questions.push(question(&mut rng, &layout, axis, is_mirrored));
+                questions.push(question(rng, &layout, axis, is_mirrored));
             }
         }
     }
     for axis in 0..3 {
-        questions.push(dust(question(&mut rng, &CLUMPS, axis, false)));
+        questions.push(dust(question(rng, &CLUMPS, axis, false)));
     }
-    item(
-        seed,
-        Declaration {
-            id: "build.one_split",
-            points: 1,
-            title: "the best split of a few primitives in a row is found",
-            look: "Here one partition is much cheaper than all others. Work out its cost by hand \
-                   from the areas and the counts of its sides: does your code try it, does it \
-                   compute that cost, and does your root have these two sides?",
-            section: "building.md#which-partitions-to-try",
-            group: None,
-            needs: &[],
-        },
-        questions,
-    )
+    questions
 }
 
 fn question(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> ExamQuestion {
@@ -127,8 +123,7 @@ fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
         return false;
     };
-    let around_all = |all: Bounds, next: &Bounds| all.union(next);
-    let node_box = boxes.iter().fold(Bounds::around([]), around_all);
+    let node_box = Bounds::enclosing(boxes.iter().copied());
     let center_box = Bounds::around(boxes.iter().map(Bounds::center));
     (8..=64).all(|count| {
         [node_box, center_box].iter().all(|over| {

@@ -3,37 +3,33 @@
 use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 
-use super::{build_question, item};
-use crate::items::place::Place;
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, Group, meshes};
-use crate::seed::Seed;
+use super::build_question;
+use crate::items::place::{Place, dust};
+use crate::items::{Declaration, Group, meshes};
+use crate::seed::Rng;
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
 /// maximum leaf size. There are up to seven triangles more. Every other question is far from the
 /// origin.
 fn soup_questions(
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     checks: &[TreeCheck],
     sizes: &[(usize, u32)],
 ) -> Vec<ExamQuestion> {
-    soup_questions_of_size(0.2, name, seed, checks, sizes)
+    soup_questions_of_size(0.2, rng, checks, sizes)
 }
 
 /// Creates the same questions as [`soup_questions`], with triangles of this size.
 fn soup_questions_of_size(
     size: f64,
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     checks: &[TreeCheck],
     sizes: &[(usize, u32)],
 ) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(name);
     let question = |(index, &(count, max_leaf_size)): (usize, &(usize, u32))| {
         let count = count + rng.index(8);
-        let shapes = meshes::soup(&mut rng, count, 3.0, size);
-        let elsewhere = Place::elsewhere(&mut rng);
+        let shapes = meshes::soup(rng, count, 3.0, size);
+        let elsewhere = Place::elsewhere(rng);
         let shapes = if index % 2 == 1 {
             elsewhere.shapes(&shapes)
         } else {
@@ -44,128 +40,99 @@ fn soup_questions_of_size(
     sizes.iter().enumerate().map(question).collect()
 }
 
-pub(super) fn partition(seed: Seed) -> DeclaredItem {
-    item(
-        seed,
-        Declaration {
-            id: "build.partition",
-            points: 2,
-            title: "every primitive is in exactly one leaf",
-            look: "Return a tree whose root is nodes[root]: from there, l and r, which are indices \
-                   into nodes, lead to the leaves. A leaf holds start..start + size of the list \
-                   that you return, and together the leaves hold each primitive once.",
-            section: "building.md#a-leaf-is-a-slice-of-the-list",
-            group: Some(Group::Trees),
-            needs: &[],
-        },
-        soup_questions(
-            "build.partition",
-            seed,
-            &[Partition],
-            &[(37, 1), (90, 2), (200, 4), (120, 8)],
-        ),
-    )
+pub(super) const PARTITION: Declaration = Declaration {
+    id: "build.partition",
+    points: 2,
+    title: "every primitive is in exactly one leaf",
+    look: "Return a tree whose root is nodes[root]: from there, l and r, which are indices into \
+           nodes, lead to the leaves. A leaf holds start..start + size of the list that you \
+           return, and together the leaves hold each primitive once.",
+    section: "building.md#a-leaf-is-a-slice-of-the-list",
+    questions: |rng| soup_questions(rng, &[Partition], &[(37, 1), (90, 2), (200, 4), (120, 8)]),
+    ..Declaration::in_group(Group::Trees)
+};
+
+pub(super) const CONTAINS: Declaration = Declaration {
+    id: "build.contains",
+    points: 2,
+    title: "every box contains everything below it",
+    look: "A node's box encloses the whole boxes of all primitives below it. Those of a leaf are \
+           start..start + size in the list that you return: compare a leaf's box with them, and \
+           the boxes of the nodes above with those of their children.",
+    section: "building.md#the-contract",
+    questions: |rng| soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]),
+    ..Declaration::in_group(Group::Trees)
+};
+
+pub(super) const TIGHT: Declaration = Declaration {
+    id: "build.tight",
+    points: 1,
+    title: "no box is larger than its contents need",
+    look: "A node's box is the union of its primitives' boxes. A box that starts at the origin \
+           instead of BBox::EMPTY, or is the parent's box, is too large.",
+    section: "building.md#start-each-box-empty",
+    questions: tight,
+    ..Declaration::in_group(Group::Trees)
+};
+
+fn tight(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let tiny = soup_questions(&mut rng.sequence("build.tight.tiny"), &[Tight], &[(24, 1)]);
+    [
+        soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]),
+        tiny.into_iter().map(dust).collect(),
+    ]
+    .concat()
 }
 
-pub(super) fn contains(seed: Seed) -> DeclaredItem {
-    item(
-        seed,
-        Declaration {
-            id: "build.contains",
-            points: 2,
-            title: "every box contains everything below it",
-            look: "A node's box encloses the whole boxes of all primitives below it. Those of a \
-                   leaf are start..start + size in the list that you return: compare a leaf's box \
-                   with them, and the boxes of the nodes above with those of their children.",
-            section: "building.md#the-contract",
-            group: Some(Group::Trees),
-            needs: &[],
-        },
-        soup_questions("build.contains", seed, &[Contains], &[(64, 1), (300, 4)]),
+pub(super) const LEAF_SIZE: Declaration = Declaration {
+    id: "build.leaf_size",
+    points: 2,
+    title: "no leaf holds more than max_leaf_size primitives",
+    look: "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
+           cheaper by the heuristic.",
+    section: "building.md#when-a-node-becomes-a-leaf",
+    questions: leaf_size,
+    ..Declaration::in_group(Group::Trees)
+};
+
+fn leaf_size(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let crowd = &mut rng.sequence("build.leaf_size.crowd");
+    let crowd = build_question(&[LeafSize], meshes::soup(crowd, 100, 0.3, 2.5), 1);
+    // The triangles are so large that the heuristic alone would make some leaves too large. In
+    // the first question, there are so many triangles that some node is split at its very last
+    // plane. In the last question, they are so close together that buckets over the node's box
+    // do not separate them.
+    soup_questions_of_size(
+        2.5,
+        rng,
+        &[LeafSize],
+        &[(300, 1), (60, 2), (150, 4), (150, 8)],
     )
+    .into_iter()
+    .chain([crowd])
+    .collect()
 }
 
-pub(super) fn tight(seed: Seed) -> DeclaredItem {
-    let tiny = soup_questions("build.tight.tiny", seed, &[Tight], &[(24, 1)]);
-    item(
-        seed,
-        Declaration {
-            id: "build.tight",
-            points: 1,
-            title: "no box is larger than its contents need",
-            look: "A node's box is the union of its primitives' boxes. A box that starts at the \
-                   origin instead of BBox::EMPTY, or is the parent's box, is too large.",
-            section: "building.md#start-each-box-empty",
-            group: Some(Group::Trees),
-            needs: &[],
-        },
-        [
-            soup_questions("build.tight", seed, &[Tight], &[(64, 1), (150, 4)]),
-            tiny.into_iter().map(dust).collect(),
-        ]
-        .concat(),
-    )
-}
+pub(super) const STOPS: Declaration = Declaration {
+    id: "build.stops",
+    points: 1,
+    title: "a node with at most max_leaf_size primitives is a leaf",
+    look: "A node is a leaf if and only if it has at most max_leaf_size primitives. That holds for \
+           every node, the root included, and for every max_leaf_size.",
+    section: "building.md#when-a-node-becomes-a-leaf",
+    questions: stops,
+    ..Declaration::in_group(Group::Trees)
+};
 
-pub(super) fn leaf_size(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("build.leaf_size.crowd");
-    let crowd = build_question(&[LeafSize], meshes::soup(&mut rng, 100, 0.3, 2.5), 1);
-    item(
-        seed,
-        Declaration {
-            id: "build.leaf_size",
-            points: 2,
-            title: "no leaf holds more than max_leaf_size primitives",
-            look: "Split a node until it has at most max_leaf_size primitives, even if a leaf \
-                   would be cheaper by the heuristic.",
-            section: "building.md#when-a-node-becomes-a-leaf",
-            group: Some(Group::Trees),
-            needs: &[],
-        },
-        // The triangles are so large that the heuristic alone would make some leaves too large. In
-        // the first question, there are so many triangles that some node is split at its very last
-        // plane. In the last question, they are so close together that buckets over the node's box
-        // do not separate them.
-        soup_questions_of_size(
-            2.5,
-            "build.leaf_size",
-            seed,
-            &[LeafSize],
-            &[(300, 1), (60, 2), (150, 4), (150, 8)],
-        )
-        .into_iter()
-        .chain([crowd])
-        .collect(),
-    )
-}
-
-pub(super) fn stops(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("build.stops.roots");
+fn stops(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let mut small = rng.sequence("build.stops.roots");
     // The root is a node like any other: as many primitives as fit into a leaf, and one more.
     let roots = [(1, 1), (2, 2), (3, 4), (2, 1), (5, 4)].map(|(count, max_leaf_size)| {
-        let shapes = meshes::soup(&mut rng, count, 3.0, 0.2);
+        let shapes = meshes::soup(&mut small, count, 3.0, 0.2);
         build_question(&[Stops, LeafSize], shapes, max_leaf_size)
     });
-    item(
-        seed,
-        Declaration {
-            id: "build.stops",
-            points: 1,
-            title: "a node with at most max_leaf_size primitives is a leaf",
-            look: "A node is a leaf if and only if it has at most max_leaf_size primitives. That \
-                   holds for every node, the root included, and for every max_leaf_size.",
-            section: "building.md#when-a-node-becomes-a-leaf",
-            group: Some(Group::Trees),
-            needs: &[],
-        },
-        soup_questions(
-            "build.stops",
-            seed,
-            &[Stops],
-            &[(64, 2), (150, 4), (160, 8)],
-        )
+    soup_questions(rng, &[Stops], &[(64, 2), (150, 4), (160, 8)])
         .into_iter()
         .chain(roots)
-        .collect(),
-    )
+        .collect()
 }

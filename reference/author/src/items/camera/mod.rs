@@ -8,7 +8,7 @@ mod ray;
 mod sensor;
 
 #[cfg(test)]
-pub(super) use sensor::corners;
+pub(super) use sensor::CORNERS;
 
 use glam::{UVec2, Vec2, uvec2};
 use judging::exam::{ExamQuestion, Key, RayCheck};
@@ -18,23 +18,21 @@ use crate::items::{DeclaredItem, draw_items};
 use crate::oracle;
 use crate::seed::{Rng, Seed};
 
-const MIDDLE: Vec2 = Vec2::splat(0.5);
-
 /// Returns the items of the task `camera`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 12] = [
-        sensor::corners,
-        sensor::field_of_view,
-        sensor::aspect_ratio,
-        sensor::other_aspect,
-        sensor::film,
-        sensor::bottom_left,
-        ray::offset,
-        ray::offset_axes,
-        ray::large_film,
-        ray::unit_length,
-        ray::origin_and_range,
-        ray::picture,
+    let all = [
+        sensor::CORNERS,
+        sensor::FIELD_OF_VIEW,
+        sensor::ASPECT_RATIO,
+        sensor::OTHER_ASPECT,
+        sensor::FILM,
+        sensor::BOTTOM_LEFT,
+        ray::OFFSET,
+        ray::OFFSET_AXES,
+        ray::LARGE_FILM,
+        ray::UNIT_LENGTH,
+        ray::ORIGIN_AND_RANGE,
+        ray::PICTURE,
     ];
     draw_items(seed, &all)
 }
@@ -68,13 +66,15 @@ fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
 /// Returns a sample at the middle of each pixel in the middle row of a film with an odd number of
 /// rows.
 fn middle_row(film: UVec2) -> Vec<Sample> {
-    let pixels = (0..film.x).map(|x| uvec2(x, film.y / 2));
-    pixels
-        .map(|pixel| Sample {
-            pixel,
-            offset: MIDDLE,
-        })
-        .collect()
+    (0..film.x).map(|x| middle_of(x, film.y / 2)).collect()
+}
+
+/// Returns the sample at the middle of a pixel.
+fn middle_of(x: u32, y: u32) -> Sample {
+    Sample {
+        pixel: uvec2(x, y),
+        offset: Vec2::splat(0.5),
+    }
 }
 
 fn random_below(rng: &mut Rng, n: u32) -> u32 {

@@ -4,47 +4,53 @@ use glam::{UVec2, uvec2, vec2};
 use judging::exam::{ExamQuestion, RayCheck};
 use protocol::{Sample, Samples};
 
-use super::{MIDDLE, camera, camera_question, direction_question, random_below};
-use crate::items::{Declaration, DeclaredItem, Group, item};
-use crate::seed::{Rng, Seed};
+use super::{camera, camera_question, direction_question, middle_of, random_below};
+use crate::items::{Declaration, Group};
+use crate::seed::Rng;
 
 fn random_offset(rng: &mut Rng) -> f32 {
     // The very ends are avoided, because 1 is not a valid offset.
     rng.uniform(0.02, 0.98) as f32
 }
 
-pub(super) fn offset(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("camera.offset");
+pub(super) const OFFSET: Declaration = Declaration {
+    id: "camera.offset",
+    points: 2,
+    title: "the offset moves the ray within its pixel",
+    look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the film, \
+           measured in pixels. Each component is used as it is given, on its own axis.",
+    section: "camera.md#the-offset-is-measured-in-pixels",
+    questions: offset,
+    ..Declaration::in_group(Group::CameraRays)
+};
+
+fn offset(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut question = |film: UVec2| {
         let samples = (0..24).map(|_| Sample {
-            pixel: uvec2(random_below(&mut rng, film.x), 0),
-            offset: vec2(random_offset(&mut rng), 0.5),
+            pixel: uvec2(random_below(rng, film.x), 0),
+            offset: vec2(random_offset(rng), 0.5),
         });
         let aspect = f64::from(film.x);
         direction_question(camera(50.0, aspect, film), samples.collect())
     };
-    item(
-        Declaration {
-            id: "camera.offset",
-            points: 2,
-            title: "the offset moves the ray within its pixel",
-            look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the \
-                   film, measured in pixels. Each component is used as it is given, on its own \
-                   axis.",
-            section: "camera.md#the-offset-is-measured-in-pixels",
-            group: Some(Group::CameraRays),
-            needs: &[],
-        },
-        vec![
-            question(uvec2(1, 1)),
-            question(uvec2(3, 1)),
-            question(uvec2(4, 1)),
-        ],
-    )
+    vec![
+        question(uvec2(1, 1)),
+        question(uvec2(3, 1)),
+        question(uvec2(4, 1)),
+    ]
 }
 
-pub(super) fn offset_axes(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("camera.offset_axes");
+pub(super) const OFFSET_AXES: Declaration = Declaration {
+    id: "camera.offset_axes",
+    points: 1,
+    title: "the offset's x moves the ray to the right, and its y moves it up",
+    look: "The two components are independent, and each belongs to its own axis.",
+    section: "camera.md#the-offset-is-measured-in-pixels",
+    questions: offset_axes,
+    ..Declaration::in_group(Group::CameraRays)
+};
+
+fn offset_axes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let samples = (0..24).map(|i| {
         let (small, large) = (
             rng.uniform(0.05, 0.25) as f32,
@@ -60,116 +66,89 @@ pub(super) fn offset_axes(seed: Seed) -> DeclaredItem {
         }
     });
     let question = direction_question(camera(90.0, 1.0, uvec2(1, 1)), samples.collect());
-    item(
-        Declaration {
-            id: "camera.offset_axes",
-            points: 1,
-            title: "the offset's x moves the ray to the right, and its y moves it up",
-            look: "The two components are independent, and each belongs to its own axis.",
-            section: "camera.md#the-offset-is-measured-in-pixels",
-            group: Some(Group::CameraRays),
-            needs: &[],
-        },
-        vec![question],
-    )
+    vec![question]
 }
 
-pub(super) fn large_film(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("camera.large_film");
+pub(super) const LARGE_FILM: Declaration = Declaration {
+    id: "camera.large_film",
+    points: 1,
+    title: "everything works together on a large film",
+    look: "The film has 3840 columns and 2160 rows. Work out one position by hand: pixel + offset, \
+           divided by these numbers in floating point, gives two fractions between 0 and 1.",
+    section: "camera.md#integer-division-gives-zero",
+    questions: large_film,
+    ..Declaration::in_group(Group::CameraRays)
+};
+
+fn large_film(rng: &mut Rng) -> Vec<ExamQuestion> {
     let film = uvec2(3840, 2160);
     let samples = (0..32).map(|_| Sample {
-        pixel: uvec2(
-            random_below(&mut rng, film.x),
-            random_below(&mut rng, film.y),
-        ),
-        offset: vec2(random_offset(&mut rng), random_offset(&mut rng)),
+        pixel: uvec2(random_below(rng, film.x), random_below(rng, film.y)),
+        offset: vec2(random_offset(rng), random_offset(rng)),
     });
     let samples = samples.collect();
     let question = direction_question(camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film), samples);
-    item(
-        Declaration {
-            id: "camera.large_film",
-            points: 1,
-            title: "everything works together on a large film",
-            look: "The film has 3840 columns and 2160 rows. Work out one position by hand: pixel + \
-                   offset, divided by these numbers in floating point, gives two fractions between \
-                   0 and 1.",
-            section: "camera.md#integer-division-gives-zero",
-            group: Some(Group::CameraRays),
-            needs: &[],
-        },
-        vec![question],
-    )
+    vec![question]
 }
 
 /// Creates a question with very different directions, so that no constant answer passes an item
 /// about length, origin or range.
 fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
     let film = UVec2::splat(rng.integer(7, 19));
-    let samples = (0..16).map(|_| Sample {
-        pixel: uvec2(random_below(rng, film.x), random_below(rng, film.y)),
-        offset: MIDDLE,
-    });
+    let samples = (0..16).map(|_| middle_of(random_below(rng, film.x), random_below(rng, film.y)));
     let samples = Samples::List(samples.collect());
     camera_question(checks, camera(90.0, 1.0, film), samples)
 }
 
-pub(super) fn unit_length(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("camera.unit_length");
-    item(
-        Declaration {
-            id: "camera.unit_length",
-            points: 1,
-            title: "the direction has length one",
-            look: "Distances along a ray are measured in lengths of its direction. Ray::new \
-                   normalises the direction; filling in the fields yourself does not.",
-            section: "camera.md#the-direction-has-length-one",
-            group: Some(Group::CameraRays),
-            needs: &[],
-        },
-        vec![spread_question(
-            &[RayCheck::Direction, RayCheck::UnitLength],
-            &mut rng,
-        )],
-    )
+pub(super) const UNIT_LENGTH: Declaration = Declaration {
+    id: "camera.unit_length",
+    points: 1,
+    title: "the direction has length one",
+    look: "Distances along a ray are measured in lengths of its direction. Ray::new normalises the \
+           direction; filling in the fields yourself does not.",
+    section: "camera.md#the-direction-has-length-one",
+    questions: unit_length,
+    ..Declaration::in_group(Group::CameraRays)
+};
+
+fn unit_length(rng: &mut Rng) -> Vec<ExamQuestion> {
+    vec![spread_question(
+        &[RayCheck::Direction, RayCheck::UnitLength],
+        rng,
+    )]
 }
 
-pub(super) fn origin_and_range(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("camera.origin_and_range");
+pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
+    id: "camera.origin_and_range",
+    points: 1,
+    title: "the ray starts at the camera and has no end",
+    look: "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from 0 to ∞.",
+    section: "camera.md#the-ray-starts-at-the-camera",
+    questions: origin_and_range,
+    ..Declaration::in_group(Group::CameraRays)
+};
+
+fn origin_and_range(rng: &mut Rng) -> Vec<ExamQuestion> {
     let checks = [RayCheck::Direction, RayCheck::Origin, RayCheck::Range];
-    item(
-        Declaration {
-            id: "camera.origin_and_range",
-            points: 1,
-            title: "the ray starts at the camera and has no end",
-            look: "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from \
-                   0 to ∞.",
-            section: "camera.md#the-ray-starts-at-the-camera",
-            group: Some(Group::CameraRays),
-            needs: &[],
-        },
-        vec![spread_question(&checks, &mut rng)],
-    )
+    vec![spread_question(&checks, rng)]
 }
 
-pub(super) fn picture(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("camera.picture");
+pub(super) const PICTURE: Declaration = Declaration {
+    id: "camera.picture",
+    points: 2,
+    title: "every pixel of a picture looks in the right direction",
+    look: "Five positions in each pixel are compared. See which of them are wrong: those at one \
+           edge, in one half, or all except the middles of pixels?",
+    section: "grading.md#reading-a-wrong-picture",
+    questions: picture,
+    ..Declaration::ALONE
+};
+
+fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     let camera = camera(rng.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
-    item(
-        Declaration {
-            id: "camera.picture",
-            points: 2,
-            title: "every pixel of a picture looks in the right direction",
-            look: "Five positions in each pixel are compared. See which of them are wrong: those \
-                   at one edge, in one half, or all except the middles of pixels?",
-            section: "grading.md#reading-a-wrong-picture",
-            group: None,
-            needs: &[],
-        },
-        vec![camera_question(
-            &[RayCheck::Direction],
-            camera,
-            Samples::EveryPixel,
-        )],
-    )
+    vec![camera_question(
+        &[RayCheck::Direction],
+        camera,
+        Samples::EveryPixel,
+    )]
 }

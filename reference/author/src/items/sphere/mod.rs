@@ -14,21 +14,21 @@ use crate::seed::{Rng, Seed};
 
 /// Returns the items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 14] = [
-        roots::near_side,
-        roots::beside,
-        roots::radius,
-        roots::behind,
-        roots::from_inside,
-        roots::far_root,
-        roots::range_max,
-        roots::range_within,
-        surface::position,
-        surface::normal,
-        surface::uv,
-        surface::uv_radius,
-        surface::origin_and_material,
-        surface::picture,
+    let all = [
+        roots::NEAR_SIDE,
+        roots::BESIDE,
+        roots::RADIUS,
+        roots::BEHIND,
+        roots::FROM_INSIDE,
+        roots::FAR_ROOT,
+        roots::RANGE_MAX,
+        roots::RANGE_WITHIN,
+        surface::POSITION,
+        surface::NORMAL,
+        surface::UV,
+        surface::UV_RADIUS,
+        surface::ORIGIN_AND_MATERIAL,
+        surface::PICTURE,
     ];
     draw_items(seed, &all)
 }
@@ -75,26 +75,21 @@ fn sphere_question(
     checks: &[HitCheck],
     sphere: &Sphere,
     material: u32,
-    rays: Vec<Ray>,
+    rays: impl IntoIterator<Item = Ray>,
 ) -> ExamQuestion {
-    super::shapes_question(checks, vec![shape(sphere, material)], rays)
+    super::shape_question(checks, shape(sphere, material), rays)
 }
 
 /// Creates one question per radius, with rays of one kind and some rays that miss.
 fn table_questions(
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     checks: &[HitCheck],
     radii: &[f64],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(name);
     let table = |&radius: &f64| {
-        let sphere = random_sphere(&mut rng, radius);
-        let mut rays: Vec<Ray> = (0..12)
-            .map(|_| unambiguous_ray(&mut rng, &sphere, |rng| kind(rng, &sphere)))
-            .collect();
-        rays.extend((0..5).map(|_| missing_ray(&mut rng, &sphere)));
+        let sphere = random_sphere(rng, radius);
+        let rays = hits_and_misses(rng, &sphere, [12, 5], &kind);
         sphere_question(checks, &sphere, 0, rng.shuffled(rays))
     };
     radii.iter().map(table).collect()
@@ -103,28 +98,32 @@ fn table_questions(
 /// Creates the same questions as [`table_questions`], about a sphere that is as large and as far
 /// from the origin as things in the Cornell box, and about one with a radius of a hundredth.
 fn placed_questions(
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     checks: &[HitCheck],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(&format!("{name}.placed"));
     let places: [fn(&mut Rng) -> Place; 2] = [Place::room, Place::miniature];
     let question = |place: fn(&mut Rng) -> Place| {
-        let sphere = random_sphere(&mut rng, 1.0);
-        let mut rays: Vec<Ray> = (0..8)
-            .map(|_| unambiguous_ray(&mut rng, &sphere, |rng| kind(rng, &sphere)))
-            .collect();
-        rays.extend((0..4).map(|_| missing_ray(&mut rng, &sphere)));
-        let place = place(&mut rng);
-        let rays = rng
-            .shuffled(rays)
-            .iter()
-            .map(|ray| place.ray(ray))
-            .collect();
-        super::shapes_question(checks, vec![place.shape(&shape(&sphere, 0))], rays)
+        let sphere = random_sphere(rng, 1.0);
+        let rays = hits_and_misses(rng, &sphere, [8, 4], &kind);
+        let place = place(rng);
+        let (shape, rays) = place.table(&(shape(&sphere, 0), rng.shuffled(rays)));
+        super::shape_question(checks, shape, rays)
     };
     places.map(question).into()
+}
+
+/// Returns so many rays of one kind, followed by so many that miss.
+fn hits_and_misses(
+    rng: &mut Rng,
+    sphere: &Sphere,
+    [hits, misses]: [usize; 2],
+    kind: impl Fn(&mut Rng, &Sphere) -> Ray,
+) -> Vec<Ray> {
+    let hits = (0..hits).map(|_| unambiguous_ray(rng, sphere, |rng| kind(rng, sphere)));
+    let mut rays: Vec<Ray> = hits.collect();
+    rays.extend((0..misses).map(|_| missing_ray(rng, sphere)));
+    rays
 }
 
 /// Returns an unambiguous ray of one kind. It does not hit the sphere near a pole, where texture

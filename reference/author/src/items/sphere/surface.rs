@@ -1,18 +1,18 @@
 //! Items about the quantities of a hit, and the item with a picture of spheres.
 
 use glam::{DVec3, Vec3, dvec3};
-use judging::exam::HitCheck;
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::{Ray, Shape};
 
 use super::{
     hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, sphere_question,
     table_questions,
 };
-use crate::items::{Declaration, DeclaredItem, item, picture};
+use crate::items::{Declaration, picture};
 use crate::oracle::sphere::Sphere;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
-fn hitting_ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
+fn ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
     if rng.coin() {
         hitting_ray(rng, sphere)
     } else {
@@ -20,133 +20,112 @@ fn hitting_ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
     }
 }
 
-pub(super) fn position(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "sphere.position",
-            points: 1,
-            title: "position is the point of the hit, in world space",
-            look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. \
-                   This point is in world space, and as far from the centre as the radius.",
-            section: "sphere.md#the-sphere-is-not-always-at-the-origin",
-            group: None,
-            needs: &[],
-        },
+pub(super) const POSITION: Declaration = Declaration {
+    id: "sphere.position",
+    points: 1,
+    title: "position is the point of the hit, in world space",
+    look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
+           is in world space, and as far from the centre as the radius.",
+    section: "sphere.md#the-sphere-is-not-always-at-the-origin",
+    questions: |rng| {
         table_questions(
-            "sphere.position",
-            seed,
+            rng,
             &[HitCheck::Position],
             &[0.8, 2.0],
-            hitting_ray_from_either_side,
-        ),
-    )
-}
-
-pub(super) fn normal(seed: Seed) -> DeclaredItem {
-    let checks = [HitCheck::Normal, HitCheck::UnitNormal];
-    let outside = table_questions("sphere.normal", seed, &checks, &[0.5, 3.0], hitting_ray);
-    let inside = table_questions(
-        "sphere.normal.inside",
-        seed,
-        &checks,
-        &[2.0],
-        ray_from_inside,
-    );
-    let placed = placed_questions("sphere.normal", seed, &checks, hitting_ray_from_either_side);
-    item(
-        Declaration {
-            id: "sphere.normal",
-            points: 1,
-            title: "the normal points away from the centre and has length one, also from inside",
-            look: "Divide the vector from the centre to the hit by its length. The normal belongs \
-                   to the surface, so it is never flipped toward the ray.",
-            section: "sphere.md#the-normal-points-away-from-the-centre",
-            group: None,
-            needs: &[],
-        },
-        [outside, inside, placed].concat(),
-    )
-}
-
-pub(super) fn uv(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "sphere.uv",
-            points: 1,
-            title: "uv is computed from the direction from the centre to the hit",
-            look: "The given Sphere::uv needs the direction from the centre to the hit, and its \
-                   length must be one. Check the vector that you pass: where does it start, which \
-                   way does it point, and how long is it?",
-            section: "sphere.md#the-uv-function-needs-a-unit-direction",
-            group: None,
-            needs: &[],
-        },
-        table_questions("sphere.uv", seed, &[HitCheck::Uv], &[1.0, 1.0], hitting_ray),
-    )
-}
-
-pub(super) fn uv_radius(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "sphere.uv_radius",
-            points: 1,
-            title: "uv does not depend on the radius",
-            look: "Sphere::uv needs a direction of length one, but the vector from the centre to \
-                   the hit is as long as the radius.",
-            section: "sphere.md#the-uv-function-needs-a-unit-direction",
-            group: None,
-            needs: &[],
-        },
-        [
-            table_questions(
-                "sphere.uv_radius",
-                seed,
-                &[HitCheck::Uv],
-                &[0.4, 2.5],
-                hitting_ray_from_either_side,
-            ),
-            placed_questions(
-                "sphere.uv_radius",
-                seed,
-                &[HitCheck::Uv],
-                hitting_ray_from_either_side,
-            ),
-        ]
-        .concat(),
-    )
-}
-
-pub(super) fn origin_and_material(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("sphere.origin_and_material");
-    let mut table = |material: u32| {
-        let sphere = random_sphere(&mut rng, 1.2);
-        let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(&mut rng, &sphere)).collect();
-        rays.extend((0..3).map(|_| ray_from_inside(&mut rng, &sphere)));
-        rays.extend((0..3).map(|_| missing_ray(&mut rng, &sphere)));
-        sphere_question(
-            &[HitCheck::Origin, HitCheck::Material],
-            &sphere,
-            material,
-            rays,
+            ray_from_either_side,
         )
-    };
-    item(
-        Declaration {
-            id: "sphere.origin_and_material",
-            points: 1,
-            title: "the trace holds the ray's origin and the sphere's material",
-            look: "Copy both: the origin from the ray that you were given, even if you computed \
-                   with a shifted one, and the material from the sphere.",
-            section: "sphere.md#what-to-return",
-            group: None,
-            needs: &[],
-        },
-        vec![table(0), table(3), table(99)],
-    )
+    },
+    ..Declaration::ALONE
+};
+
+pub(super) const NORMAL: Declaration = Declaration {
+    id: "sphere.normal",
+    points: 1,
+    title: "the normal points away from the centre and has length one, also from inside",
+    look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
+           surface, so it is never flipped toward the ray.",
+    section: "sphere.md#the-normal-points-away-from-the-centre",
+    questions: normal,
+    ..Declaration::ALONE
+};
+
+fn normal(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let checks = [HitCheck::Normal, HitCheck::UnitNormal];
+    let outside = table_questions(rng, &checks, &[0.5, 3.0], hitting_ray);
+    let inside = &mut rng.sequence("sphere.normal.inside");
+    let inside = table_questions(inside, &checks, &[2.0], ray_from_inside);
+    let placed = &mut rng.sequence("sphere.normal.placed");
+    let placed = placed_questions(placed, &checks, ray_from_either_side);
+    [outside, inside, placed].concat()
 }
 
-pub(super) fn picture(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("sphere.picture");
+pub(super) const UV: Declaration = Declaration {
+    id: "sphere.uv",
+    points: 1,
+    title: "uv is computed from the direction from the centre to the hit",
+    look: "The given Sphere::uv needs the direction from the centre to the hit, and its length \
+           must be one. Check the vector that you pass: where does it start, which way does it \
+           point, and how long is it?",
+    section: "sphere.md#the-uv-function-needs-a-unit-direction",
+    questions: |rng| table_questions(rng, &[HitCheck::Uv], &[1.0, 1.0], hitting_ray),
+    ..Declaration::ALONE
+};
+
+pub(super) const UV_RADIUS: Declaration = Declaration {
+    id: "sphere.uv_radius",
+    points: 1,
+    title: "uv does not depend on the radius",
+    look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
+           is as long as the radius.",
+    section: "sphere.md#the-uv-function-needs-a-unit-direction",
+    questions: |rng| {
+        let (checks, placed) = ([HitCheck::Uv], &mut rng.sequence("sphere.uv_radius.placed"));
+        let near = table_questions(rng, &checks, &[0.4, 2.5], ray_from_either_side);
+        [
+            near,
+            placed_questions(placed, &checks, ray_from_either_side),
+        ]
+        .concat()
+    },
+    ..Declaration::ALONE
+};
+
+pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
+    id: "sphere.origin_and_material",
+    points: 1,
+    title: "the trace holds the ray's origin and the sphere's material",
+    look: "Copy both: the origin from the ray that you were given, even if you computed with a \
+           shifted one, and the material from the sphere.",
+    section: "sphere.md#what-to-return",
+    questions: origin_and_material,
+    ..Declaration::ALONE
+};
+
+fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let mut table = |material: u32| {
+        let sphere = random_sphere(rng, 1.2);
+        let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
+        rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
+        rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
+        let checks = [HitCheck::Origin, HitCheck::Material];
+        sphere_question(&checks, &sphere, material, rays)
+    };
+    vec![table(0), table(3), table(99)]
+}
+
+pub(super) const PICTURE: Declaration = Declaration {
+    id: "sphere.picture",
+    points: 2,
+    title: "a picture of spheres is correct in hits, depth, normals and uv",
+    look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong all \
+           over, how does it differ from the others: in its radius, in its centre, or in that the \
+           camera is inside it?",
+    section: "grading.md#reading-a-wrong-picture",
+    questions: picture,
+    ..Declaration::ALONE
+};
+
+fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     let side = rng.sign();
     let mut sphere = |x: f64, y: f64, z: f64, radius: f64| {
         let center = dvec3(side * x, y, z) + rng.point(0.3) * dvec3(1.0, 0.3, 1.0);
@@ -166,21 +145,8 @@ pub(super) fn picture(seed: Seed) -> DeclaredItem {
         sphere(2.6, 0.4, -7.0, 1.6),
     ];
     let from_inside = vec![sphere(0.0, 0.0, -0.5, 3.0), sphere(0.9, 0.1, -2.0, 0.4)];
-    item(
-        Declaration {
-            id: "sphere.picture",
-            points: 2,
-            title: "a picture of spheres is correct in hits, depth, normals and uv",
-            look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong \
-                   all over, how does it differ from the others: in its radius, in its centre, or \
-                   in that the camera is inside it?",
-            section: "grading.md#reading-a-wrong-picture",
-            group: None,
-            needs: &[],
-        },
-        vec![
-            picture::picture_question(camera(0.6, 64), from_outside),
-            picture::picture_question(camera(0.6, 32), from_inside),
-        ],
-    )
+    vec![
+        picture::picture_question(camera(0.6, 64), from_outside),
+        picture::picture_question(camera(0.6, 32), from_inside),
+    ]
 }

@@ -5,9 +5,10 @@ use judging::exam::{ExamQuestion, HitCheck, Key};
 use protocol::{Question, Rays};
 
 use super::{
-    FIRST_UNREFERENCED, question_without_decoys, ray_from_around, soup_tree, unambiguous_rays,
+    FIRST_UNREFERENCED, TRAVERSAL, question_without_decoys, ray_from_around, soup_tree,
+    unambiguous_rays,
 };
-use crate::items::{Declaration, DeclaredItem, Group, hits_key, item, meshes, picture};
+use crate::items::{Declaration, DeclaredItem, Group, hits_key, meshes, picture};
 use crate::oracle::scan::{self, Scan};
 use crate::seed::{Rng, Seed};
 
@@ -17,10 +18,22 @@ fn linear_scan_control(rng: &mut Rng) -> ExamQuestion {
     question_without_decoys(rng, tree, [8, 4], ray_from_around)
 }
 
-pub(super) fn own_tree(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.own_tree");
-    let tree = soup_tree(&mut rng, 400, 0.5, 4);
-    let rays = unambiguous_rays(&mut rng, &tree, [40, 16], ray_from_around);
+pub(super) const OWN_TREE: Declaration = Declaration {
+    id: "traverse.own_tree",
+    points: 1,
+    title: "traversing your own tree finds the same hits as testing every primitive",
+    look: "Test all primitives with the ray shown, and find out where your traversal skips the \
+           closest one or loses its hit. If all other items of both tasks pass, look for something \
+           that your tree has and the exam's trees do not.",
+    section: "traversal.md#your-own-builder-and-your-own-traversal",
+    questions: own_tree,
+    needs: &[Group::TriangleHits, Group::Boxes, Group::Trees],
+    ..TRAVERSAL
+};
+
+fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let tree = soup_tree(rng, 400, 0.5, 4);
+    let rays = unambiguous_rays(rng, &tree, [40, 16], ray_from_around);
     let key = hits_key(&[HitCheck::Distance], &rays, |ray64| {
         scan::closest_hit(ray64, &tree.shapes)
     });
@@ -29,29 +42,25 @@ pub(super) fn own_tree(seed: Seed) -> DeclaredItem {
         max_leaf_size: 4,
         rays: Rays::List(rays),
     };
-    item(
-        Declaration {
-            id: "traverse.own_tree",
-            points: 1,
-            title: "traversing your own tree finds the same hits as testing every primitive",
-            look: "Test all primitives with the ray shown, and find out where your traversal skips \
-                   the closest one or loses its hit. If all other items of both tasks pass, look \
-                   for something that your tree has and the exam's trees do not.",
-            section: "traversal.md#your-own-builder-and-your-own-traversal",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes, Group::Trees],
-        },
-        vec![
-            ExamQuestion::new(question, key),
-            linear_scan_control(&mut rng),
-        ],
-    )
+    vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 
-pub(super) fn picture(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.picture");
-    let tree = soup_tree(&mut rng, 300, 0.4, 4);
-    let mut tree = tree.with_roots_at_both_ends(&mut rng);
+pub(super) const PICTURE: Declaration = Declaration {
+    id: "traverse.picture",
+    points: 2,
+    title: "a picture through a tree is correct in hits, depth, normals and uv",
+    look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, and which \
+           primitives should it test? If a piece is missing there, see whether your code skips it \
+           or loses it to a farther hit.",
+    section: "grading.md#reading-a-wrong-picture",
+    questions: picture,
+    needs: &[Group::TriangleHits, Group::Boxes, Group::TriangleSurface],
+    ..TRAVERSAL
+};
+
+fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let tree = soup_tree(rng, 300, 0.4, 4);
+    let mut tree = tree.with_roots_at_both_ends(rng);
     let side = rng.sign();
     let eye = DVec3::new(rng.uniform(0.2, 0.8), rng.uniform(-0.8, 0.8), 4.5 * side);
     let camera = picture::camera_along(eye.as_vec3(), (-eye).normalize(), 0.5, 64);
@@ -69,23 +78,7 @@ pub(super) fn picture(seed: Seed) -> DeclaredItem {
         root: tree.root as u32,
         rays: Rays::View(camera),
     };
-    item(
-        Declaration {
-            id: "traverse.picture",
-            points: 2,
-            title: "a picture through a tree is correct in hits, depth, normals and uv",
-            look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, \
-                   and which primitives should it test? If a piece is missing there, see whether \
-                   your code skips it or loses it to a farther hit.",
-            section: "grading.md#reading-a-wrong-picture",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes, Group::TriangleSurface],
-        },
-        vec![
-            ExamQuestion::new(question, key),
-            linear_scan_control(&mut rng),
-        ],
-    )
+    vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 
 /// Returns the question of the radiance item. Its key is the reference's answer to the same
@@ -110,7 +103,27 @@ pub struct RecordedPicture {
     pub pixels: Vec<Vec3>,
 }
 
-/// Returns the item that compares a path-traced picture with the reference's.
+/// The item that compares a path-traced picture with the reference's, without its first question, which
+/// is recorded.
+const RADIANCE: Declaration = Declaration {
+    id: "traverse.radiance",
+    points: 2,
+    title: "all tasks together render the Cornell box",
+    look: "The framework draws every random number, so the picture must be the same except for a few \
+           pixels. If only this item fails, look at the output of cargo render.",
+    section: "grading.md#reading-a-wrong-picture",
+    questions: |rng| vec![linear_scan_control(rng)],
+    needs: &[
+        Group::TriangleHits,
+        Group::Boxes,
+        Group::CameraRays,
+        Group::TriangleSurface,
+        Group::Trees,
+    ],
+    ..TRAVERSAL
+};
+
+/// Returns the item with the picture that the reference draws.
 pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> DeclaredItem {
     /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
     /// formulas changed none, and cracks of 1e-4 between triangles changed 13.
@@ -119,25 +132,8 @@ pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> DeclaredItem {
         pixels: recorded.pixels,
         max_wrong_pixels: MAX_WRONG_PIXELS,
     };
+    let mut item = RADIANCE.draw(seed);
     let picture = ExamQuestion::new(recorded.question, key);
-    let mut rng = seed.rng("traverse.radiance");
-    item(
-        Declaration {
-            id: "traverse.radiance",
-            points: 2,
-            title: "all tasks together render the Cornell box",
-            look: "The framework draws every random number, so the picture must be the same except \
-                   for a few pixels. If only this item fails, look at the output of cargo render.",
-            section: "grading.md#reading-a-wrong-picture",
-            group: None,
-            needs: &[
-                Group::TriangleHits,
-                Group::Boxes,
-                Group::CameraRays,
-                Group::TriangleSurface,
-                Group::Trees,
-            ],
-        },
-        vec![picture, linear_scan_control(&mut rng)],
-    )
+    item.questions().insert(0, picture);
+    item
 }

@@ -16,7 +16,7 @@ use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
 use super::meshes;
-use crate::items::{DeclaredItem, draw_items};
+use crate::items::{Declaration, DeclaredItem, Group, draw_items};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
@@ -25,25 +25,31 @@ pub use end_to_end::{RecordedPicture, radiance_item, radiance_question};
 
 /// Returns the items of the task `traverse`, except [`radiance_item`].
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 15] = [
-        without_decoys::closest_hit,
-        without_decoys::first_box_empty,
-        without_decoys::range,
-        unusual_trees::root,
-        without_decoys::leaf_of_several,
-        without_decoys::deep,
-        without_decoys::flat,
-        without_decoys::mixed,
-        unusual_trees::no_nodes,
-        with_decoys::skips_missed,
-        with_decoys::prunes,
-        with_decoys::nearer_first,
-        with_decoys::both_sides,
-        end_to_end::own_tree,
-        end_to_end::picture,
+    let all = [
+        without_decoys::CLOSEST_HIT,
+        without_decoys::FIRST_BOX_EMPTY,
+        without_decoys::RANGE,
+        unusual_trees::ROOT,
+        without_decoys::LEAF_OF_SEVERAL,
+        without_decoys::DEEP,
+        without_decoys::FLAT,
+        without_decoys::MIXED,
+        unusual_trees::NO_NODES,
+        with_decoys::SKIPS_MISSED,
+        with_decoys::PRUNES,
+        with_decoys::NEARER_FIRST,
+        with_decoys::BOTH_SIDES,
+        end_to_end::OWN_TREE,
+        end_to_end::PICTURE,
     ];
     draw_items(seed, &all)
 }
+
+/// The fields of an item about traversal that is wrong if triangles or boxes are. The others are empty.
+const TRAVERSAL: Declaration = Declaration {
+    needs: &[Group::TriangleHits, Group::Boxes],
+    ..Declaration::ALONE
+};
 
 /// The material of the first unreferenced primitive. Materials of primitives in leaves start at 0.
 const FIRST_UNREFERENCED: u32 = 10_000;

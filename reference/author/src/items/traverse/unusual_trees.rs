@@ -5,59 +5,53 @@ use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{
-    FIRST_UNREFERENCED, question_without_decoys, ray_from_around, soup_tree, traversal_question,
-    unambiguous_rays,
+    FIRST_UNREFERENCED, TRAVERSAL, question_without_decoys, ray_from_around, soup_tree,
+    traversal_question, unambiguous_rays,
 };
-use crate::items::{Declaration, DeclaredItem, Group, item, ray};
-use crate::seed::{Rng, Seed};
+use crate::items::{Declaration, ray};
+use crate::seed::Rng;
 use crate::tree::{RootPosition, Tree, decoy};
 
-pub(super) fn root(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.root");
+pub(super) const ROOT: Declaration = Declaration {
+    id: "traverse.root",
+    points: 1,
+    title: "traversal starts at root, wherever it is in nodes",
+    look: "The root is nodes[root]. Any other node can be first or last in nodes, even a child or \
+           one that is not part of the tree, and a node is a leaf if and only if l == r.",
+    section: "traversal.md#the-root-can-be-any-node",
+    questions: root,
+    ..TRAVERSAL
+};
+
+fn root(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let in_front = &mut rng.sequence("traverse.root.child_in_front");
     let question = |position: RootPosition| {
-        let tree = soup_tree(&mut rng, 20, 0.9, 1);
-        let rays = unambiguous_rays(&mut rng, &tree, [10, 4], ray_from_around);
+        let tree = soup_tree(rng, 20, 0.9, 1);
+        let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
         let inner = if position == RootPosition::First {
             position
         } else {
             RootPosition::Middle
         };
-        let tree = tree.with_nodes_shuffled(&mut rng, inner);
-        traversal_question(
-            &with_detached_subtrees(&mut rng, tree, &rays, position),
-            rays,
-        )
+        let tree = tree.with_nodes_shuffled(rng, inner);
+        traversal_question(&with_detached_subtrees(rng, tree, &rays, position), rays)
     };
-    let mut rng = seed.rng("traverse.root.child_in_front");
-    let children: [fn(&TreeNode) -> u32; 2] = [|root| root.l, |root| root.r];
-    let child_in_front = children.map(|child| question_with_a_child_in_front(&mut rng, child));
-    item(
-        Declaration {
-            id: "traverse.root",
-            points: 1,
-            title: "traversal starts at root, wherever it is in nodes",
-            look: "The root is nodes[root]. Any other node can be first or last in nodes, even a \
-                   child or one that is not part of the tree, and a node is a leaf if and only if \
-                   l == r.",
-            section: "traversal.md#the-root-can-be-any-node",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        [
-            RootPosition::First,
-            RootPosition::Middle,
-            RootPosition::Last,
-        ]
-        .map(question)
-        .into_iter()
-        .chain(child_in_front)
-        .collect(),
-    )
+    let children: [decoy::Child; 2] = [|root| root.l, |root| root.r];
+    let child_in_front = children.map(|child| question_with_a_child_in_front(in_front, child));
+    [
+        RootPosition::First,
+        RootPosition::Middle,
+        RootPosition::Last,
+    ]
+    .map(question)
+    .into_iter()
+    .chain(child_in_front)
+    .collect()
 }
 
 /// Creates a question about a tree whose first node is a child of the root, to check that 0 is
 /// accepted as the index of a child.
-fn question_with_a_child_in_front(rng: &mut Rng, child: fn(&TreeNode) -> u32) -> ExamQuestion {
+fn question_with_a_child_in_front(rng: &mut Rng, child: decoy::Child) -> ExamQuestion {
     let tree = soup_tree(rng, 20, 0.9, 1);
     let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
     let mut tree = tree.with_nodes_shuffled(rng, RootPosition::Last);
@@ -97,8 +91,18 @@ fn with_detached_subtrees(
     tree
 }
 
-pub(super) fn no_nodes(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.no_nodes");
+pub(super) const NO_NODES: Declaration = Declaration {
+    id: "traverse.no_nodes",
+    points: 1,
+    title: "an empty tree has no hits",
+    look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for every leaf. \
+           In the first case there is no node at index root, in the second no primitive at start.",
+    section: "traversal.md#an-empty-tree-has-no-nodes",
+    questions: no_nodes,
+    ..TRAVERSAL
+};
+
+fn no_nodes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let nothing = Tree::default();
     let mut empty_leaf = nothing.clone();
     empty_leaf.nodes.push(TreeNode {
@@ -114,22 +118,9 @@ pub(super) fn no_nodes(seed: Seed) -> DeclaredItem {
         ray(target + 4.0 * rng.direction(), target)
     };
     let mut empty_question =
-        |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(&mut rng)).collect());
+        |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(rng)).collect());
     let empty = [empty_question(&nothing), empty_question(&empty_leaf)];
-    let tree = soup_tree(&mut rng, 12, 0.9, 1);
-    let control = question_without_decoys(&mut rng, tree, [8, 4], ray_from_around);
-    item(
-        Declaration {
-            id: "traverse.no_nodes",
-            points: 1,
-            title: "an empty tree has no hits",
-            look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for \
-                   every leaf. In the first case there is no node at index root, in the second no \
-                   primitive at start.",
-            section: "traversal.md#an-empty-tree-has-no-nodes",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        empty.into_iter().chain([control]).collect(),
-    )
+    let tree = soup_tree(rng, 12, 0.9, 1);
+    let control = question_without_decoys(rng, tree, [8, 4], ray_from_around);
+    empty.into_iter().chain([control]).collect()
 }

@@ -3,13 +3,15 @@
 use judging::exam::ExamQuestion;
 use protocol::Ray;
 
-use super::{add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays};
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, Group, item};
+use super::{
+    TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
+};
+use crate::items::Declaration;
+use crate::items::place::dust;
 use crate::oracle::Ray64;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 use crate::tree::Tree;
-use crate::tree::decoy::{self, Side, SkipReason};
+use crate::tree::decoy::{self, Child, SkipReason};
 use crate::tree::traversal::Traversal;
 
 /// Returns whether the slides' pseudo-code, taken literally, gives the correct answer for this ray.
@@ -107,52 +109,62 @@ fn is_skipped_for(tree: &Tree, leaf: usize, ray64: &Ray64, reason: SkipReason) -
 
 /// Accepts the leaves that the ray misses, and that are this child of a node of which it hits the
 /// other child's box.
-fn missed_alone(side: Side) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, side) && !decoy::misses_sibling(tree, leaf, ray64)
+        decoy::is_missed_child(tree, leaf, ray64, child)
+            && !decoy::misses_sibling(tree, leaf, ray64)
     }
 }
 
 /// Accepts the leaves that the ray misses, and that are this child of a node of which it misses both
 /// children's boxes.
-fn missed_with_sibling(side: Side) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
-        decoy::is_missed_child(tree, leaf, ray64, side) && decoy::misses_sibling(tree, leaf, ray64)
+        decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)
     }
 }
 
-pub(super) fn skips_missed(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.skips_missed");
+pub(super) const SKIPS_MISSED: Declaration = Declaration {
+    id: "traverse.skips_missed",
+    points: 2,
+    title: "a node whose box the ray misses is not entered",
+    look: "This is what the tree is for. In this exam, some leaves hold primitives outside their \
+           boxes: a traversal that enters a missed box finds them.",
+    section: "traversal.md#do-not-enter-a-box-that-is-missed",
+    questions: skips_missed,
+    ..TRAVERSAL
+};
+
+fn skips_missed(rng: &mut Rng) -> Vec<ExamQuestion> {
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::Missed)
     };
     // The slides enter the left child if both are missed, and may enter it if only the right one is
     // hit: see `both_sides`.
     let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        missed_alone(Side::R)(tree, leaf, ray64) && !decoy::hits_below_sibling(tree, leaf, ray64)
+        missed_alone(|node| node.r)(tree, leaf, ray64)
+            && !decoy::hits_below_sibling(tree, leaf, ray64)
     };
-    let with_sibling = missed_with_sibling(Side::R);
-    item(
-        Declaration {
-            id: "traverse.skips_missed",
-            points: 2,
-            title: "a node whose box the ray misses is not entered",
-            look: "This is what the tree is for. In this exam, some leaves hold primitives outside \
-                   their boxes: a traversal that enters a missed box finds them.",
-            section: "traversal.md#do-not-enter-a-box-that-is-missed",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![
-            question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
-            question_with_decoys(&mut rng, &after_nothing, SlidesAnswer::Correct),
-            question_with_decoys(&mut rng, &with_sibling, SlidesAnswer::Correct),
-        ],
-    )
+    let with_sibling = missed_with_sibling(|node| node.r);
+    vec![
+        question_with_decoys(rng, &fits, SlidesAnswer::Correct),
+        question_with_decoys(rng, &after_nothing, SlidesAnswer::Correct),
+        question_with_decoys(rng, &with_sibling, SlidesAnswer::Correct),
+    ]
 }
 
-pub(super) fn prunes(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.prunes");
+pub(super) const PRUNES: Declaration = Declaration {
+    id: "traverse.prunes",
+    points: 2,
+    title: "a node that begins beyond the closest hit is not entered",
+    look: "First search the child whose box the ray enters first. After that, if the entry of the \
+           other box is beyond the closest hit so far, nothing in it can be nearer: skip it.",
+    section: "traversal.md#order-the-children-and-prune",
+    questions: prunes,
+    ..TRAVERSAL
+};
+
+fn prunes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
     };
@@ -161,28 +173,26 @@ pub(super) fn prunes(seed: Seed) -> DeclaredItem {
         let fork = decoy::find_fork(tree, leaf, ray64);
         fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)
     };
-    item(
-        Declaration {
-            id: "traverse.prunes",
-            points: 2,
-            title: "a node that begins beyond the closest hit is not entered",
-            look: "First search the child whose box the ray enters first. After that, if the entry \
-                   of the other box is beyond the closest hit so far, nothing in it can be nearer: \
-                   skip it.",
-            section: "traversal.md#order-the-children-and-prune",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![
-            question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct),
-            question_with_decoys(&mut rng, &second, SlidesAnswer::Correct),
-            dust(question_with_decoys(&mut rng, &fits, SlidesAnswer::Correct)),
-        ],
-    )
+    vec![
+        question_with_decoys(rng, &fits, SlidesAnswer::Correct),
+        question_with_decoys(rng, &second, SlidesAnswer::Correct),
+        dust(question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
+    ]
 }
 
-pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.nearer_first");
+pub(super) const NEARER_FIRST: Declaration = Declaration {
+    id: "traverse.nearer_first",
+    points: 1,
+    title: "the nearer child goes first, whether it is l or r, and the other is pruned",
+    look: "The child whose box the ray enters first goes first, be it l or r. After that, compare \
+           the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, \
+           even where l comes second.",
+    section: "traversal.md#compare-the-entry-of-the-second-child",
+    questions: nearer_first,
+    ..TRAVERSAL
+};
+
+fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
     let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
     };
@@ -191,51 +201,36 @@ pub(super) fn nearer_first(seed: Seed) -> DeclaredItem {
         fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
             && fits(tree, leaf, ray64)
     };
-    item(
-        Declaration {
-            id: "traverse.nearer_first",
-            points: 1,
-            title: "the nearer child goes first, whether it is l or r, and the other is pruned",
-            look: "The child whose box the ray enters first goes first, be it l or r. After that, \
-                   compare the entry of the other one with the closest hit: the slides' hit2.t is \
-                   the entry of r, even where l comes second.",
-            section: "traversal.md#compare-the-entry-of-the-second-child",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![
-            question_with_decoys(&mut rng, &fits, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &left_last, SlidesAnswer::Wrong),
-            dust(question_with_decoys(&mut rng, &fits, SlidesAnswer::Wrong)),
-        ],
-    )
+    vec![
+        question_with_decoys(rng, &fits, SlidesAnswer::Wrong),
+        question_with_decoys(rng, &left_last, SlidesAnswer::Wrong),
+        dust(question_with_decoys(rng, &fits, SlidesAnswer::Wrong)),
+    ]
 }
 
-pub(super) fn both_sides(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.both_sides");
-    let missed_alone = missed_alone(Side::L);
-    let with_sibling = missed_with_sibling(Side::L);
+pub(super) const BOTH_SIDES: Declaration = Declaration {
+    id: "traverse.both_sides",
+    points: 1,
+    title: "a child is entered only if its own box is hit, before the closest hit",
+    look: "Decide about each child by its own box: enter it only if the ray hits that box, and not \
+           beyond the closest hit so far. If both boxes are missed, enter neither, although the \
+           slides always enter `first`.",
+    section: "traversal.md#do-not-enter-a-box-that-is-missed",
+    questions: both_sides,
+    ..TRAVERSAL
+};
+
+fn both_sides(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let missed_alone = missed_alone(|node| node.l);
+    let with_sibling = missed_with_sibling(|node| node.l);
     let pruned_alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         is_skipped_for(tree, leaf, ray64, SkipReason::LeafPruned)
             && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
     };
-    item(
-        Declaration {
-            id: "traverse.both_sides",
-            points: 1,
-            title: "a child is entered only if its own box is hit, before the closest hit",
-            look: "Decide about each child by its own box: enter it only if the ray hits that box, \
-                   and not beyond the closest hit so far. If both boxes are missed, enter neither, \
-                   although the slides always enter `first`.",
-            section: "traversal.md#do-not-enter-a-box-that-is-missed",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![
-            question_with_decoys(&mut rng, &missed_alone, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &with_sibling, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &with_sibling, SlidesAnswer::Wrong),
-            question_with_decoys(&mut rng, &pruned_alone, SlidesAnswer::Wrong),
-        ],
-    )
+    vec![
+        question_with_decoys(rng, &missed_alone, SlidesAnswer::Wrong),
+        question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
+        question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
+        question_with_decoys(rng, &pruned_alone, SlidesAnswer::Wrong),
+    ]
 }

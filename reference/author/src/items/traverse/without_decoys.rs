@@ -1,18 +1,30 @@
 //! Items whose trees contain no decoys: every primitive in a leaf is inside the leaf's box.
 
 use glam::DVec3;
+use judging::exam::ExamQuestion;
 use protocol::Shape;
 
-use super::{question_without_decoys, ray_from_around, soup_tree};
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, Group, item, meshes, ray};
+use super::{TRAVERSAL, question_without_decoys, ray_from_around, soup_tree};
+use crate::items::place::dust;
+use crate::items::{Declaration, Group, meshes, ray};
 use crate::oracle::{Ray64, scan};
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
 use crate::tree::{Tree, construction};
 
-pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.closest_hit");
+pub(super) const CLOSEST_HIT: Declaration = Declaration {
+    id: "traverse.closest_hit",
+    points: 1,
+    title: "the closest hit counts, not the first one found",
+    look: "Follow the ray shown through the tree from its root, box by box: which primitives need \
+           to be tested, and which of their hits is the closest? Then see which primitives your \
+           code tests, and which hit it keeps after each.",
+    section: "traversal.md#the-first-hit-need-not-be-the-closest",
+    questions: closest_hit,
+    ..TRAVERSAL
+};
+
+fn closest_hit(rng: &mut Rng) -> Vec<ExamQuestion> {
     // At least half of the hits are found after a farther one.
     let kind = |rng: &mut Rng, tree: &Tree| {
         let any = rng.coin();
@@ -23,30 +35,17 @@ pub(super) fn closest_hit(seed: Seed) -> DeclaredItem {
     };
     // With large triangles, the boxes of siblings overlap considerably.
     let mut question = || {
-        let tree = soup_tree(&mut rng, 40, 1.6, 1);
-        question_without_decoys(&mut rng, tree, [24, 8], kind)
+        let tree = soup_tree(rng, 40, 1.6, 1);
+        question_without_decoys(rng, tree, [24, 8], kind)
     };
     let questions = vec![question(), dust(question())];
-    item(
-        Declaration {
-            id: "traverse.closest_hit",
-            points: 1,
-            title: "the closest hit counts, not the first one found",
-            look: "Follow the ray shown through the tree from its root, box by box: which \
-                   primitives need to be tested, and which of their hits is the closest? Then see \
-                   which primitives your code tests, and which hit it keeps after each.",
-            section: "traversal.md#the-first-hit-need-not-be-the-closest",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        questions,
-    )
+    questions
 }
 
 /// Returns whether every correct traversal finds a farther hit before the closest one.
 fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
     let closest = tree.expected_hit(ray64);
-    TraversalRule::ALL.into_iter().all(|rule| {
+    TraversalRule::all().into_iter().all(|rule| {
         let tested = Traversal::correct(tree, ray64, rule).tested_primitives;
         let mut hits = tested
             .into_iter()
@@ -55,34 +54,43 @@ fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
     })
 }
 
-pub(super) fn first_box_empty(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.first_box_empty");
+pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
+    id: "traverse.first_box_empty",
+    points: 1,
+    title: "a ray may hit a box without hitting anything inside it",
+    look: "Work out by hand what the two boxes and the primitives in them give for the ray shown. \
+           Until something is hit, there is no closest hit to compare with, and no child may be \
+           skipped because of one.",
+    section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
+    questions: first_box_empty,
+    ..TRAVERSAL
+};
+
+fn first_box_empty(rng: &mut Rng) -> Vec<ExamQuestion> {
     // Small triangles leave most of a node's box empty.
-    let tree = soup_tree(&mut rng, 40, 0.5, 1);
-    item(
-        Declaration {
-            id: "traverse.first_box_empty",
-            points: 1,
-            title: "a ray may hit a box without hitting anything inside it",
-            look: "Work out by hand what the two boxes and the primitives in them give for \
-                   the ray shown. Until something is hit, there is no closest hit to \
-                   compare with, and no child may be skipped because of one.",
-            section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![question_without_decoys(
-            &mut rng,
-            tree,
-            [16, 16],
-            ray_from_around,
-        )],
-    )
+    let tree = soup_tree(rng, 40, 0.5, 1);
+    vec![question_without_decoys(
+        rng,
+        tree,
+        [16, 16],
+        ray_from_around,
+    )]
 }
 
-pub(super) fn range(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.range");
-    let tree = soup_tree(&mut rng, 40, 1.4, 1);
+pub(super) const RANGE: Declaration = Declaration {
+    id: "traverse.range",
+    points: 1,
+    title: "only hits within the ray's range count",
+    look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, and the \
+           closest such hit is the answer. Find all hits of the ray shown, and see where your code \
+           takes another one or none.",
+    section: "traversal.md#only-a-hit-shortens-the-ray",
+    questions: range,
+    ..TRAVERSAL
+};
+
+fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let tree = soup_tree(rng, 40, 1.4, 1);
     // The range starts between the first two hits, or ends before the first or the second.
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
@@ -102,25 +110,22 @@ pub(super) fn range(seed: Seed) -> DeclaredItem {
             Some(ray.within(min as f32, max as f32))
         })
     };
-    item(
-        Declaration {
-            id: "traverse.range",
-            points: 1,
-            title: "only hits within the ray's range count",
-            look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, \
-                   and the closest such hit is the answer. Find all hits of the ray shown, and see \
-                   where your code takes another one or none.",
-            section: "traversal.md#only-a-hit-shortens-the-ray",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![question_without_decoys(&mut rng, tree, [20, 8], kind)],
-    )
+    vec![question_without_decoys(rng, tree, [20, 8], kind)]
 }
 
-pub(super) fn leaf_of_several(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.leaf_of_several");
-    let tree = soup_tree(&mut rng, 48, 1.0, 8);
+pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
+    id: "traverse.leaf_of_several",
+    points: 1,
+    title: "every primitive of a leaf is tested",
+    look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, be \
+           it that of the first primitive, of the last one or of one in between.",
+    section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
+    questions: leaf_of_several,
+    ..TRAVERSAL
+};
+
+fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let tree = soup_tree(rng, 48, 1.0, 8);
     // The closest of several hits in a leaf belongs in turn to the first primitive, to the last
     // one, and to one in between.
     let mut count = 0;
@@ -150,30 +155,26 @@ pub(super) fn leaf_of_several(seed: Seed) -> DeclaredItem {
             Some(ray)
         })
     };
-    item(
-        Declaration {
-            id: "traverse.leaf_of_several",
-            points: 1,
-            title: "every primitive of a leaf is tested",
-            look: "A leaf holds primitives[start..start + size]. The closest of all their hits \
-                   counts, be it that of the first primitive, of the last one or of one in \
-                   between.",
-            section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![question_without_decoys(&mut rng, tree, [24, 8], kind)],
-    )
+    vec![question_without_decoys(rng, tree, [24, 8], kind)]
 }
 
-pub(super) fn deep(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.deep");
+pub(super) const DEEP: Declaration = Declaration {
+    id: "traverse.deep",
+    points: 1,
+    title: "a tree of 60 levels is traversed to the end",
+    look: "A stack of fixed size must be large enough, and every node that is pushed must be \
+           popped again.",
+    section: "traversal.md#deep-trees",
+    questions: deep,
+    ..TRAVERSAL
+};
+
+fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     const LEVELS: usize = 60;
     let triangles = (0..LEVELS).map(|i| {
         let center = DVec3::X * (0.5 * i as f64) + rng.point(0.3);
-        meshes::random_flat_triangle(&mut rng, center, 0.5)
+        meshes::random_flat_triangle(rng, center, 0.5)
     });
-    let triangles: Vec<Shape> = triangles.collect();
     let tree = construction::chain(meshes::number_shapes(triangles));
     // Rays along the chain, from both ends, and across it.
     let kind = |rng: &mut Rng, _: &Tree| {
@@ -185,23 +186,21 @@ pub(super) fn deep(seed: Seed) -> DeclaredItem {
         };
         ray(target + 6.0 * away, target)
     };
-    item(
-        Declaration {
-            id: "traverse.deep",
-            points: 1,
-            title: "a tree of 60 levels is traversed to the end",
-            look: "A stack of fixed size must be large enough, and every node that is pushed must \
-                   be popped again.",
-            section: "traversal.md#deep-trees",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![question_without_decoys(&mut rng, tree, [24, 8], kind)],
-    )
+    vec![question_without_decoys(rng, tree, [24, 8], kind)]
 }
 
-pub(super) fn flat(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.flat");
+pub(super) const FLAT: Declaration = Declaration {
+    id: "traverse.flat",
+    points: 1,
+    title: "leaves with flat boxes are entered",
+    look: "A ray enters and leaves a flat box at the same time. If your box test is correct, check \
+           how you use its result: an interval of one point is not empty.",
+    section: "traversal.md#a-flat-box-has-equal-entry-and-exit",
+    questions: flat,
+    ..TRAVERSAL
+};
+
+fn flat(rng: &mut Rng) -> Vec<ExamQuestion> {
     // Axis-parallel triangles, one per leaf.
     let triangles = (0..36).map(|i| {
         let axis = i % 3;
@@ -210,34 +209,26 @@ pub(super) fn flat(seed: Seed) -> DeclaredItem {
         let size = rng.uniform(0.6, 1.4) * rng.sign();
         meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
     });
-    let triangles: Vec<Shape> = triangles.collect();
     let tree = construction::median_split(meshes::number_shapes(triangles), 1);
-    item(
-        Declaration {
-            id: "traverse.flat",
-            points: 1,
-            title: "leaves with flat boxes are entered",
-            look: "A ray enters and leaves a flat box at the same time. If your box test is \
-                   correct, check how you use its result: an interval of one point is not empty.",
-            section: "traversal.md#a-flat-box-has-equal-entry-and-exit",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes],
-        },
-        vec![question_without_decoys(
-            &mut rng,
-            tree,
-            [24, 8],
-            ray_from_around,
-        )],
-    )
+    vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
 }
 
-pub(super) fn mixed(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("traverse.mixed");
+pub(super) const MIXED: Declaration = Declaration {
+    id: "traverse.mixed",
+    points: 1,
+    title: "a tree can hold spheres and triangles",
+    look: "Primitive::hit tests either kind, and their distances are compared in the same way.",
+    section: "traversal.md#the-first-hit-need-not-be-the-closest",
+    questions: mixed,
+    needs: &[Group::TriangleHits, Group::Boxes, Group::SphereHits],
+    ..TRAVERSAL
+};
+
+fn mixed(rng: &mut Rng) -> Vec<ExamQuestion> {
     let shapes = (0..36).map(|i| {
         let center = rng.point(2.0);
         if i % 2 == 0 {
-            meshes::random_flat_triangle(&mut rng, center, 0.9)
+            meshes::random_flat_triangle(rng, center, 0.9)
         } else {
             Shape::Sphere {
                 center: center.as_vec3(),
@@ -246,24 +237,6 @@ pub(super) fn mixed(seed: Seed) -> DeclaredItem {
             }
         }
     });
-    let shapes: Vec<Shape> = shapes.collect();
     let tree = construction::median_split(meshes::number_shapes(shapes), 1);
-    item(
-        Declaration {
-            id: "traverse.mixed",
-            points: 1,
-            title: "a tree can hold spheres and triangles",
-            look: "Primitive::hit tests either kind, and their distances are compared in the same \
-                   way.",
-            section: "traversal.md#the-first-hit-need-not-be-the-closest",
-            group: None,
-            needs: &[Group::TriangleHits, Group::Boxes, Group::SphereHits],
-        },
-        vec![question_without_decoys(
-            &mut rng,
-            tree,
-            [24, 8],
-            ray_from_around,
-        )],
-    )
+    vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
 }

@@ -8,201 +8,178 @@ use super::aim::{
     Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge,
     weights_beyond_edge_by, weights_inside,
 };
-use super::table_questions;
-use crate::items::place::Place;
-use crate::items::similarity::dust;
-use crate::items::{Declaration, DeclaredItem, Group, item, ray, shapes_question};
+use super::{distance_question, table_questions};
+use crate::items::place::{Place, dust};
+use crate::items::{Declaration, Group, ray, reversed_if, shape_question};
 use crate::oracle::{Ray64, triangle};
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
-pub(super) fn inside(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "triangle.inside",
-            points: 2,
-            title: "a ray through the inside hits the triangle at distance t",
-            look: "Work out u, v and t by hand for the ray shown, and compare them with those in \
-                   your code. It is a hit if u, v and 1 − u − v are all at least 0 and t is in \
-                   ray.range, and then t is the distance.",
-            section: "triangle.md#three-equations-for-three-unknowns",
-            group: Some(Group::TriangleHits),
-            needs: &[],
-        },
-        table_questions("triangle.inside", seed, &[HitCheck::Distance], Side::Front),
-    )
-}
+pub(super) const INSIDE: Declaration = Declaration {
+    id: "triangle.inside",
+    points: 2,
+    title: "a ray through the inside hits the triangle at distance t",
+    look: "Work out u, v and t by hand for the ray shown, and compare them with those in your \
+           code. It is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
+           then t is the distance.",
+    section: "triangle.md#three-equations-for-three-unknowns",
+    questions: |rng| table_questions(rng, &[HitCheck::Distance], Side::Front),
+    ..Declaration::in_group(Group::TriangleHits)
+};
 
-pub(super) fn outside(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("triangle.outside");
+pub(super) const OUTSIDE: Declaration = Declaration {
+    id: "triangle.outside",
+    points: 2,
+    title: "a ray that crosses the plane beyond an edge misses",
+    look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
+           weight of the opposite corner is negative.",
+    section: "triangle.md#test-the-third-weight-too",
+    questions: outside,
+    ..Declaration::in_group(Group::TriangleHits)
+};
+
+fn outside(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = || {
-        let vertices = random_triangle(&mut rng);
+        let vertices = random_triangle(rng);
         let mut rays: Vec<Ray> = (0..12)
             .map(|i| {
                 // A third of the rays pass close to the edge.
                 let beyond = if i < 4 { (0.022, 0.06) } else { (0.06, 0.6) };
                 let beyond = rng.uniform(beyond.0, beyond.1);
-                let weights = weights_beyond_edge_by(&mut rng, i % 3, beyond);
-                ray_through(&mut rng, &vertices, weights, Side::Front)
+                let weights = weights_beyond_edge_by(rng, i % 3, beyond);
+                ray_through(rng, &vertices, weights, Side::Front)
             })
             .collect();
-        rays.extend((0..4).map(|_| hitting_ray(&mut rng, &vertices, Side::Front)));
+        rays.extend((0..4).map(|_| hitting_ray(rng, &vertices, Side::Front)));
         (shape(&vertices, 0), rng.shuffled(rays))
     };
     let [first, second, third] = [table(), table(), table()];
-    let room = Place::room(&mut rng);
-    let third_rays = third.1.iter().map(|ray| room.ray(ray)).collect();
-    let third = (room.shape(&third.0), third_rays);
-    let question = |(shape, rays)| shapes_question(&[], vec![shape], rays);
-    item(
-        Declaration {
-            id: "triangle.outside",
-            points: 2,
-            title: "a ray that crosses the plane beyond an edge misses",
-            look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three \
-                   edges, the weight of the opposite corner is negative.",
-            section: "triangle.md#test-the-third-weight-too",
-            group: Some(Group::TriangleHits),
-            needs: &[],
-        },
-        [first, second, third].map(question).to_vec(),
-    )
+    let third = Place::room(rng).table(&third);
+    let question = |(shape, rays)| shape_question(&[], shape, rays);
+    [first, second, third].map(question).to_vec()
 }
 
-pub(super) fn from_behind(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "triangle.from_behind",
-            points: 1,
-            title: "a triangle is hit from behind as well",
-            look: "Seen from behind, the determinant has the other sign, which is no reason for a \
-                   miss.",
-            section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
-            group: Some(Group::TriangleHits),
-            needs: &[],
-        },
-        table_questions(
-            "triangle.from_behind",
-            seed,
-            &[HitCheck::Distance],
-            Side::Back,
-        ),
-    )
+pub(super) const FROM_BEHIND: Declaration = Declaration {
+    id: "triangle.from_behind",
+    points: 1,
+    title: "a triangle is hit from behind as well",
+    look: "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
+    section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
+    questions: |rng| table_questions(rng, &[HitCheck::Distance], Side::Back),
+    ..Declaration::in_group(Group::TriangleHits)
+};
+
+/// Returns the distance of a triangle along a ray that is aimed at it.
+fn distance(ray: &Ray, vertices: &[Vertex; 3]) -> f64 {
+    let hit = triangle::intersect(&Ray64::from(ray), vertices, 0);
+    hit.expect("the ray was aimed at the triangle").distance
 }
 
 /// Creates questions with rays through a triangle, where only the range decides between hit and
 /// miss.
 fn range_questions(
-    name: &str,
-    seed: Seed,
+    rng: &mut Rng,
     range: impl Fn(&mut Rng, f64) -> (f64, f64),
 ) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(name);
     let mut table = || {
-        let vertices = random_triangle(&mut rng);
+        let vertices = random_triangle(rng);
         let rays = (0..12).map(|_| {
-            let ray = hitting_ray(&mut rng, &vertices, Side::Either);
-            let hit = triangle::intersect(&Ray64::from(&ray), &vertices, 0)
-                .expect("the ray was aimed at the triangle");
-            let (min, max) = range(&mut rng, hit.distance);
+            let ray = hitting_ray(rng, &vertices, Side::Either);
+            let (min, max) = range(rng, distance(&ray, &vertices));
             ray.within(min as f32, max as f32)
         });
-        let rays = rays.collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        distance_question(&vertices, rays)
     };
     vec![table(), table(), dust(table())]
 }
 
-pub(super) fn range_max(seed: Seed) -> DeclaredItem {
+pub(super) const RANGE_MAX: Declaration = Declaration {
+    id: "triangle.range_max",
+    points: 1,
+    title: "there is no hit beyond the end of the ray's range",
+    look: "A ray through the triangle hits it if and only if t is in ray.range, however small the \
+           triangle is. Which comparison in your code decides about the ray shown?",
+    section: "triangle.md#check-both-ends-of-the-range",
+    questions: range_max,
+    ..Declaration::in_group(Group::TriangleHits)
+};
+
+fn range_max(rng: &mut Rng) -> Vec<ExamQuestion> {
     let range = |rng: &mut Rng, t: f64| (0.0, t + rng.sign() * rng.uniform(0.03, 0.6));
-    item(
-        Declaration {
-            id: "triangle.range_max",
-            points: 1,
-            title: "there is no hit beyond the end of the ray's range",
-            look: "A ray through the triangle hits it if and only if t is in ray.range, however \
-                   small the triangle is. Which comparison in your code decides about the ray \
-                   shown?",
-            section: "triangle.md#check-both-ends-of-the-range",
-            group: Some(Group::TriangleHits),
-            needs: &[],
-        },
-        range_questions("triangle.range_max", seed, range),
-    )
+    range_questions(rng, range)
 }
 
 /// Creates a question with rays that start on the triangle, as after a bounce, and with some that
 /// start before it.
-fn rays_from_the_surface(seed: Seed) -> ExamQuestion {
-    let mut rng = seed.rng("triangle.rays_from_the_surface");
-    let vertices = random_triangle(&mut rng);
+fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
+    let vertices = random_triangle(rng);
     let rays = (0..12).map(|i| {
-        let ray = hitting_ray(&mut rng, &vertices, Side::Either);
-        let hit = triangle::intersect(&Ray64::from(&ray), &vertices, 0)
-            .expect("the ray was aimed at the triangle");
-        let start = if i % 3 == 0 { 0.0 } else { hit.distance };
+        let ray = hitting_ray(rng, &vertices, Side::Either);
+        let start = if i % 3 == 0 {
+            0.0
+        } else {
+            distance(&ray, &vertices)
+        };
         let origin = Ray64::from(&ray).at(start).as_vec3();
         Ray { origin, ..ray }.within(0.05, f32::INFINITY)
     });
-    let rays = rays.collect();
-    shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+    distance_question(&vertices, rays)
 }
 
-pub(super) fn range_min(seed: Seed) -> DeclaredItem {
+pub(super) const RANGE_MIN: Declaration = Declaration {
+    id: "triangle.range_min",
+    points: 1,
+    title: "there is no hit before the start of the ray's range",
+    look: "The range has two ends, and its start need not be 0. Compare t with these two, and with \
+           no constant, however small.",
+    section: "triangle.md#check-both-ends-of-the-range",
+    questions: range_min,
+    ..Declaration::in_group(Group::TriangleHits)
+};
+
+fn range_min(rng: &mut Rng) -> Vec<ExamQuestion> {
     let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
-    item(
-        Declaration {
-            id: "triangle.range_min",
-            points: 1,
-            title: "there is no hit before the start of the ray's range",
-            look: "The range has two ends, and its start need not be 0. Compare t with these two, and \
-                   with no constant, however small.",
-            section: "triangle.md#check-both-ends-of-the-range",
-            group: Some(Group::TriangleHits),
-            needs: &[],
-        },
-        range_questions("triangle.range_min", seed, range)
-            .into_iter()
-            .chain([rays_from_the_surface(seed)])
-            .collect(),
-    )
+    let from_the_surface = &mut rng.sequence("triangle.rays_from_the_surface");
+    let mut questions = range_questions(rng, range);
+    questions.push(rays_from_the_surface(from_the_surface));
+    questions
 }
 
-pub(super) fn behind_the_ray(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("triangle.behind_the_ray");
+pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
+    id: "triangle.behind_the_ray",
+    points: 1,
+    title: "a triangle behind the ray is missed",
+    look: "Work out t for the ray shown. Behind the ray it is negative, although the weights look \
+           like those of a hit; ahead of the ray it is in ray.range.",
+    section: "triangle.md#hits-behind-the-origin-do-not-count",
+    questions: behind_the_ray,
+    ..Declaration::in_group(Group::TriangleHits)
+};
+
+fn behind_the_ray(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = || {
-        let vertices = random_triangle(&mut rng);
-        let rays = (0..12).map(|i| {
-            let ray = hitting_ray(&mut rng, &vertices, Side::Either);
-            if i % 2 == 0 {
-                ray
-            } else {
-                Ray::new(ray.origin, -ray.dir)
-            }
-        });
-        let rays = rays.collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        let vertices = random_triangle(rng);
+        let rays =
+            (0..12).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &vertices, Side::Either)));
+        distance_question(&vertices, rays)
     };
-    item(
-        Declaration {
-            id: "triangle.behind_the_ray",
-            points: 1,
-            title: "a triangle behind the ray is missed",
-            look: "Work out t for the ray shown. Behind the ray it is negative, although \
-                   the weights look like those of a hit; ahead of the ray it is in \
-                   ray.range.",
-            section: "triangle.md#hits-behind-the-origin-do-not-count",
-            group: Some(Group::TriangleHits),
-            needs: &[],
-        },
-        vec![table(), table()],
-    )
+    vec![table(), table()]
 }
 
-pub(super) fn tiny(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("triangle.tiny");
+pub(super) const TINY: Declaration = Declaration {
+    id: "triangle.tiny",
+    points: 1,
+    title: "a triangle with edges of 1e-3 is hit like any other",
+    look: "The determinant is small for small triangles too, not only for parallel rays: compare \
+           it with zero, not with a small number.",
+    section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
+    questions: tiny,
+    ..Declaration::ALONE
+};
+
+fn tiny(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = || {
         // The corners come from a cube of side 4, so scaled edges are about 1e-3 long.
-        let mut vertices = random_triangle(&mut rng);
+        let mut vertices = random_triangle(rng);
         for vertex in &mut vertices {
             vertex.position *= 4e-4;
         }
@@ -210,9 +187,9 @@ pub(super) fn tiny(seed: Seed) -> DeclaredItem {
         let front = (p1 - p0).cross(p2 - p0).normalize();
         let rays = (0..16).map(|i| {
             let weights = if i % 2 == 0 {
-                weights_inside(&mut rng, 0.1)
+                weights_inside(rng, 0.1)
             } else {
-                weights_beyond_edge(&mut rng, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
+                weights_beyond_edge(rng, i % 3).map(|w| w * 2.0 - 1.0 / 3.0)
             };
             let target = weights[0] * p0 + weights[1] * p1 + weights[2] * p2;
             rng.retry(|rng| {
@@ -223,22 +200,9 @@ pub(super) fn tiny(seed: Seed) -> DeclaredItem {
                 (is_steep && intersection.least_weight().abs() > 0.05).then_some(ray)
             })
         });
-        let rays = rays.collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
+        distance_question(&vertices, rays)
     };
-    item(
-        Declaration {
-            id: "triangle.tiny",
-            points: 1,
-            title: "a triangle with edges of 1e-3 is hit like any other",
-            look: "The determinant is small for small triangles too, not only for parallel rays: \
-                   compare it with zero, not with a small number.",
-            section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
-            group: None,
-            needs: &[],
-        },
-        vec![table(), table()],
-    )
+    vec![table(), table()]
 }
 
 /// A coordinate system along the axes, with small integers as its origin: the axes are permuted, and
@@ -268,22 +232,26 @@ impl Frame {
 
 /// Returns the item about degenerate triangles. Its coordinates are small integers, so that the
 /// determinant is exactly zero in every correct formula.
-pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("triangle.degenerate");
-    let frame = Frame::random(&mut rng);
+pub(super) const DEGENERATE: Declaration = Declaration {
+    id: "triangle.degenerate",
+    points: 1,
+    title: "a triangle that has no area or is parallel to the ray is missed",
+    look: "The determinant is then zero, and dividing by it gives no usable number: return a miss.",
+    section: "triangle.md#when-the-denominator-is-zero",
+    questions: degenerate,
+    ..Declaration::ALONE
+};
+
+fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let frame = Frame::random(rng);
     let flat = |corners: [[f32; 2]; 3]| {
         let vertex = |[x, y]: [f32; 2]| {
             Vertex::new(frame.point(x, y, 0.0), frame.dir(0.0, 0.0, 1.0), Vec2::ZERO)
         };
         shape(&corners.map(vertex), 0)
     };
-    let control = |rng: &mut Rng| {
-        let vertices = random_triangle(rng);
-        let rays = (0..4)
-            .map(|_| hitting_ray(rng, &vertices, Side::Either))
-            .collect();
-        shapes_question(&[HitCheck::Distance], vec![shape(&vertices, 0)], rays)
-    };
+    let vertices = random_triangle(rng);
+    let control = (0..4).map(|_| hitting_ray(rng, &vertices, Side::Either));
     let down = |x: f32, y: f32| Ray::new(frame.point(x, y, 4.0), frame.dir(0.0, 0.0, -1.0));
     let along = |y: f32, z: f32| Ray::new(frame.point(-4.0, y, z), frame.dir(1.0, 0.0, 0.0));
 
@@ -295,26 +263,14 @@ pub(super) fn degenerate(seed: Seed) -> DeclaredItem {
     let beside = [1.0, 2.0, 3.0, -1.0, 5.0].into_iter();
     let parallel = beside.flat_map(|y| [2.0, -2.0, 1.0, -1.0].map(|z| along(y, z)));
     let parallel = parallel.collect();
-    let question = |shape: Shape, rays: Vec<Ray>| shapes_question(&[], vec![shape], rays);
-    item(
-        Declaration {
-            id: "triangle.degenerate",
-            points: 1,
-            title: "a triangle that has no area or is parallel to the ray is missed",
-            look: "The determinant is then zero, and dividing by it gives no usable number: return \
-                   a miss.",
-            section: "triangle.md#when-the-denominator-is-zero",
-            group: None,
-            needs: &[],
-        },
-        vec![
-            question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
-            question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
-            question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
-            question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
-            // On both sides of the plane, as t = z / 0 is +∞ on one of them and −∞ on the other.
-            question(half_square, parallel),
-            control(&mut rng),
-        ],
-    )
+    let question = |shape: Shape, rays: Vec<Ray>| shape_question(&[], shape, rays);
+    vec![
+        question(line, vec![down(1.0, 1.0), down(2.0, 1.0), down(2.0, 3.0)]),
+        question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
+        question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
+        question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
+        // On both sides of the plane, as t = z / 0 is +∞ on one of them and −∞ on the other.
+        question(half_square, parallel),
+        distance_question(&vertices, control),
+    ]
 }

@@ -7,30 +7,30 @@ mod surface;
 
 use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
 use judging::exam::{ExamQuestion, HitCheck};
-use protocol::{Ray, Shape};
+use protocol::{Ray, Vertex};
 
 use crate::items::place::Place;
 use crate::items::{DeclaredItem, draw_items};
-use crate::seed::Seed;
+use crate::seed::{Rng, Seed};
 
 /// Returns the items of the task `triangle`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all: [fn(Seed) -> DeclaredItem; 15] = [
-        hits::inside,
-        hits::outside,
-        surface::position,
-        surface::normal,
-        surface::uv,
-        surface::uv_corners,
-        hits::from_behind,
-        surface::normal_from_behind,
-        hits::range_max,
-        hits::range_min,
-        hits::behind_the_ray,
-        hits::tiny,
-        hits::degenerate,
-        surface::origin_and_material,
-        scene::picture,
+    let all = [
+        hits::INSIDE,
+        hits::OUTSIDE,
+        surface::POSITION,
+        surface::NORMAL,
+        surface::UV,
+        surface::UV_CORNERS,
+        hits::FROM_BEHIND,
+        surface::NORMAL_FROM_BEHIND,
+        hits::RANGE_MAX,
+        hits::RANGE_MIN,
+        hits::BEHIND_THE_RAY,
+        hits::TINY,
+        hits::DEGENERATE,
+        surface::ORIGIN_AND_MATERIAL,
+        scene::PICTURE,
     ];
     draw_items(seed, &all)
 }
@@ -38,31 +38,24 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
 /// Creates one question for each of four triangles, with rays that hit the triangle from this side
 /// and some rays that miss. The last triangle is as large and as far from the origin as those of the
 /// Cornell box.
-fn table_questions(name: &str, seed: Seed, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
-    let mut rng = seed.rng(name);
+fn table_questions(rng: &mut Rng, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
     let mut table = || {
-        let vertices = random_triangle(&mut rng);
-        let mut rays: Vec<Ray> = (0..8)
-            .map(|_| hitting_ray(&mut rng, &vertices, side))
-            .collect();
+        let vertices = random_triangle(rng);
+        let mut rays: Vec<Ray> = (0..8).map(|_| hitting_ray(rng, &vertices, side)).collect();
         // These rays pass beyond each edge in turn.
         rays.extend((0..4).map(|i| {
-            let weights = weights_beyond_edge(&mut rng, i % 3);
-            ray_through(&mut rng, &vertices, weights, side)
+            let weights = weights_beyond_edge(rng, i % 3);
+            ray_through(rng, &vertices, weights, side)
         }));
-        (vec![shape(&vertices, 0)], rng.shuffled(rays))
+        (shape(&vertices, 0), rng.shuffled(rays))
     };
-    let tables = [table(), table(), table(), table()];
-    let room = Place::room(&mut rng);
-    let question = |(index, (shapes, rays)): (usize, (Vec<Shape>, Vec<Ray>))| {
-        let is_last = index == 3;
-        let (shapes, rays) = if is_last {
-            let rays = rays.iter().map(|ray| room.ray(ray)).collect();
-            (room.shapes(&shapes), rays)
-        } else {
-            (shapes, rays)
-        };
-        super::shapes_question(checks, shapes, rays)
-    };
-    tables.into_iter().enumerate().map(question).collect()
+    let [first, second, third, last] = [table(), table(), table(), table()];
+    let last = Place::room(rng).table(&last);
+    let question = |(shape, rays)| super::shape_question(checks, shape, rays);
+    [first, second, third, last].map(question).to_vec()
+}
+
+/// Creates a question about a triangle whose hits are compared by their distances.
+fn distance_question(vertices: &[Vertex; 3], rays: impl IntoIterator<Item = Ray>) -> ExamQuestion {
+    super::shape_question(&[HitCheck::Distance], shape(vertices, 0), rays)
 }

@@ -1,31 +1,31 @@
 //! The item with a picture of triangles.
 
 use glam::{Vec3, dvec3, vec2, vec3};
+use judging::exam::ExamQuestion;
 use protocol::{Shape, Vertex};
 
 use super::aim::{random_triangle, shape};
-use crate::items::{Declaration, DeclaredItem, item, picture};
-use crate::seed::{Rng, Seed};
+use crate::items::{Declaration, picture};
+use crate::seed::Rng;
 
-pub(super) fn picture(seed: Seed) -> DeclaredItem {
-    let shapes = picture_shapes(&mut seed.rng("triangle.picture"));
-    item(
-        Declaration {
-            id: "triangle.picture",
-            points: 4,
-            title: "a picture of triangles is correct in hits, depth, normals and uv",
-            look: "It shows a smooth hill, a square made of two triangles, triangles seen from \
-                   behind and some tiny ones. See where it is wrong: along edges, on one side, or \
-                   in the tiny triangles?",
-            section: "grading.md#reading-a-wrong-picture",
-            group: None,
-            needs: &[],
-        },
-        vec![picture::picture_question(
-            picture::camera_at_origin(64),
-            shapes,
-        )],
-    )
+pub(super) const PICTURE: Declaration = Declaration {
+    id: "triangle.picture",
+    points: 4,
+    title: "a picture of triangles is correct in hits, depth, normals and uv",
+    look: "It shows a smooth hill, a square made of two triangles, triangles seen from behind and \
+           some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
+           triangles?",
+    section: "grading.md#reading-a-wrong-picture",
+    questions: picture,
+    ..Declaration::ALONE
+};
+
+fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let shapes = picture_shapes(&mut rng.sequence("triangle.picture"));
+    vec![picture::picture_question(
+        picture::camera_at_origin(64),
+        shapes,
+    )]
 }
 
 /// Returns the triangles in front of a camera at the origin that looks down −z with a field of view

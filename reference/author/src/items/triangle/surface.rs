@@ -1,141 +1,105 @@
 //! Items about the quantities of a hit.
 
-use judging::exam::HitCheck;
+use judging::exam::{ExamQuestion, HitCheck};
 use protocol::Ray;
 
 use super::aim::{
     Side, hitting_ray, missing_ray, random_triangle, ray_through, shape, weights_inside,
 };
 use super::table_questions;
-use crate::items::{Declaration, DeclaredItem, Group, item, shapes_question};
-use crate::seed::Seed;
+use crate::items::{Declaration, Group, shape_question};
+use crate::seed::Rng;
 
-pub(super) fn position(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "triangle.position",
-            points: 1,
-            title: "position is the point where the ray hits the triangle",
-            look: "It is the ray's point at t, or the weighted sum of the corners: both are the \
-                   same.",
-            section: "triangle.md#what-to-return",
-            group: Some(Group::TriangleSurface),
-            needs: &[],
-        },
-        table_questions(
-            "triangle.position",
-            seed,
-            &[HitCheck::Position],
-            Side::Front,
-        ),
-    )
-}
+pub(super) const POSITION: Declaration = Declaration {
+    id: "triangle.position",
+    points: 1,
+    title: "position is the point where the ray hits the triangle",
+    look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
+    section: "triangle.md#what-to-return",
+    questions: |rng| table_questions(rng, &[HitCheck::Position], Side::Front),
+    ..Declaration::in_group(Group::TriangleSurface)
+};
 
-pub(super) fn normal(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "triangle.normal",
-            points: 1,
-            title: "the normal is interpolated between the corners' normals",
-            look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at \
-                   p0, p1 and p2, and w = 1 − u − v. The normal of the flat face is not used.",
-            section: "triangle.md#interpolate-the-given-normals",
-            group: Some(Group::TriangleSurface),
-            needs: &[],
-        },
-        table_questions("triangle.normal", seed, &[HitCheck::Normal], Side::Front),
-    )
-}
+pub(super) const NORMAL: Declaration = Declaration {
+    id: "triangle.normal",
+    points: 1,
+    title: "the normal is interpolated between the corners' normals",
+    look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
+           p2, and w = 1 − u − v. The normal of the flat face is not used.",
+    section: "triangle.md#interpolate-the-given-normals",
+    questions: |rng| table_questions(rng, &[HitCheck::Normal], Side::Front),
+    ..Declaration::in_group(Group::TriangleSurface)
+};
 
-pub(super) fn uv(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "triangle.uv",
-            points: 1,
-            title: "uv is interpolated between the corners' texture coordinates",
-            look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at \
-                   p0, p1 and p2, and w = 1 − u − v. The barycentric u and v are only its \
-                   weights.",
-            section: "triangle.md#the-weights-are-not-the-texture-coordinates",
-            group: Some(Group::TriangleSurface),
-            needs: &[],
-        },
-        table_questions("triangle.uv", seed, &[HitCheck::Uv], Side::Front),
-    )
-}
+pub(super) const UV: Declaration = Declaration {
+    id: "triangle.uv",
+    points: 1,
+    title: "uv is interpolated between the corners' texture coordinates",
+    look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and p2, \
+           and w = 1 − u − v. The barycentric u and v are only its weights.",
+    section: "triangle.md#the-weights-are-not-the-texture-coordinates",
+    questions: |rng| table_questions(rng, &[HitCheck::Uv], Side::Front),
+    ..Declaration::in_group(Group::TriangleSurface)
+};
 
-pub(super) fn uv_corners(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("triangle.uv_corners");
+pub(super) const UV_CORNERS: Declaration = Declaration {
+    id: "triangle.uv_corners",
+    points: 1,
+    title: "near a corner, that corner's texture coordinates count most",
+    look: "Close to a corner, that corner's weight is nearly 1 and the two others are nearly 0. w \
+           = 1 − u − v belongs to p0, u to p1 and v to p2.",
+    section: "triangle.md#each-weight-belongs-to-its-corner",
+    questions: uv_corners,
+    ..Declaration::in_group(Group::TriangleSurface)
+};
+
+fn uv_corners(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = || {
-        let vertices = random_triangle(&mut rng);
+        let vertices = random_triangle(rng);
         let mut rays = Vec::new();
         for corner in 0..3 {
             for _ in 0..3 {
-                let mut weights = weights_inside(&mut rng, 0.25).map(|w| 0.2 * w);
+                let mut weights = weights_inside(rng, 0.25).map(|w| 0.2 * w);
                 weights[corner] += 0.8;
-                rays.push(ray_through(&mut rng, &vertices, weights, Side::Front));
+                rays.push(ray_through(rng, &vertices, weights, Side::Front));
             }
-            rays.push(missing_ray(&mut rng, &vertices, Side::Front));
+            rays.push(missing_ray(rng, &vertices, Side::Front));
         }
-        shapes_question(&[HitCheck::Uv], vec![shape(&vertices, 0)], rays)
+        shape_question(&[HitCheck::Uv], shape(&vertices, 0), rays)
     };
-    item(
-        Declaration {
-            id: "triangle.uv_corners",
-            points: 1,
-            title: "near a corner, that corner's texture coordinates count most",
-            look: "Close to a corner, that corner's weight is nearly 1 and the two others are \
-                   nearly 0. w = 1 − u − v belongs to p0, u to p1 and v to p2.",
-            section: "triangle.md#each-weight-belongs-to-its-corner",
-            group: Some(Group::TriangleSurface),
-            needs: &[],
-        },
-        vec![table(), table()],
-    )
+    vec![table(), table()]
 }
 
-pub(super) fn normal_from_behind(seed: Seed) -> DeclaredItem {
-    item(
-        Declaration {
-            id: "triangle.normal_from_behind",
-            points: 1,
-            title: "seen from behind, the normal stays as it is",
-            look: "The normal belongs to the surface, not to the ray, so it is never flipped \
-                   toward the ray.",
-            section: "triangle.md#do-not-flip-the-normal",
-            group: Some(Group::TriangleSurface),
-            needs: &[],
-        },
-        table_questions(
-            "triangle.normal_from_behind",
-            seed,
-            &[HitCheck::Normal],
-            Side::Either,
-        ),
-    )
-}
+pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
+    id: "triangle.normal_from_behind",
+    points: 1,
+    title: "seen from behind, the normal stays as it is",
+    look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
+           ray.",
+    section: "triangle.md#do-not-flip-the-normal",
+    questions: |rng| table_questions(rng, &[HitCheck::Normal], Side::Either),
+    ..Declaration::in_group(Group::TriangleSurface)
+};
 
-pub(super) fn origin_and_material(seed: Seed) -> DeclaredItem {
-    let mut rng = seed.rng("triangle.origin_and_material");
+pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
+    id: "triangle.origin_and_material",
+    points: 1,
+    title: "the trace holds the ray's origin and the triangle's material",
+    look: "Copy both: the origin from the ray, and the material from the triangle.",
+    section: "triangle.md#what-to-return",
+    questions: origin_and_material,
+    ..Declaration::in_group(Group::TriangleSurface)
+};
+
+fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = |material: u32| {
-        let vertices = random_triangle(&mut rng);
+        let vertices = random_triangle(rng);
         let mut rays: Vec<Ray> = (0..6)
-            .map(|_| hitting_ray(&mut rng, &vertices, Side::Front))
+            .map(|_| hitting_ray(rng, &vertices, Side::Front))
             .collect();
-        rays.extend((0..3).map(|_| missing_ray(&mut rng, &vertices, Side::Front)));
+        rays.extend((0..3).map(|_| missing_ray(rng, &vertices, Side::Front)));
         let checks = [HitCheck::Origin, HitCheck::Material];
-        shapes_question(&checks, vec![shape(&vertices, material)], rays)
+        shape_question(&checks, shape(&vertices, material), rays)
     };
-    item(
-        Declaration {
-            id: "triangle.origin_and_material",
-            points: 1,
-            title: "the trace holds the ray's origin and the triangle's material",
-            look: "Copy both: the origin from the ray, and the material from the triangle.",
-            section: "triangle.md#what-to-return",
-            group: Some(Group::TriangleSurface),
-            needs: &[],
-        },
-        vec![table(0), table(7), table(42)],
-    )
+    vec![table(0), table(7), table(42)]
 }

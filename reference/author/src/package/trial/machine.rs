@@ -27,31 +27,14 @@ const NO_CARGO: &str = "CARGO is not set: run `cargo author package … --check`
 /// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
 const NO_LIMITS_CODE: i32 = 125;
 
-/// The user that a job runs as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum User {
-    /// Root, with the capabilities of a Docker container.
-    Container,
-    /// The user of GitHub's runners.
-    Runner,
-}
-
-/// The resource limits of a job.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limits {
-    /// No limits, as when a platform builds an image.
-    None,
-    /// Half a core and 768 MiB.
-    Platform,
-}
-
 /// A command to run on the machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Job<'a> {
-    /// The user that the command runs as.
-    pub user: User,
-    /// The resource limits.
-    pub limits: Limits,
+    /// The user that the command runs as: `container`, which is root with the capabilities of a Docker
+    /// container, or `runner`, the user of GitHub's runners.
+    pub user: &'static str,
+    /// Whether it gets half a core and 768 MiB. A platform builds an image without limits.
+    pub is_limited: bool,
     /// The working directory, as a path on the machine.
     pub folder: &'a str,
     /// The platform's environment variables: `NAME=value`.
@@ -153,27 +136,22 @@ impl Machine {
     /// Runs a job on the machine.
     pub fn run(&self, job: Job) -> Result<JobResult> {
         let usage_file = &self.root.with_extension("used");
-        let is_limited = self.is_limited && job.limits == Limits::Platform;
-        let mut command = if is_limited {
-            let mut command = self.root_command("sh");
-            command
-                .args(["-c", LIMIT_SCRIPT, "sh"])
-                .arg(usage_file)
-                .arg("unshare");
-            command
-        } else {
-            self.root_command("unshare")
-        };
-        let user = match job.user {
-            User::Container => "container",
-            User::Runner => "runner",
-        };
+        let is_limited = self.is_limited && job.is_limited;
+        let mut command = self.root_command(if is_limited { "sh" } else { "unshare" });
+        if is_limited {
+            let script = command.args(["-c", LIMIT_SCRIPT, "sh"]);
+            script.arg(usage_file).arg("unshare");
+        }
         command
             .args(NAMESPACES)
             .args(["sh", "-c", ENTER_SCRIPT, "sh"])
             .args([&self.root, &self.toolchain])
-            .args([user, job.folder, "LANG=C.UTF-8"])
-            .arg(self.path_variable())
+            .args([job.user, job.folder, "LANG=C.UTF-8"])
+            // `env -i` would remove it.
+            .arg(format!(
+                "PATH={}/bin:{SYSTEM_PATH}",
+                self.toolchain.display()
+            ))
             .args(job.variables)
             .args(job.command);
         let start = Instant::now();
@@ -187,12 +165,6 @@ impl Machine {
             wall_time: start.elapsed(),
             usage: usage.map(|text| ResourceUsage::read(&text)),
         })
-    }
-
-    /// Returns the setting of `PATH`, which `env -i` would remove.
-    fn path_variable(&self) -> String {
-        let toolchain = self.toolchain.display();
-        format!("PATH={toolchain}/bin:{SYSTEM_PATH}")
     }
 
     fn can_limit(&self) -> Result<bool> {

@@ -16,7 +16,7 @@ use grader::handed_out::HandedOut;
 
 use crate::bundle::{Bundle, archive};
 use crate::package::Platform;
-use crate::package::trial::machine::{JobResult, Limits, Machine};
+use crate::package::trial::machine::{JobResult, Machine};
 use crate::package::trial::setup::{Setup, points};
 use crate::package::trial::submission::{REACHED, TrialSubmission, submissions};
 
@@ -53,7 +53,7 @@ pub fn check(
         }
         archive::write_files(&setup.checkout, &machine.host_path(setup.run.folder))?;
         submission.write_to(handed_out, &machine.host_path(setup.run.task_files))?;
-        let job = setup.run(&machine, Limits::Platform, &setup.command)?;
+        let job = setup.run(&machine, true, &setup.command)?;
         problems.extend(time_problem(submission.name, &job, setup.run.time_limit));
         problems.extend(problem(&machine, &setup, &submission, &job));
     }
@@ -119,7 +119,7 @@ fn problem(
 /// its failure would then prove nothing.
 fn harmless_attack(machine: &Machine, setup: &Setup) -> Result<Option<String>> {
     let command = ["bash", "-c", GRADE_WITHOUT_ISOLATION].map(str::to_owned);
-    let job = setup.run(machine, Limits::None, &command)?;
+    let job = setup.run(machine, false, &command)?;
     let score = machine.host_path("/opt/pathtracing/target/open/score.json");
     let is_harmless = !files::read_to_string(score)?.contains(REACHED);
     Ok(is_harmless.then(|| {

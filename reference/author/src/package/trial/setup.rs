@@ -11,7 +11,7 @@ use zip::ZipArchive;
 
 use crate::bundle::{Bundle, archive, crates};
 use crate::package::Platform;
-use crate::package::trial::machine::{Job, JobResult, Limits, Machine, User};
+use crate::package::trial::machine::{Job, JobResult, Machine};
 
 /// The metadata file that Gradescope provides with a submission. It does not affect the score.
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [
@@ -50,7 +50,7 @@ const COMMIT_AND_RUN: &str = "git init --quiet && git add . && \
 /// How a platform runs a package. All paths are paths on its machine.
 #[derive(Debug)]
 pub struct PlatformRun {
-    user: User,
+    user: &'static str,
     /// The working folder.
     pub folder: &'static str,
     /// The folders that are made empty before each submission.
@@ -66,7 +66,7 @@ pub struct PlatformRun {
 }
 
 const GRADESCOPE: PlatformRun = PlatformRun {
-    user: User::Container,
+    user: "container",
     folder: "/autograder",
     cleared: ["/autograder/submission", "/autograder/results"],
     task_files: "/autograder/submission",
@@ -81,7 +81,7 @@ const CLASSROOM50: PlatformRun = PlatformRun {
     ..GITHUB
 };
 const GITHUB: PlatformRun = PlatformRun {
-    user: User::Runner,
+    user: "runner",
     folder: CHECKOUT,
     cleared: [CHECKOUT, "/home/runner/step"],
     task_files: "/home/runner/work/pathtracing/pathtracing/student/src",
@@ -152,7 +152,7 @@ impl Setup {
             variables: vec![machine.install_rustup()?],
         };
         let script = ["bash", "/autograder/source/setup.sh"].map(str::to_owned);
-        let job = setup.run(machine, Limits::None, &script)?;
+        let job = setup.run(machine, false, &script)?;
         ensure!(job.code == Some(0), "setup.sh failed:\n{}", job.output);
         Ok(setup)
     }
@@ -174,11 +174,16 @@ impl Setup {
         })
     }
 
-    /// Runs a command as the platform does.
-    pub fn run(&self, machine: &Machine, limits: Limits, command: &[String]) -> Result<JobResult> {
+    /// Runs a command as the platform does, with its limits or without.
+    pub fn run(
+        &self,
+        machine: &Machine,
+        is_limited: bool,
+        command: &[String],
+    ) -> Result<JobResult> {
         machine.run(Job {
             user: self.run.user,
-            limits,
+            is_limited,
             folder: self.run.folder,
             variables: &self.variables,
             command,

@@ -11,17 +11,12 @@ pub mod table;
 use std::ops::Range;
 
 use anyhow::Result;
-use indicatif::ParallelProgressIterator;
 use judging::exam::{Exam, Item};
 use judging::judge::Threshold;
-use rayon::prelude::*;
 
-use crate::exams;
 use crate::proof::calibrate::margins::{DeviationSample, Margin, Margins};
 use crate::proof::grade::tasks_and_dependents;
-use crate::proof::progress::progress_bar;
-use crate::proof::run::run;
-use crate::seed::Seed;
+use crate::proof::run::{exam_of, for_seeds, run};
 use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::BuiltSolution;
@@ -74,28 +69,25 @@ pub fn calibrate(
     with_mistakes: u64,
 ) -> Result<Calibration> {
     let all = solutions.variants.iter().chain(&solutions.mistakes);
-    let built = run(&solutions.workbench, all, "solutions built", |_, built| {
-        Ok(built)
-    })?;
+    let built = run(
+        &solutions.workbench,
+        all,
+        "solutions built",
+        |solution, built| Ok((solution, built)),
+    )?;
     let (variants, mistakes) = built.split_at(solutions.variants.len());
     let mistake_seeds = seeds.start..seeds.end.min(seeds.start + with_mistakes);
-    let of_seeds: Result<Vec<Margins>> = seeds
-        .clone()
-        .into_par_iter()
-        .progress_with(progress_bar(seeds.end - seeds.start, "seeds"))
-        .map(|seed| {
-            let is_wanted = mistake_seeds.contains(&seed);
-            let mistakes = if is_wanted { mistakes } else { &[] };
-            let exam = exams::generate("calibration", Seed(seed), &solutions.recorder)?;
-            margins(seed, &exam, variants, mistakes)
-        })
-        .collect();
+    let of_seeds = for_seeds(seeds.clone(), |seed| {
+        let is_wanted = mistake_seeds.contains(&seed);
+        let mistakes = if is_wanted { mistakes } else { &[] };
+        margins(seed, &exam_of(solutions, seed)?, variants, mistakes)
+    })?;
     Ok(Calibration {
         seeds,
         mistake_seeds,
         variants: solutions.variants.len(),
         mistakes: solutions.mistakes.len(),
-        margins: of_seeds?
+        margins: of_seeds
             .into_iter()
             .fold(Margins::default(), Margins::merge),
     })

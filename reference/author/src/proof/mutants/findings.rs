@@ -88,56 +88,42 @@ impl Findings {
 mod tests {
     use super::*;
 
-    fn findings(outcomes: &[(&str, MutantOutcome)], equivalent: &[&str]) -> Findings {
-        Findings {
-            outcomes: outcomes
-                .iter()
-                .map(|(name, outcome)| ((*name).to_owned(), *outcome))
-                .collect(),
-            equivalent: equivalent
-                .iter()
-                .map(|name| EquivalentMutant {
-                    name: (*name).to_owned(),
-                    why: "the result is the same".to_owned(),
-                })
-                .collect(),
-        }
-    }
-
-    #[test]
-    fn expected_survivors_are_no_problem() {
+    fn findings(equivalent: &[&str]) -> Findings {
         let outcomes = [
             ("a", MutantOutcome::Survived),
             ("b", MutantOutcome::Caught),
             ("c", MutantOutcome::NotCompiled),
             ("d", MutantOutcome::Skipped),
         ];
-        let findings = findings(&outcomes, &["a", "d"]);
-        assert_eq!(
-            findings.summary_line(),
-            "3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive"
-        );
+        let known = |name: &&str| EquivalentMutant {
+            name: (*name).to_owned(),
+            why: "the result is the same".to_owned(),
+        };
+        Findings {
+            outcomes: outcomes.map(|(name, it)| (name.to_owned(), it)).into(),
+            equivalent: equivalent.iter().map(known).collect(),
+        }
+    }
+
+    #[test]
+    fn expected_survivors_are_no_problem() {
+        let findings = findings(&["a", "d"]);
+        let summary = "3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive";
+        assert_eq!(findings.summary_line(), summary);
         assert_eq!(findings.problems(), [""; 0]);
     }
 
     #[test]
     fn reports_each_survivor_and_each_wrong_entry() {
-        let outcomes = [
-            ("a", MutantOutcome::Survived),
-            ("b", MutantOutcome::Caught),
-            ("c", MutantOutcome::NotCompiled),
-        ];
-        let findings = findings(&outcomes, &["b", "c", "d"]);
+        let findings = findings(&["b", "c", "e"]);
         assert!(findings.summary_line().ends_with("0 equivalent, 1 survive"));
-        assert_eq!(
-            findings.problems(),
-            [
-                "`a` survives: add a question to the exam that catches it, or explain in \
-                 reference/mutants/equivalent.toml why no answer can differ",
-                "`b` is caught: remove it from reference/mutants/equivalent.toml",
-                "`c` does not compile: remove it from reference/mutants/equivalent.toml",
-                "`d` does not exist: remove it from reference/mutants/equivalent.toml",
-            ]
-        );
+        let expected = [
+            "`a` survives: add a question to the exam that catches it, or explain in \
+             reference/mutants/equivalent.toml why no answer can differ",
+            "`b` is caught: remove it from reference/mutants/equivalent.toml",
+            "`c` does not compile: remove it from reference/mutants/equivalent.toml",
+            "`e` does not exist: remove it from reference/mutants/equivalent.toml",
+        ];
+        assert_eq!(findings.problems(), expected);
     }
 }

@@ -30,21 +30,19 @@ pub fn run(handed_out: &'static HandedOut, step: usize) -> Result<Findings> {
 
     let all = mutants(&reference)?;
     let sample = all.iter().step_by(step);
-    let scores = run_compiled(&workbench, sample, "mutants", |_, built| built.score(&exam))?;
-    let skipped = all.iter().map(|mutant| (mutant, MutantOutcome::Skipped));
-    let graded = scores.into_iter().map(|(mutant, score)| {
+    let graded = run_compiled(&workbench, sample, "mutants", |mutant, built| {
+        let score = built.map(|built| built.score(&exam)).transpose()?;
         let outcome = match score {
             None => MutantOutcome::NotCompiled,
             Some(score) if score.points < score.max_points => MutantOutcome::Caught,
             Some(_) => MutantOutcome::Survived,
         };
-        (mutant, outcome)
-    });
+        Ok((mutant.id.clone(), outcome))
+    })?;
+    let skipped = all.iter();
+    let skipped = skipped.map(|mutant| (mutant.id.clone(), MutantOutcome::Skipped));
     Ok(Findings {
-        outcomes: skipped
-            .chain(graded)
-            .map(|(mutant, outcome)| (mutant.id.clone(), outcome))
-            .collect(),
+        outcomes: skipped.chain(graded).collect(),
         equivalent: equivalent_mutants(workbench.root())?,
     })
 }

@@ -4,15 +4,17 @@ use std::collections::BTreeSet;
 
 use anyhow::Result;
 use grader::clue::KEPT_STATE;
-use judging::exam::Exam;
+use judging::exam::{Exam, Item};
+use judging::signatures::ObservedAnswer;
 
-use super::difference::items_unlike_signature;
 use super::{Recognition, answers, hints, list};
+use crate::hints::observed_answers;
 use crate::proof::grade::Graded;
 use crate::proof::run::run;
 use crate::solutions::Solutions;
 use crate::solutions::catalogue::{independent_mistakes, unknown_mistakes};
 use crate::solutions::solution::Solution;
+use crate::solutions::workbench::Answers;
 
 /// The report's words about a mistake.
 struct ReportedMistake {
@@ -36,39 +38,32 @@ fn report(
     mistakes: &[Solution],
     exam: &Exam,
 ) -> Result<Vec<ReportedMistake>> {
-    let rows = run(
-        &solutions.workbench,
-        mistakes,
-        "mistakes",
-        |mistake, built| {
-            let graded = Graded::new(mistake, &built, exam)?;
-            let mut clues = graded.score.items().filter_map(|item| item.clue.as_deref());
-            let names_state = clues.any(|clue| clue == KEPT_STATE);
-            let made = &mistake.expected.true_hints;
-            let is_true = |hint: &String| {
-                let mut made = made.iter();
-                made.any(|made| solutions.is_hint_true_of(hint, made))
-            };
-            let answers = answers(mistake, &built, exam)?;
-            let hints = hints(&answers, exam).into_iter();
-            let (true_hints, false_hints): (BTreeSet<String>, _) = hints.partition(is_true);
-            let unlike = match made.first() {
-                Some(known) if true_hints.is_empty() => {
-                    items_unlike_signature(exam, known, &answers)
-                }
-                _ => Vec::new(),
-            };
-            Ok(ReportedMistake {
-                id: mistake.id.clone(),
-                true_hints,
-                false_hints,
-                names_state: names_state.then_some(mistake.expected.keeps_state),
-                unlike,
-                problems: graded.task_problems(),
-            })
-        },
-    )?;
-    Ok(rows.into_iter().map(|(_, row)| row).collect())
+    let workbench = &solutions.workbench;
+    run(workbench, mistakes, "mistakes", |mistake, built| {
+        let graded = Graded::new(mistake, &built, exam)?;
+        let mut clues = graded.score.items().filter_map(|item| item.clue.as_deref());
+        let names_state = clues.any(|clue| clue == KEPT_STATE);
+        let made = &mistake.expected.true_hints;
+        let is_true = |hint: &String| {
+            let mut made = made.iter();
+            made.any(|made| solutions.is_hint_true_of(hint, made))
+        };
+        let answers = answers(mistake, &built, exam)?;
+        let hints = hints(&answers, exam).into_iter();
+        let (true_hints, false_hints): (BTreeSet<String>, _) = hints.partition(is_true);
+        let unlike = match made.first() {
+            Some(known) if true_hints.is_empty() => items_unlike_signature(exam, known, &answers),
+            _ => Vec::new(),
+        };
+        Ok(ReportedMistake {
+            id: mistake.id.clone(),
+            true_hints,
+            false_hints,
+            names_state: names_state.then_some(mistake.expected.keeps_state),
+            unlike,
+            problems: graded.task_problems(),
+        })
+    })
 }
 
 /// Grades every independent mistake, and determines its hints.
@@ -96,15 +91,11 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
         });
         recognition.problems.extend(row.problems);
     }
-    let Recognition {
-        count,
-        recognised,
-        misled,
-        ..
-    } = recognition;
+    let (count, misled) = (recognition.count, recognition.misled);
+    let recognised = recognition.recognised;
     recognition.summary_line = format!(
-        "mistakes in other solutions: {recognised} of {count} recognised ({:.0} %), {} get no \
-         hint, {misled} a false one",
+        "mistakes in other solutions: {recognised} of {count} recognised ({:.0} %), {} get no hint, \
+         {misled} a false one",
         100.0 * recognised as f64 / count.max(1) as f64,
         count - recognised - misled,
     );
@@ -131,4 +122,40 @@ pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recogniti
         lines,
         problems: rows.into_iter().flat_map(|row| row.problems).collect(),
     })
+}
+
+/// Returns the items in which a solution's answers are not those that the exam has recorded of a known
+/// mistake, each with the number of answers that differ.
+fn items_unlike_signature(exam: &Exam, mistake: &str, answers: &[(&Item, Answers)]) -> Vec<String> {
+    let mut known = exam.mistakes.iter();
+    let index = known.position(|known| known.id == mistake);
+    let unlike = answers.iter().filter_map(|(item, answers)| {
+        let recorded = recorded_answers(item, index);
+        let got = observed_answers(item, answers);
+        let elements = item.signatures.elements.iter().zip(&recorded);
+        let differing = elements.filter(|(element, recorded)| {
+            let got = got.get(**element as usize);
+            !got.is_some_and(|got| got.matches(recorded))
+        });
+        let (count, of) = (differing.count(), recorded.len());
+        (count > 0).then(|| format!("{} ({count} of {of})", item.id))
+    });
+    unlike.collect()
+}
+
+/// Returns the answers to an item's signature elements that the exam has recorded of a mistake.
+fn recorded_answers(item: &Item, mistake: Option<usize>) -> Vec<ObservedAnswer> {
+    let signatures = &item.signatures;
+    let mut answers = signatures.correct_answers.clone();
+    let mut all = signatures.mistake_answers.iter();
+    let own = all.find(|answers| {
+        let mut mistakes = answers.mistakes.iter();
+        mistakes.any(|&index| Some(index as usize) == mistake)
+    });
+    for (element, wrong) in own.iter().flat_map(|own| &own.answers) {
+        if let Some(answer) = answers.get_mut(*element as usize) {
+            answer.clone_from(wrong);
+        }
+    }
+    answers
 }

@@ -47,24 +47,18 @@ pub fn recognise_with_seeds(solutions: &Solutions, seeds: Range<u64>) -> Result<
 }
 
 fn known_hints(solutions: &Solutions, exam: &Exam) -> Result<Vec<KnownHints>> {
-    let mistakes = &solutions.mistakes;
-    let rows = run(
-        &solutions.workbench,
-        mistakes,
-        "mistakes",
-        |mistake, built| {
-            let answers = answers(mistake, &built, exam)?;
-            let mut if_unknown = hints(&answers, &without_hint(solutions, exam, &mistake.id));
-            if_unknown.retain(|hint| !solutions.is_hint_true_of(hint, &mistake.id));
-            Ok(KnownHints {
-                id: mistake.id.clone(),
-                hints: hints(&answers, exam),
-                if_unknown,
-                has_signature: has_signature(exam, &mistake.id),
-            })
-        },
-    )?;
-    Ok(rows.into_iter().map(|(_, row)| row).collect())
+    let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
+    run(workbench, mistakes, "mistakes", |mistake, built| {
+        let answers = answers(mistake, &built, exam)?;
+        let mut if_unknown = hints(&answers, &without_hint(solutions, exam, &mistake.id));
+        if_unknown.retain(|hint| !solutions.is_hint_true_of(hint, &mistake.id));
+        Ok(KnownHints {
+            id: mistake.id.clone(),
+            hints: hints(&answers, exam),
+            if_unknown,
+            has_signature: has_signature(exam, &mistake.id),
+        })
+    })
 }
 
 fn has_signature(exam: &Exam, id: &str) -> bool {
@@ -81,11 +75,8 @@ fn without_hint(solutions: &Solutions, exam: &Exam, id: &str) -> Exam {
     let has_hint: Vec<bool> = mistakes
         .map(|mistake| solutions.have_same_hint(&mistake.id, id))
         .collect();
-    for answers in exam
-        .items
-        .iter_mut()
-        .flat_map(|item| &mut item.signatures.mistake_answers)
-    {
+    let signatures = exam.items.iter_mut().map(|item| &mut item.signatures);
+    for answers in signatures.flat_map(|signatures| &mut signatures.mistake_answers) {
         let mistakes = &mut answers.mistakes;
         mistakes.retain(|&mistake| !has_hint[mistake as usize]);
     }
@@ -151,42 +142,41 @@ pub fn recognise_pairs(
     let both: Vec<Option<Solution>> = chosen
         .map(|(one, other)| both_mistakes(solutions, one, other))
         .collect();
-    let rows = run_compiled(
-        &solutions.workbench,
-        both.iter().flatten(),
-        "pairs",
-        |pair, built| Ok(hints(&answers(pair, &built, exam)?, exam)),
-    )?;
-
-    let compiled: Vec<_> = rows
-        .into_iter()
-        .filter_map(|(pair, hints)| Some((pair, hints?)))
-        .collect();
-    let impossible = both.len() - compiled.len();
-    let (mut with_true_hint, mut without, mut misled) = (0, Vec::new(), Vec::new());
-    for (pair, hints) in compiled {
-        let [one, other] = &pair.expected.true_hints[..] else {
-            continue;
+    let (workbench, applied) = (&solutions.workbench, both.iter().flatten());
+    let rows = run_compiled(workbench, applied, "pairs", |pair, built| {
+        let Some(built) = built else {
+            return Ok(None);
         };
+        let hints = hints(&answers(pair, &built, exam)?, exam).into_iter();
+        let [one, other] = [0, 1].map(|index| pair.expected.true_hints[index].as_str());
         let is_true = |hint: &String| solutions.is_hint_true_of_pair(hint, [one, other]);
-        let (fits, others): (BTreeSet<String>, _) = hints.into_iter().partition(is_true);
-        with_true_hint += usize::from(!fits.is_empty());
+        let (fits, others): (BTreeSet<String>, _) = hints.partition(is_true);
+        Ok(Some((&pair.id, fits, others)))
+    })?;
+
+    let compiled: Vec<(&String, BTreeSet<String>, BTreeSet<String>)> =
+        rows.into_iter().flatten().collect();
+    let with_true_hint = compiled.iter().filter(|(_, fits, _)| !fits.is_empty());
+    let with_true_hint = with_true_hint.count();
+    let (mut without, mut misled) = (Vec::new(), Vec::new());
+    for (id, fits, others) in &compiled {
         if !others.is_empty() {
-            misled.push(format!("{} get the false hint {}", pair.id, list(&others)));
+            misled.push(format!("{id} get the false hint {}", list(others)));
         } else if fits.is_empty() {
-            without.push(format!("{} get no hint", pair.id));
+            without.push(format!("{id} get no hint"));
         }
     }
     Ok(Recognition {
-        count: both.len() - impossible,
+        count: compiled.len(),
         recognised: with_true_hint,
         misled: misled.len(),
         problems: Vec::new(),
         summary_line: format!(
-            "pairs: {with_true_hint} get a true hint, {} no hint, {} a false one; {impossible} change \
-             the same code",
+            "pairs: {with_true_hint} get a true hint, {} no hint, {} a false one; {} change the same \
+             code",
             without.len(),
             misled.len(),
+            both.len() - compiled.len(),
         ),
         lines: [without, misled].concat(),
     })

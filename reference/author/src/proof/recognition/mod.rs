@@ -2,7 +2,6 @@
 //! other solutions, and whether an unknown mistake gets a hint that is not true of it.
 
 mod catalogue;
-mod difference;
 mod known;
 
 use std::collections::BTreeSet;

@@ -20,9 +20,8 @@ pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     for file in reference.handed_out().files {
         let text = reference.text(file.name).unwrap_or_default();
         let mut numbers: BTreeMap<String, u32> = BTreeMap::new();
-        for change in
-            families::changes(text).with_context(|| format!("cannot parse {}", file.name))?
-        {
+        let changes = families::changes(text);
+        for change in changes.with_context(|| format!("cannot parse {}", file.name))? {
             let what = change.what.split_whitespace().collect::<Vec<_>>().join(" ");
             let name = format!("{}: {what}, in {}", file.name, change.function);
             let number = numbers.entry(name.clone()).or_default();

@@ -1,6 +1,5 @@
 //! A picture that is rendered in passes, so that it can be looked at meanwhile.
 
-use std::io;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -11,7 +10,6 @@ use glam::{UVec2, Vec3};
 use super::error::RenderError;
 use super::image_file;
 use crate::render::film::{Film, Tone};
-use crate::render::integrator::RenderStats;
 
 /// The time between two writes of the unfinished picture.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -34,25 +32,20 @@ pub(super) struct Canvas {
 }
 
 /// A row of pixels. Rows can differ in their number of samples.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(super) struct Row {
     pub(super) sums: Vec<Vec3>,
     pub(super) samples: u32,
-    pub(super) stats: RenderStats,
 }
 
 impl Canvas {
     pub(super) fn new(size: UVec2) -> Self {
-        let row = || {
-            Mutex::new(Row {
-                sums: vec![Vec3::ZERO; size.x as usize],
-                ..Row::default()
-            })
+        let row = Row {
+            sums: vec![Vec3::ZERO; size.x as usize],
+            samples: 0,
         };
-        Canvas {
-            size,
-            rows: (0..size.y).map(|_| row()).collect(),
-        }
+        let rows = (0..size.y).map(|_| Mutex::new(row.clone())).collect();
+        Canvas { size, rows }
     }
 
     /// Returns a copy of a row.
@@ -85,12 +78,6 @@ impl Canvas {
             pixels,
         };
         (film, samples)
-    }
-
-    /// Returns the statistics so far.
-    pub(super) fn stats(&self) -> RenderStats {
-        let rows = (0..self.size.y).map(|y| self.lock(y).stats);
-        rows.fold(RenderStats::default(), RenderStats::merge)
     }
 
     /// Writes the unfinished picture every second, until it is finished. After Ctrl-C, writes what
@@ -143,7 +130,7 @@ pub(super) fn passes(samples: u32) -> impl Iterator<Item = std::ops::Range<u32>>
 
 /// Has Ctrl-C handled by `handle`.
 pub(super) fn on_ctrl_c(handle: impl FnMut() + Send + 'static) -> Result<(), RenderError> {
-    ctrlc::set_handler(handle).map_err(|error| RenderError::Thread(io::Error::other(error)))
+    ctrlc::set_handler(handle).map_err(RenderError::threads)
 }
 
 #[cfg(test)]
@@ -167,7 +154,6 @@ mod tests {
         let row = Row {
             sums: vec![Vec3::splat(6.0)],
             samples: 3,
-            stats: RenderStats::default(),
         };
         canvas.set_row(1, row);
         let (film, samples) = canvas.film();

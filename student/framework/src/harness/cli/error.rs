@@ -1,39 +1,20 @@
 //! Errors of the render command, as shown to the user.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use glam::UVec2;
 use protocol::Panic;
 
 use crate::scene::SceneError;
-use crate::suggestion::suggestion;
 
 /// An error that prevents a picture from being rendered or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, PartialEq, Eq)]
 pub(super) enum RenderError {
-    #[error("cannot find the scene {}{}", .path.display(), list_of_scenes(.path, .known))]
-    SceneNotFound { path: PathBuf, known: Vec<String> },
-    #[error("{0}")]
-    Scene(#[from] SceneError),
-    #[error("cannot write {}: use a file name that ends in .png or .exr", .0.display())]
-    UnknownFormat(PathBuf),
-    #[error("cannot write to the folder {}: it does not exist", .0.display())]
-    FolderNotFound(PathBuf),
-    #[error("pixel {pixel} is outside the film, which has {} x {} pixels", .size.x, .size.y)]
-    PixelOutsideFilm { pixel: UVec2, size: UVec2 },
-    #[error("cannot start threads: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-    #[error("cannot start a thread: {0}")]
-    Thread(std::io::Error),
-    #[error("cannot write {}: {source}", .path.display())]
-    Unwritable {
-        path: PathBuf,
-        source: image::ImageError,
-    },
-    #[error("{0}")]
-    SubmissionPanic(SubmissionPanic),
+    /// The submission's code has panicked.
+    Panicked(SubmissionPanic),
+    /// Anything else, such as a scene that does not exist. Holds the message.
+    Other(String),
 }
 
 /// A panic in the submission's code.
@@ -45,17 +26,30 @@ pub(super) struct SubmissionPanic {
 }
 
 impl RenderError {
+    /// Creates an error about threads that cannot be started.
+    pub(super) fn threads(error: impl fmt::Display) -> Self {
+        RenderError::Other(format!("cannot start threads: {error}"))
+    }
+
     pub(super) fn exit_code(&self) -> ExitCode {
         match self {
-            RenderError::SubmissionPanic(_) => ExitCode::from(1),
-            RenderError::SceneNotFound { .. }
-            | RenderError::Scene(_)
-            | RenderError::UnknownFormat(_)
-            | RenderError::FolderNotFound(_)
-            | RenderError::PixelOutsideFilm { .. }
-            | RenderError::Threads(_)
-            | RenderError::Thread(_)
-            | RenderError::Unwritable { .. } => ExitCode::from(2),
+            RenderError::Panicked(_) => ExitCode::from(1),
+            RenderError::Other(_) => ExitCode::from(2),
+        }
+    }
+}
+
+impl From<SceneError> for RenderError {
+    fn from(error: SceneError) -> Self {
+        RenderError::Other(error.to_string())
+    }
+}
+
+impl fmt::Display for RenderError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            RenderError::Panicked(panic) => panic.fmt(f),
+            RenderError::Other(message) => f.write_str(message),
         }
     }
 }
@@ -103,20 +97,6 @@ fn shell_word(text: &str) -> String {
     }
 }
 
-/// Returns the last part of an error message: the scene that may be meant, and a list of the known
-/// scenes.
-fn list_of_scenes(path: &Path, known: &[String]) -> String {
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    match known {
-        [] => String::new(),
-        known => format!(
-            "{}; the folder `scenes` contains: {}",
-            suggestion(&name, known),
-            known.join(", ")
-        ),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,13 +137,5 @@ mod tests {
             let again = command(&[before, &["it's"]].concat());
             assert_eq!(again, r"cargo render --pixel 6,4 'it'\''s'");
         }
-    }
-
-    #[test]
-    fn reports_the_message_of_any_other_panic() {
-        assert_eq!(
-            message("index out of bounds"),
-            "panicked: index out of bounds (student/src/camera.rs:47:9)"
-        );
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::RenderError;
 use super::options::Options;
+use crate::suggestion::suggestion;
 
 /// The name of the folder that contains the scenes. Its parent folder is assumed to be the root of
 /// the workspace.
@@ -24,9 +25,15 @@ pub(super) fn find_scene(scene: &Path) -> Result<PathBuf, RenderError> {
         .iter()
         .flat_map(with_extension)
         .find(|path| path.is_file());
-    found.ok_or_else(|| RenderError::SceneNotFound {
-        path: scene.to_owned(),
-        known: root.map(scene_names).unwrap_or_default(),
+    found.ok_or_else(|| {
+        let known = root.map(scene_names).unwrap_or_default();
+        let name = scene.file_stem().unwrap_or_default().to_string_lossy();
+        let mut message = format!("cannot find the scene {}", scene.display());
+        if !known.is_empty() {
+            let (suggestion, known) = (suggestion(&name, &known), known.join(", "));
+            message += &format!("{suggestion}; the folder `scenes` contains: {known}");
+        }
+        RenderError::Other(message)
     })
 }
 
@@ -58,11 +65,16 @@ pub(super) fn output_path(options: &Options, scene: &Path) -> Result<PathBuf, Re
         format,
         Some(image::ImageFormat::Png | image::ImageFormat::OpenExr)
     ) {
-        return Err(RenderError::UnknownFormat(out));
+        return Err(RenderError::Other(format!(
+            "cannot write {}: use a file name that ends in .png or .exr",
+            out.display()
+        )));
     }
     match out.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
-            Err(RenderError::FolderNotFound(folder.to_owned()))
+            let folder = folder.display();
+            let message = format!("cannot write to the folder {folder}: it does not exist");
+            Err(RenderError::Other(message))
         }
         Some(_) | None => Ok(out),
     }

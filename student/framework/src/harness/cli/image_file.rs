@@ -28,10 +28,7 @@ pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderEr
         }
     };
     let written = written.and_then(|()| Ok(std::fs::rename(&part, path)?));
-    written.map_err(|source| RenderError::Unwritable {
-        path: path.to_owned(),
-        source,
-    })
+    written.map_err(|error| RenderError::Other(format!("cannot write {}: {error}", path.display())))
 }
 
 /// Returns whether the format of a file holds numbers of any size, and not colours for a screen.

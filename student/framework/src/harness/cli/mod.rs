@@ -121,8 +121,7 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     // Traces one ray first, so that if the submission still has a stub, the stub's panic is the
     // only message.
     let corner = UVec2::ZERO;
-    let first = || first_hit(scene, world, corner, &mut RenderStats::default());
-    value_or_error(attempt(first), Some(corner))?;
+    value_or_error(attempt(|| first_hit(scene, world, corner)), Some(corner))?;
     if tree.nodes.is_empty() && !scene.shapes.is_empty() {
         let count = scene.shapes.len();
         let quick = if count > MANY_PRIMITIVES {
@@ -170,13 +169,16 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
         return render_light(job, &integrator, events);
     }
     let progress = Progress::new(u64::from(size.y), "");
-    let first = |pixel, stats: &mut RenderStats| first_hit(scene, world, pixel, stats);
-    let (hits, stats) = job.pool.render(&progress, first)?;
+    let first = |pixel, stats: &mut RenderStats| {
+        stats.rays += 1;
+        first_hit(scene, world, pixel)
+    };
+    let hits = job.pool.render(&progress, first)?;
     let raw = image_file::holds_numbers(job.out).then(|| view::raw_values(options.view, &hits));
     let pixels = raw
         .flatten()
         .unwrap_or_else(|| view::picture(options.view, &hits, job.tree, scene.extent()));
-    Ok((Film { size, pixels }, stats))
+    Ok((Film { size, pixels }, progress.stats()))
 }
 
 /// Renders the picture in passes, and writes it every second.
@@ -190,7 +192,7 @@ fn render_light(
     let canvas = &Canvas::new(size);
     let samples = options.samples;
     let rows = u64::from(size.y) * u64::from(samples);
-    let progress = Progress::new(rows, ". The picture so far is in the file");
+    let progress = &Progress::new(rows, ". The picture so far is in the file");
     thread::scope(|scope| {
         let Events {
             sender,
@@ -203,7 +205,7 @@ fn render_light(
             let sample = |pixel, sample, stats: &mut RenderStats| {
                 integrator.sample_radiance(pixel, sample, stats)
             };
-            let rendered = job.pool.accumulate(&progress, canvas, samples, sample);
+            let rendered = job.pool.accumulate(progress, canvas, samples, sample);
             // The receiver below is not dropped before.
             let _ = finished.send(Event::Finished);
             rendered
@@ -214,12 +216,11 @@ fn render_light(
             .join()
             .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     })?;
-    Ok((canvas.film().0, canvas.stats()))
+    Ok((canvas.film().0, progress.stats()))
 }
 
 /// Returns the hit of the ray through the centre of a pixel.
-fn first_hit(scene: &Scene, world: &World, pixel: UVec2, stats: &mut RenderStats) -> Option<Trace> {
-    stats.rays += 1;
+fn first_hit(scene: &Scene, world: &World, pixel: UVec2) -> Option<Trace> {
     let ray = world.camera_ray(pixel, Vec2::splat(0.5));
     world.hit(&scene.camera.placement.to_world(&ray))
 }

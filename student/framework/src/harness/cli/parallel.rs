@@ -29,31 +29,25 @@ impl RenderPool {
             .num_threads(threads.map_or(0, usize::from))
             .stack_size(STACK_BYTES)
             .thread_name(|_| THREAD_NAME.to_owned())
-            .build()?;
+            .build()
+            .map_err(RenderError::threads)?;
         Ok(RenderPool { size, threads })
     }
 
-    /// Calls `pixel` for each pixel and returns the results, row by row from the bottom. Threads
-    /// take one row at a time, and the result does not depend on which thread takes which row. A
-    /// panic stops the rendering.
+    /// Calls `pixel` for each pixel and returns the results, row by row from the bottom. A panic
+    /// stops the rendering.
     pub(super) fn render<T: Send>(
         &self,
         progress: &Progress,
         pixel: impl Fn(UVec2, &mut RenderStats) -> T + Sync,
-    ) -> Result<(Vec<T>, RenderStats), RenderError> {
-        let row = |y| {
+    ) -> Result<Vec<T>, RenderError> {
+        let rows = self.rows(|y| {
             let mut stats = RenderStats::default();
             let row = self.row(y, |position, _| pixel(position, &mut stats))?;
             progress.finish_row(stats, 1);
-            Ok((row, stats))
-        };
-        let rows = || (0..self.size.y).into_par_iter().map(row).collect();
-        let rows: Result<Vec<(Vec<T>, RenderStats)>, RenderError> = self.threads.install(rows);
-        let (rows, row_stats): (Vec<Vec<T>>, Vec<RenderStats>) = rows?.into_iter().unzip();
-        let stats = row_stats
-            .into_iter()
-            .fold(RenderStats::default(), RenderStats::merge);
-        Ok((rows.into_iter().flatten().collect(), stats))
+            Ok(row)
+        })?;
+        Ok(rows.into_iter().flatten().collect())
     }
 
     /// Adds samples to each pixel of the canvas: first one, and then as many again as there are. A
@@ -66,7 +60,7 @@ impl RenderPool {
         sample: impl Fn(UVec2, u32, &mut RenderStats) -> Vec3 + Sync,
     ) -> Result<(), RenderError> {
         for pass in passes(samples) {
-            let add = |y| {
+            self.rows(|y| {
                 let mut row = canvas.row(y);
                 let mut stats = RenderStats::default();
                 row.sums = self.row(y, |position, x| {
@@ -74,15 +68,22 @@ impl RenderPool {
                     pass.clone().fold(row.sums[x], add)
                 })?;
                 row.samples = pass.end;
-                row.stats = row.stats.merge(stats);
                 canvas.set_row(y, row);
                 progress.finish_row(stats, pass.len() as u64);
-                Ok::<(), RenderError>(())
-            };
-            self.threads
-                .install(|| (0..self.size.y).into_par_iter().try_for_each(add))?;
+                Ok(())
+            })?;
         }
         Ok(())
+    }
+
+    /// Calls `row` for each row. Threads take one row at a time, and the result does not depend on
+    /// which thread takes which row.
+    fn rows<R: Send>(
+        &self,
+        row: impl Fn(u32) -> Result<R, RenderError> + Sync,
+    ) -> Result<Vec<R>, RenderError> {
+        self.threads
+            .install(|| (0..self.size.y).into_par_iter().map(&row).collect())
     }
 
     /// Calls `pixel` for each pixel of a row, with its position and its index in the row.
@@ -106,10 +107,9 @@ pub(super) fn value_or_error<T>(
 ) -> Result<T, RenderError> {
     match outcome {
         ElementOutcome::Value(value) => Ok(value),
-        ElementOutcome::Panicked(panic) => Err(RenderError::SubmissionPanic(SubmissionPanic {
-            panic,
-            pixel,
-        })),
+        ElementOutcome::Panicked(panic) => {
+            Err(RenderError::Panicked(SubmissionPanic { panic, pixel }))
+        }
         ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
     }
 }
@@ -126,8 +126,9 @@ mod tests {
             stats.rays += u64::from(position.x);
             position
         };
-        pool.render(&Progress::new(7, ""), pixel)
-            .expect("the code does not panic")
+        let progress = Progress::new(7, "");
+        let pixels = pool.render(&progress, pixel);
+        (pixels.expect("the code does not panic"), progress.stats())
     }
 
     #[test]
@@ -148,7 +149,7 @@ mod tests {
             .expect_err("the code panics");
         assert!(matches!(
             error,
-            RenderError::SubmissionPanic(panic) if panic.pixel == Some(uvec2(1, 0))
+            RenderError::Panicked(panic) if panic.pixel == Some(uvec2(1, 0))
         ));
     }
 }

@@ -25,14 +25,19 @@ pub(super) fn print(
 ) -> Result<(), RenderError> {
     let size = scene.camera.pinhole.film;
     if pixel.cmpge(size).any() {
-        return Err(RenderError::PixelOutsideFilm { pixel, size });
+        let UVec2 { x, y } = size;
+        let message = format!("pixel {pixel} is outside the film, which has {x} x {y} pixels");
+        return Err(RenderError::Other(message));
     }
-    let mut stats = RenderStats::default();
-    let hit = attempt(|| first_hit(scene, world, pixel, &mut stats));
+    let hit = attempt(|| first_hit(scene, world, pixel));
     let hit = value_or_error(hit, Some(pixel))?;
     print!("{}", description(pixel, scene, names, hit.as_ref()));
 
     let integrator = Integrator::new(scene, world, options.settings(size));
+    let mut stats = RenderStats {
+        rays: 1,
+        ..RenderStats::default()
+    };
     let light = attempt(|| integrator.pixel_radiance(pixel, &mut stats));
     let light: Vec3 = value_or_error(light, Some(pixel))?;
     let samples = options.samples;
@@ -71,19 +76,13 @@ fn shape_name(scene: &Scene, number: u32) -> String {
     let Some(shape) = scene.shapes.get(number as usize) else {
         return "unknown, because the hit's material is not that of a shape".to_owned();
     };
-    let name = match shape {
+    let triangle = |[a, b, c]: [Vec3; 3]| format!("a triangle with corners {a}, {b} and {c}");
+    let name = match *shape {
         Shape::Sphere { center, radius, .. } => {
             format!("a sphere with centre {center} and radius {radius}")
         }
-        Shape::Triangle { vertices, .. } => {
-            let [a, b, c] = vertices.map(|vertex| vertex.position);
-            format!("a triangle with corners {a}, {b} and {c}")
-        }
-        Shape::FlatTriangle {
-            corners: [a, b, c], ..
-        } => {
-            format!("a triangle with corners {a}, {b} and {c}")
-        }
+        Shape::Triangle { vertices, .. } => triangle(vertices.map(|vertex| vertex.position)),
+        Shape::FlatTriangle { corners, .. } => triangle(corners),
     };
     format!("{name}, number {} of {}", number + 1, scene.shapes.len())
 }

@@ -18,6 +18,7 @@ const LONG: Duration = Duration::from_secs(10);
 pub(super) struct Progress {
     bar: ProgressBar,
     rays: AtomicU64,
+    invalid_paths: AtomicU64,
     started: Instant,
     /// Without a bar, says that the work goes on.
     _notice: Option<Notice>,
@@ -35,6 +36,7 @@ impl Progress {
             _notice: bar.is_hidden().then(|| Notice::after(LONG, message)),
             bar,
             rays: AtomicU64::new(0),
+            invalid_paths: AtomicU64::new(0),
             started: Instant::now(),
         }
     }
@@ -42,8 +44,18 @@ impl Progress {
     /// Records that one more row has got this many samples.
     pub(super) fn finish_row(&self, stats: RenderStats, samples: u64) {
         let rays = self.rays.fetch_add(stats.rays, Ordering::Relaxed) + stats.rays;
+        self.invalid_paths
+            .fetch_add(stats.invalid_paths, Ordering::Relaxed);
         self.bar.set_message(rate(rays, self.started.elapsed()));
         self.bar.inc(samples);
+    }
+
+    /// Returns the statistics of all rows so far.
+    pub(super) fn stats(&self) -> RenderStats {
+        RenderStats {
+            rays: self.rays.load(Ordering::Relaxed),
+            invalid_paths: self.invalid_paths.load(Ordering::Relaxed),
+        }
     }
 }
 

@@ -2,7 +2,6 @@
 //! large scene; and runs on a thread with the name of the task, since the message of a stack
 //! overflow contains the name of its thread and nothing else.
 
-use std::io;
 use std::thread;
 use std::time::Duration;
 
@@ -50,10 +49,10 @@ fn run<T: Send>(
                 .name(task.to_owned())
                 .stack_size(STACK_BYTES)
                 .spawn_scoped(scope, code)
-                .map_err(RenderError::Thread)?;
+                .map_err(RenderError::threads)?;
             thread
                 .join()
-                .unwrap_or_else(|_| Err(RenderError::Thread(io::Error::other("a thread panicked"))))
+                .unwrap_or_else(|_| Err(RenderError::threads("a thread panicked")))
         })
     })
 }

@@ -39,16 +39,6 @@ pub struct RenderStats {
     pub invalid_paths: u64,
 }
 
-impl RenderStats {
-    /// Returns the sum of both statistics.
-    pub fn merge(self, other: RenderStats) -> RenderStats {
-        RenderStats {
-            rays: self.rays + other.rays,
-            invalid_paths: self.invalid_paths + other.invalid_paths,
-        }
-    }
-}
-
 /// A path tracer for a scene that has been converted to a submission's own types.
 pub struct Integrator<'a> {
     scene: &'a Scene,

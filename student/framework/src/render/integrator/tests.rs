@@ -1,26 +1,12 @@
 //! Analytic checks that any correct path tracer passes. The scenes contain only spheres, because
-//! `sphere_submission` intersects no other shapes.
+//! `SphereSubmission` intersects no other shapes.
 
 use glam::{UVec2, Vec2, Vec3, uvec2, vec2, vec3};
 use protocol::{Ray, Trace};
 
 use super::{Integrator, RenderSettings, RenderStats, render};
-use crate::harness::sphere_submission::{CORRECT, SphereSubmission};
-use crate::scene::Scene;
 use crate::submission::{CameraRays, Submission, World};
-
-fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
-    let text = format!(
-        r#"{{
-            "camera": {{ "vertical_fov": 90, "film": [8, 8],
-                "position": [0, 0, 0], "look_at": [0, 0, -1], "up": [0, 1, 0] }},
-            "environment": [{environment}, {environment}, {environment}],
-            "materials": {{ {materials} }},
-            "shapes": [ {shapes} ]
-        }}"#
-    );
-    Scene::from_text(&text).expect("the scene is valid")
-}
+use crate::tests::{CORRECT, SphereSubmission, scene};
 
 fn settings(samples: u32, bounces: u32) -> RenderSettings {
     RenderSettings {
@@ -29,6 +15,14 @@ fn settings(samples: u32, bounces: u32) -> RenderSettings {
         bounces,
         seed: 1,
     }
+}
+
+/// Asserts that a value is the expected one up to this relative error.
+fn assert_near(got: f32, expected: f32, error: f32) {
+    assert!(
+        (got / expected - 1.0).abs() < error,
+        "expected {expected}, got {got}"
+    );
 }
 
 const GREY: &str = r#""grey": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } }"#;
@@ -43,19 +37,14 @@ fn sphere(z: f32, radius: f32, material: &str) -> String {
 }
 
 #[test]
-fn a_white_sphere_is_invisible_in_a_white_furnace() {
+fn a_sphere_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
     // Light of radiance 1 arrives from every direction and none of it is absorbed, so every pixel
     // is 1.
-    let scene = scene(1.0, WHITE, &sphere(-3.0, 2.0, "white"));
-    let pixels = render(&CORRECT, &scene, &settings(4, 4));
-    assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
-}
-
-#[test]
-fn glass_is_invisible_in_a_white_furnace() {
-    let scene = scene(1.0, GLASS, &sphere(-3.0, 2.0, "glass"));
-    let pixels = render(&CORRECT, &scene, &settings(4, 200));
-    assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
+    for (name, material, bounces) in [("white", WHITE, 4), ("glass", GLASS, 200)] {
+        let scene = scene(1.0, material, &sphere(-3.0, 2.0, name));
+        let pixels = render(&CORRECT, &scene, &settings(4, bounces));
+        assert!(pixels.iter().all(|pixel| *pixel == Vec3::ONE), "{pixels:?}");
+    }
 }
 
 /// A camera at the origin that looks down −z and sees `half_width` at distance 1 to each side.
@@ -109,11 +98,7 @@ fn a_ball_on_a_large_sphere_is_invisible_in_a_white_furnace() {
     // Rays that start too far from a surface begin inside the other sphere and are lost there. With
     // an offset of 1e-4 of the scene, a ball of radius 0.5 on a sphere of radius 1000 loses 41 %.
     for (ball, ground, distance) in [(0.5, 1000.0, 3.0), (0.1, 1000.0, 1.0), (0.5, 0.5, 30.0)] {
-        let mean = contact_in_a_furnace(ball, ground, distance);
-        assert!(
-            (mean - 1.0).abs() < 0.01,
-            "{ball} on {ground} at {distance}: {mean}"
-        );
+        assert_near(contact_in_a_furnace(ball, ground, distance), 1.0, 0.01);
     }
 }
 
@@ -144,17 +129,10 @@ fn light_inside_a_grey_shell_is_a_geometric_series() {
         power_over_pi * 0.5_f32.powi(n) / (4.0 * std::f32::consts::PI * 100.0)
     };
     let second = mean(2) - mean(1);
-    assert!(
-        (second / term(2) - 1.0).abs() < 0.03,
-        "expected {}, got {second}",
-        term(2)
-    );
+    assert_near(second, term(2), 0.03);
     let rest = mean(12) - mean(2);
     let expected: f32 = (3..=12).map(term).sum();
-    assert!(
-        (rest / expected - 1.0).abs() < 0.03,
-        "expected {expected}, got {rest}"
-    );
+    assert_near(rest, expected, 0.03);
 }
 
 #[test]
@@ -172,10 +150,7 @@ fn a_large_light_on_a_sphere_matches_the_closed_form() {
     let middle = integrator.pixel_radiance(uvec2(50, 50), &mut RenderStats::default());
     // Albedo · sin² of the half angle that the light subtends at z = −2.
     let expected = 0.5 * (5.0_f32 / 9.0).powi(2);
-    assert!(
-        (middle.x / expected - 1.0).abs() < 0.01,
-        "expected {expected}, got {middle}"
-    );
+    assert_near(middle.x, expected, 0.01);
 }
 
 #[test]
@@ -214,39 +189,19 @@ fn the_first_pixel_is_at_the_bottom_left() {
 #[test]
 fn counts_and_discards_paths_with_an_invalid_answer() {
     let scene = scene(1.0, GREY, &sphere(-3.0, 2.0, "grey"));
-    let alterations: [fn(Trace) -> Trace; 4] = [
-        |trace| Trace {
-            position: Vec3::NAN,
-            ..trace
-        },
-        |trace| Trace {
-            normal: Vec3::ZERO,
-            ..trace
-        },
-        |trace| Trace {
-            uv: vec2(f32::INFINITY, 0.0),
-            ..trace
-        },
-        |trace| Trace {
-            material: 77,
-            ..trace
-        },
+    let alterations: [fn(&mut Trace); 4] = [
+        |trace| trace.position = Vec3::NAN,
+        |trace| trace.normal = Vec3::ZERO,
+        |trace| trace.uv = vec2(f32::INFINITY, 0.0),
+        |trace| trace.material = 77,
     ];
     for alter in alterations {
         let world = World::new(&SphereSubmission { alter }, &scene);
         let integrator = Integrator::new(&scene, &world, settings(3, 4));
         let mut stats = RenderStats::default();
-        assert_eq!(
-            integrator.pixel_radiance(uvec2(4, 4), &mut stats),
-            Vec3::ZERO
-        );
-        assert_eq!(
-            stats,
-            RenderStats {
-                rays: 3,
-                invalid_paths: 3
-            }
-        );
+        let light = integrator.pixel_radiance(uvec2(4, 4), &mut stats);
+        assert_eq!(light, Vec3::ZERO);
+        assert_eq!((stats.rays, stats.invalid_paths), (3, 3));
     }
 }
 
@@ -254,10 +209,7 @@ fn counts_and_discards_paths_with_an_invalid_answer() {
 fn the_length_of_a_normal_makes_no_difference() {
     let scene = scene(1.0, GLASS, &sphere(-3.0, 2.0, "glass"));
     let long = SphereSubmission {
-        alter: |trace| Trace {
-            normal: trace.normal * 3.0,
-            ..trace
-        },
+        alter: |trace| trace.normal *= 3.0,
     };
     let expected = render(&CORRECT, &scene, &settings(2, 4));
     let pixels = render(&long, &scene, &settings(2, 4));

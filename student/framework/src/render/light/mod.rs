@@ -101,21 +101,15 @@ impl Lights {
 mod tests {
     use super::*;
     use crate::render::sampler::{Purpose, Sampler};
+    use crate::tests::scene;
+
+    const EMITTERS: &str = r#"
+        "dim": { "emitter": { "radiance": [1, 1, 1] } },
+        "bright": { "emitter": { "radiance": [9, 9, 9] } },
+        "dark": { "emitter": { "radiance": [0, 0, 0] } }"#;
 
     fn lights(shapes: &str) -> Lights {
-        let text = format!(
-            r#"{{
-                "camera": {{ "vertical_fov": 90, "film": [1, 1],
-                    "position": [0, 0, 1], "look_at": [0, 0, 0], "up": [0, 1, 0] }},
-                "materials": {{
-                    "dim": {{ "emitter": {{ "radiance": [1, 1, 1] }} }},
-                    "bright": {{ "emitter": {{ "radiance": [9, 9, 9] }} }},
-                    "dark": {{ "emitter": {{ "radiance": [0, 0, 0] }} }}
-                }},
-                "shapes": [{shapes}]
-            }}"#
-        );
-        Lights::of(&Scene::from_text(&text).expect("the scene is valid"))
+        Lights::of(&scene(0.0, EMITTERS, shapes))
     }
 
     const OVERHEAD: &str =

@@ -5,15 +5,15 @@
 
 #[cfg(test)]
 mod tests;
-mod triangulate;
 
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::error::{SceneError, SceneErrorKind, TextPosition, read_bytes};
-use super::mesh::{Face, Mesh};
-use triangulate::triangulate;
+use super::error::{SceneError, TextPosition};
+use super::mesh::Face;
+use super::text_file::read_bytes;
+use super::triangulate::triangulate;
 
 /// The maximum number of corners of a face. Splitting a face takes up to the third power of this.
 const MAX_CORNERS: usize = 1000;
@@ -22,25 +22,21 @@ const MAX_CORNERS: usize = 1000;
 type ObjError = (Option<usize>, String);
 
 /// Loads a mesh from an OBJ file.
-pub(super) fn load(path: &Path) -> Result<Mesh, SceneErrorKind> {
-    let bytes = read_bytes(path).map_err(in_mesh)?;
+pub(super) fn load(path: &Path) -> Result<Vec<Face>, SceneError> {
     // Names of groups and materials may have another encoding.
-    parse(&String::from_utf8_lossy(&bytes)).map_err(|error| in_mesh(error.in_file(path)))
-}
-
-fn in_mesh(error: SceneError) -> SceneErrorKind {
-    SceneErrorKind::Mesh(Box::new(error))
+    let text = String::from_utf8_lossy(&read_bytes(path)?).into_owned();
+    parse(&text).map_err(|error| error.in_file(path))
 }
 
 /// Parses the faces of an OBJ text, and splits them into triangles. The scene defines the materials,
 /// so everything else is ignored.
-fn parse(text: &str) -> Result<Mesh, SceneError> {
+fn parse(text: &str) -> Result<Vec<Face>, SceneError> {
     let text = &text.replace("\r\n", "\n").replace('\r', "\n");
     let checked = check(&statements(text));
     let mesh = checked.and_then(|(text, faces)| triangles(&text, &faces));
     mesh.map_err(|(line, message)| {
         let position = line.map(|line| TextPosition::new(text, line, 0));
-        SceneError::new(position, SceneErrorKind::Obj(message))
+        SceneError::new(position, message)
     })
 }
 
@@ -194,23 +190,21 @@ fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bo
 }
 
 /// Parses a checked text, and splits its faces into triangles.
-fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Mesh, ObjError> {
+fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
     let no_materials = |_: &Path| Ok(Default::default());
     let options = tobj::LoadOptions::default();
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
         .map_err(|error| (None, error.to_string()))?;
     // Without groups and objects, there is one model.
     let parsed = &models[0].mesh;
-    let mut mesh = Mesh {
-        positions: triples(&parsed.positions),
-        faces: Vec::new(),
-    };
+    let positions = triples(&parsed.positions);
     let normals = triples(&parsed.normals);
     let (uvs, _) = parsed.texcoords.as_chunks::<2>();
+    let mut mesh = Vec::new();
     let mut first = 0;
     for face in faces {
         let corners = parsed.indices[first..][..face.corners].iter();
-        let points = corners.map(|&i| mesh.positions[i as usize].as_dvec3());
+        let points = corners.map(|&i| positions[i as usize].as_dvec3());
         let triangles = triangulate(&points.collect::<Vec<DVec3>>()).ok_or_else(|| {
             let message = "the outline of this face crosses itself: list the corners in order, all \
                            around, or export the mesh as triangles";
@@ -221,8 +215,8 @@ fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Mesh, ObjError> {
             let uv = || indices(&parsed.texcoord_indices).map(|i| Vec2::from(uvs[i]));
             let normals = || indices(&parsed.normal_indices).map(|i| normals[i]);
             let whole_texture = [Vec2::ZERO, Vec2::X, Vec2::Y];
-            mesh.faces.push(Face {
-                corners: indices(&parsed.indices),
+            mesh.push(Face {
+                corners: indices(&parsed.indices).map(|i| positions[i]),
                 // `tobj` makes up indices for corners without uv or normal.
                 uv: face.has_uv.then(uv).unwrap_or(whole_texture),
                 normals: face.has_normal.then(normals),
@@ -230,7 +224,7 @@ fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Mesh, ObjError> {
         }
         first += face.corners;
     }
-    if mesh.faces.is_empty() {
+    if mesh.is_empty() {
         let message = "the file has no faces (lines that begin with `f`); is it a mesh?";
         return Err((None, message.to_owned()));
     }

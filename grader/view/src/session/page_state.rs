@@ -3,25 +3,24 @@
 use std::time::Instant;
 
 use framework::math::tan;
+use glam::{UVec2, Vec3};
 use serde::Serialize;
+use view_probe::messages::TestCounts;
 
 use super::notes::recording_failed;
-use super::{BuildState, Note, PanicNote, Session, View};
-use crate::program::FileError;
+use super::{Note, Session, Shown, View};
+use crate::program::{BuildState, FileError};
+use crate::subject::ExamRay;
 
 /// The state as the page sees it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ViewState {
-    version: u64,
-    subject: String,
-    about: String,
-    scenes: Vec<String>,
-    loading: Option<String>,
-    question: Option<QuestionState>,
-    view: View,
-    exposure: f32,
-    film: [u32; 2],
-    own_film: [u32; 2],
+#[derive(Debug, Serialize)]
+pub struct PageState<'a> {
+    #[serde(flatten)]
+    shown: &'a Shown,
+    subject: &'a str,
+    about: &'a str,
+    question: Option<&'a ExamRay>,
+    own_film: UVec2,
     camera: CameraState,
     build: &'static str,
     /// Whether the tree is being built.
@@ -30,14 +29,9 @@ pub struct ViewState {
     has_stopped: bool,
     errors: Vec<FileError>,
     notes: Vec<Note>,
-    panics: Vec<PanicNote>,
-    picture: u64,
-    is_stale: bool,
-    samples: u32,
     complete_samples: u32,
     progress: f64,
     is_complete: bool,
-    is_picture_complete: bool,
     most_tests: Option<u32>,
     rays_per_second: f64,
     seconds: f64,
@@ -54,7 +48,7 @@ pub struct ViewState {
 /// The camera, for drawing over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct CameraState {
-    position: [f32; 3],
+    position: Vec3,
     /// To the right, up, and backward.
     axes: [[f32; 3]; 3],
     /// Half the height of the picture at distance one.
@@ -63,19 +57,10 @@ struct CameraState {
     is_own: bool,
 }
 
-/// A question of the exam.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct QuestionState {
-    asked: String,
-    wanted: Vec<String>,
-    boxes: Vec<[[f32; 3]; 2]>,
-    has_ray: bool,
-}
-
 /// The explained pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct PinnedState {
-    pixel: Option<[u32; 2]>,
+    pixel: Option<UVec2>,
     sample: Option<u32>,
     /// Whether the camera is still where it was at the click, so that the pixel can be marked.
     is_here: bool,
@@ -83,56 +68,37 @@ struct PinnedState {
 
 impl Session {
     /// Returns the state as the page sees it.
-    pub fn view_state(&self, now: Instant) -> ViewState {
+    pub fn page_state(&self, now: Instant) -> PageState<'_> {
         let camera = self.camera();
         let (build, errors) = self.build_state();
-        let progress = match self.view {
-            View::Shaded => self.light.progress(),
-            View::Clay | View::Normals | View::Depth | View::Uv | View::Bvh => self.hits.progress(),
-            View::Tests => self.tests.progress(),
-        };
+        let is_ready = build == "ready";
+        let progress = self.tiles().progress();
         let seconds = self.timing().drawn_for(now).as_secs_f64();
         let is_complete = self.is_complete();
-        let is_drawing = !is_complete && self.fault.is_none() && build == "ready";
+        let is_drawing = !is_complete && self.fault.is_none() && is_ready;
         let left = seconds * (1.0 - progress) / progress;
-        let question = self.subject.question.as_ref();
-        ViewState {
-            version: self.version,
-            subject: self.subject.name.clone(),
-            about: self.subject.about.clone(),
-            scenes: self.scenes.clone(),
-            loading: self.loading.clone(),
-            question: question.map(|question| QuestionState {
-                asked: question.asked.clone(),
-                wanted: question.wanted.clone(),
-                boxes: question.boxes.clone(),
-                has_ray: question.ray.is_some(),
-            }),
-            view: self.view,
-            exposure: self.exposure,
-            film: self.film.to_array(),
-            own_film: self.subject.camera.pinhole.film.to_array(),
+        PageState {
+            shown: &self.shown,
+            subject: &self.subject.name,
+            about: &self.subject.about,
+            question: self.subject.question.as_ref(),
+            own_film: self.subject.camera.pinhole.film,
             camera: CameraState {
-                position: camera.placement.position.to_array(),
+                position: camera.placement.position,
                 axes: camera.placement.axes.to_cols_array_2d(),
                 half_height: tan(0.5 * camera.pinhole.vertical_fov.to_radians()),
                 aspect_ratio: camera.pinhole.aspect_ratio,
                 is_own: self.viewpoint == self.subject.viewpoint,
             },
             build,
-            is_opening: build == "ready" && self.opened.is_none() && self.fault.is_none(),
-            has_stopped: build == "ready" && self.fault.is_some(),
+            is_opening: is_ready && self.opened.is_none() && self.fault.is_none(),
+            has_stopped: is_ready && self.fault.is_some(),
             errors,
             notes: self.notes(),
-            panics: self.panics.clone(),
-            picture: self.picture_number,
-            is_stale: self.is_stale,
-            samples: self.samples,
-            complete_samples: self.light.complete_samples().min(self.samples),
+            complete_samples: self.light.tiles.complete_samples().min(self.shown.samples),
             progress,
             is_complete,
-            is_picture_complete: self.is_picture_complete,
-            most_tests: (self.view == View::Tests)
+            most_tests: (self.shown.view == View::Tests)
                 .then(|| self.most_tests())
                 .flatten(),
             rays_per_second: self.timing().rays_per_second(),
@@ -143,14 +109,11 @@ impl Session {
             tree_levels: self.tree.as_ref().map_or(0, |tree| tree.levels()),
             tree_number: format!("{}.{}", self.numbers.program, self.numbers.scene),
             pinned: self.pinned.map(|pinned| PinnedState {
-                pixel: pinned.pixel.map(|pixel| pixel.to_array()),
+                pixel: pinned.pixel,
                 sample: pinned.sample,
                 is_here: pinned.aim == self.aim(),
             }),
-            explanation: self
-                .explanation
-                .is_some()
-                .then_some(self.explanation_number),
+            explanation: self.explanation.as_ref().map(|_| self.explanation_number),
             explanation_fault: self.explanation_problem(),
         }
     }
@@ -193,9 +156,6 @@ impl Session {
 
     /// Returns the largest number of tests of a pixel.
     fn most_tests(&self) -> Option<u32> {
-        let drawn = self.tests.values().flatten();
-        drawn
-            .map(|counts| counts.boxes.saturating_add(counts.primitives))
-            .max()
+        self.tests.values().flatten().map(TestCounts::total).max()
     }
 }

@@ -1,19 +1,32 @@
-//! A minimal submission for tests of the framework.
+//! A minimal submission and a scene for the tests.
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
 
+use crate::scene::Scene;
 use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
+
+/// Returns a scene with a camera at the origin that looks down −z.
+pub(crate) fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
+    let text = format!(
+        r#"{{
+            "camera": {{ "vertical_fov": 90, "film": [8, 8],
+                "position": [0, 0, 0], "look_at": [0, 0, -1], "up": [0, 1, 0] }},
+            "environment": [{environment}, {environment}, {environment}],
+            "materials": {{ {materials} }},
+            "shapes": [ {shapes} ]
+        }}"#
+    );
+    Scene::from_text(&text).expect("the scene is valid")
+}
 
 /// A submission that intersects rays with spheres only. It applies `alter` to each hit.
 pub(crate) struct SphereSubmission {
-    pub(crate) alter: fn(Trace) -> Trace,
+    pub(crate) alter: fn(&mut Trace),
 }
 
 /// A submission that returns correct hits.
-pub(crate) const CORRECT: SphereSubmission = SphereSubmission {
-    alter: |trace| trace,
-};
+pub(crate) const CORRECT: SphereSubmission = SphereSubmission { alter: |_| {} };
 
 struct SquareCamera {
     film: UVec2,
@@ -21,7 +34,7 @@ struct SquareCamera {
 
 struct SphereList {
     shapes: Vec<Shape>,
-    alter: fn(Trace) -> Trace,
+    alter: fn(&mut Trace),
 }
 
 impl Submission for SphereSubmission {
@@ -61,7 +74,10 @@ impl Aggregate for SphereList {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
         let hit = |shape: &Shape| intersect(shape, ray);
         let nearest = self.shapes.iter().map(hit).fold(None, Trace::nearer);
-        nearest.map(self.alter)
+        nearest.map(|mut trace| {
+            (self.alter)(&mut trace);
+            trace
+        })
     }
 }
 

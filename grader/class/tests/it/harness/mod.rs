@@ -1,6 +1,8 @@
 //! Test classes, a small exam for them, and functions that run the binary.
 
-use std::collections::BTreeMap;
+mod files;
+
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -8,6 +10,8 @@ use std::process::{Command, Output};
 use grader::handed_out::RAYS;
 use serde_json::Value;
 use tempfile::TempDir;
+
+pub use files::{comparable_files, files_below, unzip, zip};
 
 /// Returns the root folder of the repository.
 pub fn workspace() -> PathBuf {
@@ -79,7 +83,7 @@ impl TestClass {
 
     fn with_files_of(self, source: &str, folder: &str) -> Self {
         RAYS.file_names().fold(self, |class, file| {
-            let text = fs::read(workspace().join(source).join(file)).unwrap();
+            let text = self::source(&format!("{source}/{file}"));
             class.with(&format!("{folder}/{file}"), text)
         })
     }
@@ -148,17 +152,55 @@ impl TestClass {
             .to_owned()
     }
 
+    /// Writes lists beside the class. Returns the options that pass them.
+    pub fn lists(&self, lists: &[(&str, &str)]) -> Vec<String> {
+        let write = |(list, text): &(&str, &str)| {
+            let path = self.write_beside(&format!("{list}.list"), text);
+            format!("--{list}={path}")
+        };
+        lists.iter().map(write).collect()
+    }
+
+    /// Grades the class with lists and more options, and returns the standard output.
+    pub fn graded_with(&self, exam: &str, lists: &[(&str, &str)], more: &[&str]) -> String {
+        let lists = self.lists(lists);
+        let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
+        self.graded(exam, &[&lists, more].concat())
+    }
+
+    /// Grades the class, and returns the standard output.
+    pub fn graded(&self, exam: &str, more: &[&str]) -> String {
+        successful_stdout(&self.grade(exam, more))
+    }
+
+    /// Tries to grade a class that is refused, and returns the error.
+    pub fn refused(&self, exam: &str, more: &[&str]) -> String {
+        refusal(&self.grade(exam, more))
+    }
+
+    /// Tries to preview a class that is refused, and returns the error.
+    pub fn refused_preview(&self) -> String {
+        let mut command = class_command();
+        command.arg(self.input()).arg("--dry-run");
+        refusal(&command.output().unwrap())
+    }
+
     /// Grades the class into the folder `out` next to it.
     pub fn grade(&self, exam: &str, more: &[&str]) -> Output {
         self.command(exam, more).output().unwrap()
     }
 
     pub fn command(&self, exam: &str, more: &[&str]) -> Command {
+        self.command_into(&self.out(), exam, more)
+    }
+
+    /// Returns a command that grades the class into this folder.
+    pub fn command_into(&self, out: &Path, exam: &str, more: &[&str]) -> Command {
         let mut command = class_command();
         command
             .arg(self.input())
             .arg("--out")
-            .arg(self.out())
+            .arg(out)
             // Isolation is tested in the grader's own tests.
             .args(["--exam", exam, "--no-reference", "--isolation", "none"])
             .args(more);
@@ -192,6 +234,13 @@ pub fn class_command() -> Command {
     command
 }
 
+/// Merges shards, and returns the standard output.
+pub fn merge(shards: &[impl AsRef<OsStr>], out: &Path) -> String {
+    let mut command = class_command();
+    command.arg("merge").args(shards).arg("--out").arg(out);
+    successful_stdout(&command.output().unwrap())
+}
+
 /// Returns the standard output of a run, and panics if the run failed.
 pub fn successful_stdout(output: &Output) -> String {
     let error = String::from_utf8_lossy(&output.stderr);
@@ -199,40 +248,28 @@ pub fn successful_stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
+/// Returns the standard error of a run that must be refused.
+pub fn refusal(output: &Output) -> String {
+    let (code, error) = exit_code_and_stderr(output);
+    assert_eq!(code, 2, "{error}");
+    error
+}
+
+/// Panics if a text lacks one of these parts.
+#[track_caller]
+pub fn assert_contains(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part:?} is not in {text}");
+    }
+}
+
+/// Returns the text of a file in the repository.
+pub fn source(path: &str) -> String {
+    fs::read_to_string(workspace().join(path)).unwrap()
+}
+
 /// Returns the exit code and the standard error of a run.
 pub fn exit_code_and_stderr(output: &Output) -> (i32, String) {
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     (output.status.code().unwrap(), error)
-}
-
-/// Returns all files in a folder, without the timings, which differ in every run, the folder's own
-/// path in the reports, and the mark of lists that a merge has from its parts.
-pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut files = BTreeMap::new();
-    collect_files(folder, folder, &mut files);
-    files
-}
-
-/// The mark of a list that a merge has from its parts.
-const IS_OF_PARTS: &str = ",\n      \"is_of_parts\": true";
-
-fn collect_files(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            collect_files(root, &path, files);
-            continue;
-        }
-        let mut bytes = fs::read(&path).unwrap();
-        if path.ends_with("score.json") {
-            let mut score: Value = serde_json::from_slice(&bytes).unwrap();
-            score["timings"] = Value::Null;
-            bytes = serde_json::to_vec(&score).unwrap();
-        } else if path.ends_with("report.html") || path.ends_with("run.json") {
-            let here = root.canonicalize().unwrap().display().to_string();
-            let text = String::from_utf8(bytes).unwrap().replace(&here, "OUT");
-            bytes = text.replace(IS_OF_PARTS, "").into_bytes();
-        }
-        files.insert(path.strip_prefix(root).unwrap().to_owned(), bytes);
-    }
 }

@@ -1,8 +1,16 @@
-//! Splits the faces of meshes into triangles.
+//! Splits polygons and the faces of meshes into triangles.
 
 use std::collections::VecDeque;
 
 use glam::DVec3;
+
+/// Returns the cross products of the triangles in a fan around the first corner. By Newell's method,
+/// their sum is along the normal of the outline, and its length is twice the area.
+pub(super) fn fan(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
+    let from_first = corners[1..].iter().map(|corner| corner - corners[0]);
+    let next = from_first.clone().skip(1);
+    from_first.zip(next).map(|(a, b)| a.cross(b))
+}
 
 /// Splits a face with any outline into triangles, by ear clipping in the plane that fits it best. A
 /// convex face becomes a fan around its first corner. Returns `None` if the outline crosses itself.
@@ -12,10 +20,8 @@ pub(super) fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
         let [a, b, c] = [a, b, c].map(|i| corners[i]);
         (b - a).cross(c - a)
     };
-    let fan = || (2..count).map(|i| [0, i - 1, i]);
-    // Newell's method: the sum is along the normal, and its length is twice the area.
-    let sum: DVec3 = fan().map(cross).sum();
-    let area: f64 = fan().map(|triangle| cross(triangle).length()).sum();
+    let sum: DVec3 = fan(corners).sum();
+    let area: f64 = fan(corners).map(DVec3::length).sum();
     if area > 0.0 && sum.length() <= 1e-9 * area {
         return None;
     }
@@ -29,8 +35,10 @@ pub(super) fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let after = |i: usize| (i + 1) % count;
     let turns_back = |&i: &usize| turn([i, after(i), after(after(i))]) < 0;
     let reflex: Vec<usize> = (0..count).filter(turns_back).map(after).collect();
-    if reflex.is_empty() && fan().all(|triangle| turn(triangle) >= 0) {
-        return Some(fan().collect());
+    let around_first: Vec<[usize; 3]> = (2..count).map(|i| [0, i - 1, i]).collect();
+    // Each corner of a star such as a pentagram turns the same way, but its fan does not.
+    if reflex.is_empty() && around_first.iter().all(|triangle| turn(*triangle) >= 0) {
+        return Some(around_first);
     }
     let separates = |a, b, c, d| turn([a, b, c]) * turn([a, b, d]) < 0;
     let cross_each_other = |i: usize, j: usize| {

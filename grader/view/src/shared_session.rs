@@ -3,11 +3,9 @@
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use std::{io, thread};
 
-use grader::submission::Submission;
-
-use crate::composer::Picture;
-use crate::session::{DrawJob, RecordingJob, Session, Work};
+use crate::session::{Key, Session};
 
 /// The number of pages that may wait for news at the same time. A browser opens six connections to
 /// one server, and others are needed for pictures.
@@ -15,9 +13,20 @@ const MAX_WAITING: usize = 4;
 /// The time for which a page waits if more pages are open.
 const SHORT_WAIT: Duration = Duration::from_millis(500);
 
+/// A composed picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// The PNG file.
+    pub png: Vec<u8>,
+    /// The key of the pixels.
+    pub key: Key,
+    /// Whether it has all samples.
+    pub is_complete: bool,
+}
+
 /// The session, shared by threads.
 #[derive(Debug)]
-pub struct Studio {
+pub struct SharedSession {
     shared: Mutex<Shared>,
     /// Notified when the session has changed.
     changed: Condvar,
@@ -31,10 +40,10 @@ struct Shared {
     waiting: usize,
 }
 
-impl Studio {
+impl SharedSession {
     /// Shares a session.
     pub fn new(session: Session) -> Self {
-        Studio {
+        SharedSession {
             shared: Mutex::new(Shared {
                 session,
                 picture: None,
@@ -42,6 +51,18 @@ impl Studio {
             }),
             changed: Condvar::new(),
         }
+    }
+
+    /// Starts a thread that shares the session.
+    pub fn spawn(
+        self: &Arc<Self>,
+        name: &str,
+        run: impl FnOnce(&SharedSession) + Send + 'static,
+    ) -> io::Result<()> {
+        let shared = Arc::clone(self);
+        let thread = thread::Builder::new().name(name.to_owned());
+        thread.spawn(move || run(&shared))?;
+        Ok(())
     }
 
     /// Runs `change` on the session, and wakes the threads that wait for work or news.
@@ -56,27 +77,8 @@ impl Studio {
         read(&self.lock().session, Instant::now())
     }
 
-    /// Waits until there is work for a drawing program.
-    pub fn wait_for_drawing(&self, worker: usize) -> Work<DrawJob> {
-        self.wait_for(|session, now| session.next_drawing(worker, now))
-    }
-
-    /// Waits until there is work for the program that records.
-    pub fn wait_for_recording(&self) -> Work<RecordingJob> {
-        self.wait_for(Session::next_recording)
-    }
-
-    /// Waits until a program that records is wanted, and returns the files and their version.
-    pub fn wait_for_recording_wish(&self) -> (u64, Arc<Submission>) {
-        self.wait_for(|session, _| session.wanted_recording())
-    }
-
-    /// Waits until the picture has changed.
-    pub fn wait_for_dirt(&self) {
-        self.wait_for(|session, _| (session.is_dirty && session.has_picture()).then_some(()));
-    }
-
-    fn wait_for<T>(&self, mut find: impl FnMut(&mut Session, Instant) -> Option<T>) -> T {
+    /// Waits until `find` finds something in the session, such as work, and returns it.
+    pub fn wait_for<T>(&self, mut find: impl FnMut(&mut Session, Instant) -> Option<T>) -> T {
         let mut shared = self.lock();
         loop {
             if let Some(found) = find(&mut shared.session, Instant::now()) {
@@ -100,12 +102,12 @@ impl Studio {
         };
         // Drawing may have paused because no page was open.
         self.changed.notify_all();
-        let is_known = |shared: &mut Shared| shared.session.version == known;
+        let is_known = |shared: &mut Shared| shared.session.shown.version == known;
         let waited = self.changed.wait_timeout_while(shared, limit, is_known);
         let (mut shared, _) = waited.unwrap_or_else(PoisonError::into_inner);
         shared.waiting -= 1;
         shared.session.watch(Instant::now());
-        shared.session.version != known
+        shared.session.shown.version != known
     }
 
     /// Replaces the picture.

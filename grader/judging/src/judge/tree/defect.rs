@@ -1,0 +1,201 @@
+//! Defects of trees, and their texts in a report.
+
+use crate::describe;
+
+use super::bounds::Bounds;
+use super::reached_nodes::ReachedNode;
+use super::{FULL_MARKS_RATIO, HALF_MARKS_RATIO};
+use protocol::TreeNode;
+
+/// A defect of a tree.
+#[derive(Clone, Debug)]
+pub enum TreeDefect {
+    /// There are primitives, but no nodes.
+    NoNodes {
+        /// The number of primitives in the question.
+        primitives: usize,
+    },
+    /// The index of a root or child is that of no node.
+    UnknownNode {
+        /// The field that has the index.
+        field: &'static str,
+        /// The index.
+        index: u32,
+        /// The number of nodes.
+        nodes: usize,
+    },
+    /// Two paths from the root lead to the same node.
+    ReachedTwice {
+        /// The index of the node.
+        index: u32,
+    },
+    /// The leaves list so many primitives that they are not read to the end.
+    TooManyListed {
+        /// The number above which they are not.
+        most: usize,
+        /// The number of primitives in the question.
+        primitives: usize,
+    },
+    /// A leaf lists primitives that do not exist.
+    UnknownPrimitives {
+        /// The index of the leaf.
+        leaf: u32,
+        /// The first of its primitives.
+        start: u32,
+        /// The number of its primitives.
+        size: u32,
+        /// The number of primitives in the tree.
+        listed: usize,
+    },
+    /// A primitive is in no leaf, or in several.
+    Partition {
+        /// The index of the primitive.
+        primitive: usize,
+        /// The number of primitives in the question.
+        primitives: usize,
+        /// The number of leaves that hold it.
+        leaves: usize,
+    },
+    /// A box does not contain everything below its node.
+    BoxTooSmall(NodeBox),
+    /// A box is larger than necessary.
+    BoxTooLarge(NodeBox),
+    /// A leaf has at least half of all primitives.
+    NotSplit {
+        /// The index of the leaf.
+        leaf: u32,
+        /// The number of its primitives.
+        count: usize,
+        /// The number of primitives in the question.
+        all: usize,
+    },
+    /// A leaf has too many primitives.
+    LeafTooLarge {
+        /// The index of the leaf.
+        leaf: u32,
+        /// The number of its primitives.
+        count: usize,
+        /// The maximum number of primitives in a leaf.
+        most: usize,
+    },
+    /// A node was split although it has few enough primitives for a leaf.
+    NeedlessSplit {
+        /// The index of the node.
+        node: u32,
+        /// The number of its primitives.
+        count: usize,
+        /// The maximum number of primitives in a leaf.
+        most: usize,
+    },
+    /// The tree costs too much, as a multiple of the cost of the exact sweep's tree.
+    Cost(f64),
+}
+
+/// A node with the tightest box around its primitives.
+#[derive(Clone, Copy, Debug)]
+pub struct NodeBox {
+    /// The index of the node.
+    pub index: u32,
+    node: TreeNode,
+    tight: Bounds,
+}
+
+impl NodeBox {
+    pub(super) fn of(node: &ReachedNode) -> Self {
+        NodeBox {
+            index: node.index,
+            node: *node.node,
+            tight: node.tight_bounds,
+        }
+    }
+}
+
+impl TreeDefect {
+    /// Returns the name of the part or property of the tree that is wrong.
+    pub fn what(&self) -> &'static str {
+        match self {
+            TreeDefect::NoNodes { .. } | TreeDefect::ReachedTwice { .. } => "nodes",
+            TreeDefect::UnknownNode { field, .. } => field,
+            TreeDefect::TooManyListed { .. }
+            | TreeDefect::UnknownPrimitives { .. }
+            | TreeDefect::Partition { .. } => "leaves",
+            TreeDefect::BoxTooSmall(_) => "box too small",
+            TreeDefect::BoxTooLarge(_) => "box too large",
+            TreeDefect::NotSplit { .. } | TreeDefect::NeedlessSplit { .. } => "splits",
+            TreeDefect::LeafTooLarge { .. } => "leaf size",
+            TreeDefect::Cost(_) => "SAH cost",
+        }
+    }
+
+    /// Returns the value in the submission's tree.
+    pub fn got(&self) -> String {
+        match self {
+            TreeDefect::NoNodes { .. } => "no node at all".to_owned(),
+            TreeDefect::UnknownNode { index, nodes, .. } => format!("node {index} of {nodes}"),
+            TreeDefect::ReachedTwice { index } => format!("node {index} is reached twice"),
+            TreeDefect::TooManyListed { most, .. } => {
+                format!("leaves that hold more than {most} primitives in all")
+            }
+            TreeDefect::UnknownPrimitives {
+                leaf,
+                start,
+                size,
+                listed,
+            } => {
+                let end = u64::from(*start) + u64::from(*size);
+                format!("leaf {leaf} holds primitives {start} to {end} of {listed}")
+            }
+            TreeDefect::Partition {
+                primitive,
+                primitives,
+                leaves,
+            } => format!("primitive {primitive} of {primitives} is in {leaves} leaves"),
+            TreeDefect::BoxTooSmall(NodeBox { index, node, .. })
+            | TreeDefect::BoxTooLarge(NodeBox { index, node, .. }) => {
+                let [min, max] = [node.min, node.max].map(describe::point);
+                format!("node {index}: {min} to {max}")
+            }
+            TreeDefect::NotSplit { leaf, count, all } => {
+                format!("leaf {leaf} holds {count} of {all} primitives")
+            }
+            TreeDefect::LeafTooLarge { leaf, count, .. } => {
+                format!("leaf {leaf} holds {count} primitives")
+            }
+            TreeDefect::NeedlessSplit { node, count, .. } => {
+                format!("node {node} was split over {count} primitives")
+            }
+            TreeDefect::Cost(ratio) => {
+                format!("{ratio:.2} times that of the best split at every node")
+            }
+        }
+    }
+
+    /// Returns the expected value.
+    pub fn wanted(&self) -> String {
+        match self {
+            TreeDefect::NoNodes { primitives } => format!("a tree over {primitives} primitives"),
+            TreeDefect::UnknownNode { .. } => "the index of a node".to_owned(),
+            TreeDefect::ReachedTwice { .. } => "a tree, with one path to each node".to_owned(),
+            TreeDefect::TooManyListed { primitives, .. } => {
+                format!("each of the {primitives} primitives in one leaf")
+            }
+            TreeDefect::UnknownPrimitives { .. } => {
+                "a range of the tree's own primitives".to_owned()
+            }
+            TreeDefect::Partition { .. } => "each primitive in exactly one".to_owned(),
+            TreeDefect::BoxTooSmall(NodeBox { tight, .. })
+            | TreeDefect::BoxTooLarge(NodeBox { tight, .. }) => {
+                let [min, max] = [tight.min, tight.max].map(|at| describe::point(at.as_vec3()));
+                format!("{min} to {max}")
+            }
+            TreeDefect::NotSplit { .. } => "less than half of them in any leaf".to_owned(),
+            TreeDefect::LeafTooLarge { most, .. } => format!("at most {most}"),
+            TreeDefect::NeedlessSplit { most, .. } => {
+                format!("a leaf for at most {most} primitives")
+            }
+            TreeDefect::Cost(_) => format!(
+                "at most {FULL_MARKS_RATIO:.2} times ({HALF_MARKS_RATIO:.2} for half the points)"
+            ),
+        }
+    }
+}

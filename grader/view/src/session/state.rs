@@ -1,0 +1,99 @@
+//! Parts of the state.
+
+use glam::UVec2;
+use serde::{Deserialize, Serialize};
+use view_probe::scene_data::Aim;
+
+use super::PanicNote;
+use crate::model::tiles::LayerKind;
+
+/// The cores and the memory that the programs may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resources {
+    /// The number of programs that draw at the same time.
+    pub cores: usize,
+    /// The memory of all programs together, in bytes.
+    pub memory: u64,
+}
+
+/// The quantity that the picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum View {
+    /// The scene with its lighting.
+    Shaded,
+    /// The scene without materials, lit from the camera.
+    Clay,
+    /// Normals.
+    Normals,
+    /// Distances.
+    Depth,
+    /// Texture coordinates.
+    Uv,
+    /// Boxes around the hit.
+    Bvh,
+    /// Numbers of tests.
+    Tests,
+}
+
+impl View {
+    /// Returns the layer that the view shows.
+    pub(super) fn layer(self) -> LayerKind {
+        match self {
+            View::Shaded => LayerKind::Light,
+            View::Clay | View::Normals | View::Depth | View::Uv | View::Bvh => LayerKind::Hits,
+            View::Tests => LayerKind::Tests,
+        }
+    }
+}
+
+/// Identifies what a job belongs to. A result with an old key is dropped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Key {
+    /// Changes with the program.
+    pub program: u64,
+    /// Changes with the scene.
+    pub scene: u64,
+    /// Changes with the camera.
+    pub aim: u64,
+}
+
+impl Key {
+    /// Returns whether both are of the same program and scene, and so of the same tree.
+    pub fn has_tree_of(&self, other: &Key) -> bool {
+        (self.program, self.scene) == (other.program, other.scene)
+    }
+}
+
+/// The pixel or ray that is explained. It stays the same when the camera moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pinned {
+    /// The camera at the time of the click.
+    pub aim: Aim,
+    /// The pixel, or `None` for the exam's ray.
+    pub pixel: Option<UVec2>,
+    /// The number of the path, or `None` for the ray through the centre of the pixel.
+    pub sample: Option<u32>,
+}
+
+/// The part of the state that the page sees as it is.
+#[derive(Debug, Serialize)]
+pub struct Shown {
+    /// Changes with everything that the page shows.
+    pub version: u64,
+    /// The names of the scenes that the page may choose.
+    pub(super) scenes: Vec<String>,
+    /// The scene that is being loaded.
+    pub(super) loading: Option<String>,
+    pub(crate) view: View,
+    pub(crate) exposure: f32,
+    pub(super) film: UVec2,
+    pub(super) samples: u32,
+    pub(super) panics: Vec<PanicNote>,
+    /// The number of the picture that is on the page.
+    pub(super) picture: u64,
+    /// Whether the picture on the page is of an earlier version of the code.
+    pub(super) is_stale: bool,
+    /// Whether the picture on the page has all samples of the present camera and program.
+    pub(super) is_picture_complete: bool,
+}

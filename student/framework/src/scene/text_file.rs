@@ -1,0 +1,46 @@
+//! Reads text files as editors and shells write them.
+
+use std::path::Path;
+
+use super::error::SceneError;
+
+/// Reads a text file.
+pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        let message = format!(
+            "the file is not UTF-8 text (invalid byte at offset {offset}); is it the right file?"
+        );
+        SceneError::new(None, message).in_file(path)
+    })
+}
+
+/// Reads a text file that may have bytes that are not UTF-8, without the byte order mark that some
+/// editors put at its start.
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        SceneError::new(None, format!("cannot read the file: {error}")).in_file(path)
+    })?;
+    Ok(
+        match (utf_16(&bytes), bytes.strip_prefix("\u{feff}".as_bytes())) {
+            (Some(text), _) => text.into_bytes(),
+            (None, Some(rest)) => rest.to_owned(),
+            (None, None) => bytes,
+        },
+    )
+}
+
+/// Decodes a text that begins with a byte order mark of UTF-16, as PowerShell writes.
+fn utf_16(bytes: &[u8]) -> Option<String> {
+    let (pairs, []) = bytes.as_chunks::<2>() else {
+        return None;
+    };
+    let (mark, pairs) = pairs.split_first()?;
+    let decode: fn([u8; 2]) -> u16 = match mark {
+        [0xff, 0xfe] => u16::from_le_bytes,
+        [0xfe, 0xff] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units: Vec<u16> = pairs.iter().copied().map(decode).collect();
+    String::from_utf16(&units).ok()
+}

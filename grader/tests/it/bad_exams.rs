@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use insta::assert_snapshot;
 
-use crate::harness::{Submission, grader};
+use crate::harness::{Submission, assert_fails, grader};
 
 /// A valid exam with one item.
 const VALID_EXAM: &str = r#"{
@@ -60,12 +60,9 @@ fn reads_an_exam_from_standard_input() {
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    grader
-        .stdin
-        .take()
-        .unwrap()
-        .write_all(VALID_EXAM.as_bytes())
-        .unwrap();
+    let mut stdin = grader.stdin.take().unwrap();
+    stdin.write_all(VALID_EXAM.as_bytes()).unwrap();
+    drop(stdin);
     let output = grader.wait_with_output().unwrap();
     assert!(output.status.success());
     let report = String::from_utf8(output.stdout).unwrap();
@@ -77,56 +74,35 @@ fn reads_an_exam_from_standard_input() {
 
 #[test]
 fn rejects_invalid_exams_with_position_and_remedy() {
+    let with = |from: &str, to: &str| VALID_EXAM.replace(from, to);
+    let none = r#"{"schema": 1, "id": "none", "items": []}"#;
+    let signatures = r#""signatures": {"elements": [9], "mistake_answers": []}, "look""#;
+    let spans = r#""spans": { "spans": [[2, 4], null] }"#;
+    let slabs = r#""drawing_data": { "slabs": "AA" }, "key":"#;
+    let needs = r#""needs": ["bbox.other"], "points""#;
     let cases = [
         ("empty", String::new()),
         ("truncated", VALID_EXAM[..200].to_owned()),
         (
             "signatures of unknown elements",
-            VALID_EXAM.replace(
-                "\"look\"",
-                r#""signatures": {"elements": [9], "mistake_answers": []}, "look""#,
-            ),
+            with("\"look\"", signatures),
         ),
-        ("unknown key", VALID_EXAM.replace("\"look\"", "\"clue\"")),
+        ("unknown key", with("\"look\"", "\"clue\"")),
         (
             "unknown task",
-            VALID_EXAM.replace("\"task\": \"bbox\"", "\"task\": \"box\""),
+            with(r#""task": "bbox""#, r#""task": "box""#),
         ),
-        (
-            "other version",
-            VALID_EXAM.replace("\"schema\": 1", "\"schema\": 2"),
-        ),
-        (
-            "no items",
-            r#"{"schema": 1, "id": "none", "items": []}"#.to_owned(),
-        ),
-        (
-            "negative points",
-            VALID_EXAM.replace("\"points\": 5", "\"points\": -5"),
-        ),
-        (
-            "id of another task",
-            VALID_EXAM.replace("bbox.through", "sphere.through"),
-        ),
+        ("other version", with(r#""schema": 1"#, r#""schema": 2"#)),
+        ("no items", none.to_owned()),
+        ("negative points", with(r#""points": 5"#, r#""points": -5"#)),
+        ("id of another task", with("bbox.through", "sphere.through")),
         (
             "key of another kind",
-            VALID_EXAM.replace(
-                r#""spans": { "spans": [[2, 4], null] }"#,
-                r#""tree": { "checks": [] }"#,
-            ),
+            with(spans, r#""tree": { "checks": [] }"#),
         ),
-        (
-            "too little drawing data",
-            VALID_EXAM.replace(r#""key":"#, r#""drawing_data": { "slabs": "AA" }, "key":"#),
-        ),
-        (
-            "key too short",
-            VALID_EXAM.replace("[[2, 4], null]", "[[2, 4]]"),
-        ),
-        (
-            "needs an unknown item",
-            VALID_EXAM.replace("\"points\"", "\"needs\": [\"bbox.other\"], \"points\""),
-        ),
+        ("too little drawing data", with(r#""key":"#, slabs)),
+        ("key too short", with("[[2, 4], null]", "[[2, 4]]")),
+        ("needs an unknown item", with("\"points\"", needs)),
     ];
     let rejections = cases.map(|(name, exam)| format!("{name}:\n  {}", rejection(exam)));
     assert_snapshot!(rejections.join("\n"));
@@ -140,10 +116,5 @@ fn rejects_exams_that_are_not_utf8() {
 #[test]
 fn names_a_missing_exam_file() {
     let graded = Submission::reference("any").grade_with(&["--exam", "nowhere.json"]);
-    assert_eq!(graded.exit_code(), 2);
-    assert!(
-        graded.error().contains("cannot read the exam nowhere.json"),
-        "{}",
-        graded.error()
-    );
+    assert_fails(&graded.output, 2, "cannot read the exam nowhere.json");
 }

@@ -2,7 +2,6 @@
 //! a report, and the points of other tasks do not change.
 
 use insta::assert_snapshot;
-use serde_json::Value;
 
 use crate::harness::{
     BBOX, FULL_POINTS, GradeRun, SPHERE, Submission, TRAVERSE, full_points_except,
@@ -42,12 +41,7 @@ fn an_endless_loop_is_stopped() {
 
 /// Returns the messages of all items of a task.
 fn messages(graded: &GradeRun, task: &str) -> Vec<String> {
-    let score = graded.score();
-    let mut tasks = score["tasks"].as_array().unwrap().iter();
-    let task = tasks.find(|scores| scores["id"] == task).unwrap();
-    let items = task["items"].as_array().unwrap().iter();
-    let message = |item: &Value| item["message"].as_str().unwrap().to_owned();
-    items.map(message).collect()
+    graded.texts(task, "message")
 }
 
 #[test]

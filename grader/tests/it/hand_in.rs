@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
-use crate::harness::{Submission, grader, workspace};
+use crate::harness::{Submission, assert_fails, grader, workspace};
 
 fn hand_in(folder: &Path, out: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_handin"));
@@ -153,18 +153,9 @@ fn wrong_use_exits_with_2_and_a_folder_that_cannot_be_written_with_3() {
         (empty.path(), "has none of camera.rs"),
         (Path::new("nowhere"), "there is no"),
     ] {
-        let output = hand_in(folder, &out);
-        let error = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(
-            output.status.code() == Some(2) && error.contains(why),
-            "{error}"
-        );
+        assert_fails(&hand_in(folder, &out), 2, why);
         assert!(!out.exists());
     }
     let output = hand_in(&submission.path(), &file.join("out.zip"));
-    let error = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        output.status.code() == Some(3) && error.contains("cannot write"),
-        "{error}"
-    );
+    assert_fails(&output, 3, "cannot write");
 }

@@ -124,6 +124,13 @@ pub fn grader() -> Command {
     command
 }
 
+/// Checks that a run ended with this exit code and an error that contains `why`.
+pub fn assert_fails(output: &Output, code: i32, why: &str) {
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains(why), "{why}: {error}");
+    assert_eq!(output.status.code(), Some(code), "{error}");
+}
+
 /// The results of one run of the grader.
 pub struct GradeRun {
     pub output: Output,
@@ -149,12 +156,8 @@ impl GradeRun {
         // The reported commands name the submission's folder, which differs in each run.
         let text = text.replace(&*self.submission.to_string_lossy(), "SUBMISSION");
         let is_place = |line: &&str| line.ends_with("score.json") || line.ends_with("report.html");
-        let lines = text.lines().filter(|line| !is_place(line));
-        lines
-            .collect::<Vec<_>>()
-            .join("\n")
-            .trim_matches('\n')
-            .to_owned()
+        let lines: Vec<&str> = text.lines().filter(|line| !is_place(line)).collect();
+        lines.join("\n").trim_matches('\n').to_owned()
     }
 
     pub fn error(&self) -> String {
@@ -180,16 +183,23 @@ impl GradeRun {
             .collect()
     }
 
+    /// Returns the scores of a task's items.
+    pub fn items(&self, task: &str) -> Vec<Value> {
+        let score = self.score();
+        let mut tasks = score["tasks"].as_array().unwrap().iter();
+        let task = tasks.find(|scores| scores["id"] == task).unwrap();
+        task["items"].as_array().unwrap().clone()
+    }
+
+    /// Returns the texts with this key of a task's items.
+    pub fn texts(&self, task: &str, key: &str) -> Vec<String> {
+        let text = |item: &Value| item[key].as_str().unwrap().to_owned();
+        self.items(task).iter().map(text).collect()
+    }
+
     /// Returns the distinct verdicts of a task's items, sorted.
     pub fn verdicts(&self, task: &str) -> Vec<String> {
-        let score = self.score();
-        let tasks = score["tasks"].as_array().unwrap();
-        let task = tasks.iter().find(|scores| scores["id"] == task).unwrap();
-        let items = task["items"].as_array().unwrap();
-        let mut verdicts: Vec<String> = items
-            .iter()
-            .map(|item| item["verdict"].as_str().unwrap().to_owned())
-            .collect();
+        let mut verdicts = self.texts(task, "verdict");
         verdicts.sort();
         verdicts.dedup();
         verdicts
@@ -212,10 +222,5 @@ pub fn full_points_except(zero: &[usize]) -> Vec<u64> {
 
 /// Returns the points of all tasks except the faulty one.
 pub fn points_of_other_tasks(points: &[u64], fault: usize) -> u64 {
-    points
-        .iter()
-        .enumerate()
-        .filter(|(task, _)| *task != fault)
-        .map(|(_, points)| points)
-        .sum()
+    points.iter().sum::<u64>() - points[fault]
 }

@@ -2,6 +2,8 @@
 
 use std::fs;
 #[cfg(target_os = "linux")]
+use std::path::Path;
+#[cfg(target_os = "linux")]
 use std::process::Command;
 
 use grader::handed_out::RAYS;
@@ -30,55 +32,43 @@ fn next(graded: &GradeRun) -> Vec<String> {
 }
 
 #[test]
-fn a_complete_task_leads_to_the_chapter_of_the_next() {
-    let graded = with_solved(&["camera.rs"]).grade();
-    assert_eq!(
-        next(&graded),
-        ["next    Task 2: triangles, handout/src/triangle.md"]
-    );
-    // In lecture order, whichever task is complete.
-    let graded = with_solved(&["camera.rs", "sphere.rs"]).grade();
-    assert_eq!(
-        next(&graded),
-        ["next    Task 2: triangles, handout/src/triangle.md"]
-    );
-    let files = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs"];
-    let graded = with_solved(&files).grade();
-    let line = "next    Task 3: building a BVH, handout/src/building.md";
-    assert_eq!(next(&graded), [line]);
+fn a_complete_task_leads_to_the_next_in_lecture_order() {
+    let triangles = "next    Task 2: triangles, handout/src/triangle.md";
+    let building = "next    Task 3: building a BVH, handout/src/building.md";
+    let four = ["camera.rs", "triangle.rs", "sphere.rs", "bbox.rs"];
+    for (files, line) in [
+        (&four[..1], triangles),
+        (&["camera.rs", "sphere.rs"], triangles),
+        (&four, building),
+    ] {
+        assert_eq!(next(&with_solved(files).grade()), [line]);
+    }
     assert_eq!(next(&Submission::starter("new").grade()), [""; 0]);
 }
 
 #[test]
-fn the_last_task_leads_to_a_picture_and_a_challenge() {
-    let graded = Submission::reference("full").grade();
+fn the_last_task_leads_to_a_picture_and_a_challenge_but_not_for_staff_or_a_platform() {
+    let submission = Submission::reference("full");
     let lines = [
         "next    `cargo render cornell-box` draws with your code",
         "handout/src/traversal.md, \"A challenge\"",
     ];
-    assert_eq!(next(&graded), lines);
-}
-
-#[test]
-fn one_complete_task_leads_to_the_others() {
-    let submission = with_solved(&["camera.rs"]);
-    let graded = submission.grade_with(&["--task", "camera"]);
-    assert_eq!(
-        next(&graded),
-        ["next    `cargo grade` shows what the other tasks need"]
-    );
-    assert_eq!(next(&submission.grade_with(&["--task", "bbox"])), [""; 0]);
-}
-
-#[test]
-fn there_is_no_advice_for_staff_or_a_platform() {
-    let submission = Submission::reference("full");
+    assert_eq!(next(&submission.grade()), lines);
     let exam = submission.path().join("exam.json");
     fs::write(&exam, RAYS.practice_exam).unwrap();
     let exam = exam.to_string_lossy().into_owned();
     for arguments in [["--exam", &exam], ["--format", "text"]] {
         assert_eq!(next(&submission.grade_with(&arguments)), [""; 0]);
     }
+}
+
+#[test]
+fn one_complete_task_leads_to_the_others() {
+    let submission = with_solved(&["camera.rs"]);
+    let graded = submission.grade_with(&["--task", "camera"]);
+    let line = "next    `cargo grade` shows what the other tasks need";
+    assert_eq!(next(&graded), [line]);
+    assert_eq!(next(&submission.grade_with(&["--task", "bbox"])), [""; 0]);
 }
 
 /// Runs the grader in a workspace with a built handout of one page.
@@ -112,13 +102,9 @@ fn what_to_read_is_a_link_if_there_is_a_book() {
     assert!(!page.contains("sphere.html"), "the book has no such page");
 
     // `script` runs a command on a terminal of its own.
-    let line = [
-        &grader_path(),
-        out.to_str().unwrap(),
-        submission.path().to_str().unwrap(),
-    ]
-    .map(|word| format!("'{word}'"));
-    let line = format!("{} --out {} {}", line[0], line[1], line[2]);
+    let grader = Path::new(env!("CARGO_BIN_EXE_grader")).display();
+    let (out, folder_of_files) = (out.display(), submission.path());
+    let line = format!("'{grader}' --out '{out}' '{}'", folder_of_files.display());
     let mut script = Command::new("script");
     script
         .args(["-qec", &line, "/dev/null"])
@@ -138,9 +124,4 @@ fn what_to_read_is_a_link_if_there_is_a_book() {
     let text = String::from_utf8(output.stdout).unwrap();
     let start = format!("\x1b]8;;{url}\x1b\\handout/src/triangle.md\x1b]8;;\x1b\\");
     assert!(text.contains(&start), "{text:?}");
-}
-
-#[cfg(target_os = "linux")]
-fn grader_path() -> String {
-    env!("CARGO_BIN_EXE_grader").to_owned()
 }

@@ -1,24 +1,27 @@
 //! `cargo grade --reset` starts a task afresh, and loses nothing that a student wrote.
 
 use std::fs;
+use std::path::Path;
 use std::process::Output;
 
 use clap::CommandFactory;
 use grader::cli::Arguments;
 use grader::handed_out::RAYS;
 
-use crate::harness::{Submission, grader};
+use crate::harness::{Submission, assert_fails, grader};
 
-fn reset(submission: &Submission, arguments: &[&str]) -> Output {
+fn reset_at(path: &Path, arguments: &[&str]) -> Output {
     let mut command = grader();
-    command.arg(submission.path()).arg("--reset");
+    command.arg(path).arg("--reset");
     command.args(arguments).output().unwrap()
 }
 
-/// Returns the exit code and the error.
-fn refusal(output: &Output) -> (Option<i32>, String) {
-    let error = String::from_utf8(output.stderr.clone()).unwrap();
-    (output.status.code(), error)
+fn reset(submission: &Submission, arguments: &[&str]) -> Output {
+    reset_at(&submission.path(), arguments)
+}
+
+fn assert_refused(output: &Output, why: &str) {
+    assert_fails(output, 2, why);
 }
 
 fn text(submission: &Submission, file: &str) -> String {
@@ -116,13 +119,12 @@ fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
         let files = || fs::read_dir(submission.path()).unwrap().count();
         let (before, count) = (text(&submission, "sphere.rs"), files());
         // The other task could start afresh, but nothing changes if there is an error.
-        let (code, error) = refusal(&reset(&submission, &["bbox,sphere"]));
-        assert_eq!(code, Some(2), "{error}");
+        let output = reset(&submission, &["bbox,sphere"]);
         let why = format!("cannot find Sphere::hit in sphere.rs: {reason}");
-        assert!(error.contains(&why), "{error}");
-        assert!(
-            error.contains("`cargo grade --reset sphere.rs` replaces the whole"),
-            "{error}"
+        assert_refused(&output, &why);
+        assert_refused(
+            &output,
+            "`cargo grade --reset sphere.rs` replaces the whole",
         );
         assert_eq!((text(&submission, "sphere.rs"), files()), (before, count));
 
@@ -135,41 +137,12 @@ fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
 fn archives_unknown_tasks_and_folders_without_tasks_are_refused() {
     let submission = Submission::reference("alice").with("alice.zip", "PK");
     let archive = submission.path().join("alice.zip");
-    let output = grader()
-        .arg(archive)
-        .args(["--reset", "bbox"])
-        .output()
-        .unwrap();
-    let (code, error) = refusal(&output);
-    assert!(
-        code == Some(2) && error.contains("unpack an archive first"),
-        "{error}"
-    );
-
-    let (code, error) = refusal(&reset(&submission, &["sphre"]));
-    assert!(
-        code == Some(2) && error.contains("did you mean sphere?"),
-        "{error}"
-    );
-
+    assert_refused(&reset_at(&archive, &["bbox"]), "unpack an archive first");
+    assert_refused(&reset(&submission, &["sphre"]), "did you mean sphere?");
     let copies = Submission::reference("twice").with("src/bvh.rs", "");
-    let (code, error) = refusal(&reset(&copies, &["bvh"]));
-    assert!(
-        code == Some(2) && error.contains("in its top level and src"),
-        "{error}"
-    );
-
+    assert_refused(&reset(&copies, &["bvh"]), "in its top level and src");
     let empty = tempfile::tempdir().unwrap();
-    let output = grader()
-        .arg(empty.path())
-        .args(["--reset", "bvh"])
-        .output()
-        .unwrap();
-    let (code, error) = refusal(&output);
-    assert!(
-        code == Some(2) && error.contains("has none of camera.rs"),
-        "{error}"
-    );
+    assert_refused(&reset_at(empty.path(), &["bvh"]), "has none of camera.rs");
 }
 
 #[cfg(unix)]
@@ -188,13 +161,7 @@ fn links_are_not_followed() {
         folder.path().to_owned(),
         folder.path().join("src"),
     ] {
-        let output = grader()
-            .arg(&path)
-            .args(["--reset", "bvh"])
-            .output()
-            .unwrap();
-        let (code, error) = refusal(&output);
-        assert!(code == Some(2) && error.contains("is a link"), "{error}");
+        assert_refused(&reset_at(&path, &["bvh"]), "is a link");
     }
     assert_eq!(text(&other, "bvh.rs"), before);
     // A link with the name of a copy is not followed either.
@@ -213,22 +180,20 @@ fn no_option_for_grading_goes_with_it() {
     let mut count = 0;
     for option in options {
         let long = option.get_long().unwrap();
-        let other = match long {
+        let value = match long {
             "reset" | "help-staff" => continue,
-            "task" => vec!["--task", "sphere"],
-            "replay" => vec!["--replay", "sphere.uv"],
-            "isolation" => vec!["--isolation", "none"],
-            "cpu-limit" | "require" => vec!["--require", "5"],
-            "format" => vec!["--format", "html"],
-            _ if option.get_action().takes_values() => vec![long, "x"],
-            _ => vec![long],
+            "task" => "sphere",
+            "replay" => "sphere.uv",
+            "isolation" => "none",
+            "cpu-limit" | "require" => "5",
+            "format" => "html",
+            _ => "x",
         };
-        let mut arguments: Vec<String> = other.iter().map(|word| (*word).to_owned()).collect();
-        arguments[0] = format!("--{long}");
-        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        let (code, error) = refusal(&reset(&submission, &[&["sphere"], &arguments[..]].concat()));
-        assert_eq!(code, Some(2), "--{long}: {error}");
-        assert!(error.contains("cannot be used with"), "--{long}: {error}");
+        let with_value = [&format!("--{long}"), value];
+        let words = 1 + usize::from(option.get_action().takes_values());
+        let arguments = [&["sphere"], &with_value[..words]].concat();
+        let output = reset(&submission, &arguments);
+        assert_refused(&output, "cannot be used with");
         count += 1;
     }
     assert!(count > 15, "{count}");

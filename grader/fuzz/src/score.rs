@@ -18,7 +18,7 @@ pub fn read(bytes: &[u8]) {
     if let Ok(run) = &run {
         assert!(run.settings.differences(&run.settings).is_empty());
     }
-    let info = stamp.map_or_else(|_| EntryInfo::default(), |stamp| stamp.info);
+    let info = stamp.map_or_else(|_| EntryInfo::default(), |stamp| stamp.result.info);
     let Ok(summary) = ScoreSummary::parse(&json) else {
         return;
     };

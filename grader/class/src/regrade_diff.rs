@@ -73,7 +73,10 @@ pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Erro
     let mut removed = Vec::new();
     for store in stores {
         for id in store.ids()? {
-            let Some(result) = store.result(&id)?.filter(|_| !known.contains(&id)) else {
+            if known.contains(&id) {
+                continue;
+            }
+            let Some(result) = store.result(&id)? else {
                 continue;
             };
             let who = id_and_names(&id, &result.info.display_names());

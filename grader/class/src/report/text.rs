@@ -110,11 +110,8 @@ fn distribution_line(title: &str, distribution: &Distribution) -> String {
 /// Renders the changes in the copy of a gradebook.
 pub fn render_gradebook(filled: &FilledGradebook) -> String {
     let changes = filled.changes.iter();
-    let width = changes
-        .clone()
-        .map(|change| change.who.chars().count())
-        .max();
-    let width = width.unwrap_or(0);
+    let widths = changes.clone().map(|change| change.who.chars().count());
+    let width = widths.max().unwrap_or(0);
     let line = |change: &CellChange| {
         let was = match change.was.trim() {
             "" => "–",
@@ -123,10 +120,8 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
         let (who, was) = (one_line(&change.who), one_line(was));
         format!("{who:width$}  {was} → {}", change.now)
     };
-    let none = filled
-        .changes
-        .is_empty()
-        .then(|| "nothing changes".to_owned());
+    let is_unchanged = filled.changes.is_empty();
+    let none = is_unchanged.then(|| "nothing changes".to_owned());
     let warnings = filled.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {}", one_line(warning)));
     let lines = changes.take(MAX_LINES).map(line);

@@ -9,7 +9,7 @@ use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
 use crate::plural::count;
-use crate::regrade_diff::{Drift, RegradeChanges};
+use crate::regrade_diff::{Drift, ItemChange, RegradeChanges};
 use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
@@ -202,15 +202,28 @@ pub fn with_changed_points(drifts: &[Drift]) -> Vec<&Drift> {
     drifts.filter(|drift| drift.changes_points()).collect()
 }
 
+/// Returns a score's points after a change.
+pub fn points_now(drift: &Drift) -> String {
+    drift
+        .now
+        .map_or("no score".to_owned(), |now| now.to_string())
+}
+
+/// Returns an item's points before and after a change.
+pub fn points_of_item(change: &ItemChange) -> [String; 2] {
+    let text = |points: u32| points.to_string();
+    [change.was, change.now].map(|points| points.map_or("–".to_owned(), text))
+}
+
 /// Returns lines about the first scores that changed, and the number of others. `location` says where
 /// those are.
 fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
     let mut lines = Vec::new();
     for drift in drifts.iter().take(MAX_LINES) {
-        let now = drift.now_text();
+        let now = points_now(drift);
         lines.push(format!("{}: {} → {now}", one_line(&drift.id), drift.was));
         lines.extend(drift.items.iter().map(|change| {
-            let [was, now] = change.point_texts();
+            let [was, now] = points_of_item(change);
             let (item, why) = (one_line(&change.item), one_line(&change.why));
             format!("    {item} {was} → {now}: {why}")
         }));

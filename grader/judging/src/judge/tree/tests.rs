@@ -82,7 +82,8 @@ fn defect_of(tree: Tree) -> (String, String) {
 
 #[test]
 fn each_check_finds_its_defect() {
-    let changes: [(&str, fn(&mut Tree)); 15] = [
+    type Change = fn(&mut Tree);
+    let changes: [(&str, Change); 15] = [
         ("right", |_| {}),
         ("leaves", |tree| tree.order = vec![0, 1, 2, 2]),
         ("leaves", |tree| tree.order = vec![0, 1, 2, 9]),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use grader::probe::Fault;
-use protocol::ElementOutcome;
+use protocol::{ElementOutcome, Panic};
 use view_probe::messages::{
     BoxQueries, Draw, Drawn, Follow, FollowedRay, Request, Response, Target, TreeData, TreeSize,
 };
@@ -91,12 +91,15 @@ impl<'a> OpenProgram<'a> {
             opened?;
         }
         if self.aim != Some(work.aim) {
-            match self.ask(work, &Request::Aim(work.aim), LIMIT)? {
-                Response::Aimed => self.aim = Some(work.aim),
+            let response = self.ask(work, &Request::Aim(work.aim), LIMIT)?;
+            if response == Response::NotOpen {
                 // Building the tree failed, which has been reported.
-                Response::NotOpen => return Err(Stop::Unwanted),
-                other => return Err(Stop::unexpected(&other)),
+                return Err(Stop::Unwanted);
             }
+            if response != Response::Aimed {
+                return Err(Stop::unexpected(&response));
+            }
+            self.aim = Some(work.aim);
         }
         Ok(())
     }
@@ -159,10 +162,11 @@ impl<'a> OpenProgram<'a> {
         draw: &Draw,
         limit: Duration,
     ) -> Result<Drawn, Stop> {
-        match self.ask(work, &Request::Draw(*draw), limit)? {
-            Response::Drawn(drawn) => Ok(drawn),
-            other => Err(Stop::unexpected(&other)),
-        }
+        let response = self.ask(work, &Request::Draw(*draw), limit)?;
+        let Response::Drawn(drawn) = response else {
+            return Err(Stop::unexpected(&response));
+        };
+        Ok(drawn)
     }
 
     /// Returns the tree with facts about its nodes.
@@ -170,14 +174,15 @@ impl<'a> OpenProgram<'a> {
         if let Some(why) = work.subject.oversize(self.size) {
             return Err(Stop::Invalid(why));
         }
-        match self.ask(work, &Request::Tree(self.size), work.open_limit.max(LIMIT))? {
-            Response::Tree(ElementOutcome::Value(TreeData(tree))) => Ok(TreeModel::new(tree)),
-            Response::Tree(ElementOutcome::Panicked(panic)) => {
-                let (message, location) = (panic.message, panic.location);
-                Err(Stop::Invalid(format!("panicked: {message} ({location})")))
-            }
-            other => Err(Stop::unexpected(&other)),
+        let limit = work.open_limit.max(LIMIT);
+        let response = self.ask(work, &Request::Tree(self.size), limit)?;
+        if let Response::Tree(ElementOutcome::Panicked(Panic { message, location })) = &response {
+            return Err(Stop::Invalid(format!("panicked: {message} ({location})")));
         }
+        let Response::Tree(ElementOutcome::Value(TreeData(tree))) = response else {
+            return Err(Stop::unexpected(&response));
+        };
+        Ok(TreeModel::new(tree))
     }
 
     /// Explains a pixel.
@@ -215,9 +220,9 @@ impl<'a> OpenProgram<'a> {
         };
         let max_tests = MAX_TESTS;
         let request = Request::Follow(Follow { target, max_tests });
-        let followed = match self.ask(work, &request, LIMIT)? {
-            Response::Followed(followed) => followed,
-            other => return Err(Stop::unexpected(&other)),
+        let response = self.ask(work, &request, LIMIT)?;
+        let Response::Followed(followed) = response else {
+            return Err(Stop::unexpected(&response));
         };
         let tests = followed.rays.iter().flat_map(|ray| &ray.tests);
         let context = Context {
@@ -249,9 +254,9 @@ impl<'a> OpenProgram<'a> {
             ray: ray.ray,
             boxes: corners.flatten().collect(),
         });
-        let inside = match self.ask(work, &request, LIMIT)? {
-            Response::Spans(inside) => inside,
-            other => return Err(Stop::unexpected(&other)),
+        let response = self.ask(work, &request, LIMIT)?;
+        let Response::Spans(inside) = response else {
+            return Err(Stop::unexpected(&response));
         };
         let (pairs, _) = inside.as_chunks();
         let span = |&[inside, inside_larger]: &[_; 2]| NodeSpan {

@@ -13,15 +13,17 @@ pub struct ArchiveWriter {
     used: BTreeSet<String>,
 }
 
-impl ArchiveWriter {
+impl Default for ArchiveWriter {
     /// Returns an archive without files.
-    pub fn new() -> Self {
+    fn default() -> Self {
         ArchiveWriter {
             writer: ZipWriter::new(Cursor::new(Vec::new())),
             used: BTreeSet::new(),
         }
     }
+}
 
+impl ArchiveWriter {
     /// Adds a file, with a number in its name if there is already one of that name. It has no time, so
     /// that the archive depends only on the files.
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {

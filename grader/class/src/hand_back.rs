@@ -40,7 +40,7 @@ pub struct HandBack {
 /// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left
 /// out.
 pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> {
-    let mut archive = ArchiveWriter::new();
+    let mut archive = ArchiveWriter::default();
     let mut left_out = Vec::new();
     for row in &class.rows {
         // Without a score, there is no page.
@@ -106,7 +106,7 @@ fn add_as(archive: &mut ArchiveWriter, name: &str, who: &str, page: &str) -> io:
     if !name.to_lowercase().ends_with(".zip") {
         return archive.add(&name, page.as_bytes());
     }
-    let mut inner = ArchiveWriter::new();
+    let mut inner = ArchiveWriter::default();
     inner.add(&format!("{who}_{PAGE}"), page.as_bytes())?;
     archive.add(&name, &inner.finish()?)
 }

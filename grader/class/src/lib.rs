@@ -19,7 +19,8 @@
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
-//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`plural`], [`queue`], [`shard`] |
+//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
+//! | numbers with nouns | [`plural`] |
 
 pub mod archive;
 pub mod attempts;

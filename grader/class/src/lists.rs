@@ -62,12 +62,11 @@ pub fn complete_entries(
     };
     manual.check_students(&people)?;
     let unlisted = entries.iter().filter(|info| !is_listed(&rows, info));
+    let warnings = entries.iter();
+    let warnings = warnings.filter_map(|info| misleading_number(&rows, info));
     Ok(ListFindings {
         missing: roster::missing(&rows, &people),
-        warnings: entries
-            .iter()
-            .filter_map(|i| misleading_number(&rows, i))
-            .collect(),
+        warnings: warnings.collect(),
         manual,
         people: people.into_iter().cloned().collect(),
         entries: entries.len(),

@@ -132,11 +132,10 @@ impl ManualPointsList {
         } in points
         {
             let known = match outcome {
-                EntryOutcome::Graded(score) => score
-                    .tasks
-                    .iter()
-                    .find(|graded| graded.id == *task)
-                    .map(|graded| (graded.points, graded.max_points)),
+                EntryOutcome::Graded(score) => {
+                    let graded = score.tasks.iter().find(|graded| graded.id == *task);
+                    graded.map(|graded| (graded.points, graded.max_points))
+                }
                 EntryOutcome::NothingToGrade(_) => tasks.get(task).map(|most| (0, *most)),
                 EntryOutcome::Fault(_) => continue,
             };

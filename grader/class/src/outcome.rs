@@ -24,13 +24,34 @@ pub struct EntryResult {
 #[serde(tag = "state", content = "why", rename_all = "snake_case")]
 pub enum EntryOutcome {
     /// The entry was graded. A stamp is stored without the score, which is in `score.json`.
-    Graded(#[serde(skip)] Box<ScoreSummary>),
+    Graded(#[serde(with = "without_score")] Box<ScoreSummary>),
     /// There was nothing to grade, for this reason. The teacher decides how many points the
     /// submission gets.
     #[serde(rename = "no_submission")]
     NothingToGrade(String),
     /// The grader or the machine failed, for this reason. The next run tries again.
     Fault(String),
+}
+
+/// Stores an outcome without its score.
+mod without_score {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use super::ScoreSummary;
+
+    #[expect(clippy::borrowed_box, reason = "serde passes a reference")]
+    pub(super) fn serialize<S: Serializer>(
+        _: &Box<ScoreSummary>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.serialize_unit()
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Box<ScoreSummary>, D::Error> {
+        <()>::deserialize(deserializer).map(|()| Box::default())
+    }
 }
 
 /// The parts of `score.json` that the class's files need.

@@ -73,7 +73,10 @@ pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Erro
     let mut removed = Vec::new();
     for store in stores {
         for id in store.ids()? {
-            let Some(result) = store.result(&id)?.filter(|_| !known.contains(&id)) else {
+            if known.contains(&id) {
+                continue;
+            }
+            let Some(result) = store.result(&id)? else {
                 continue;
             };
             let who = id_and_names(&id, &result.info.display_names());
@@ -105,12 +108,6 @@ impl Drift {
     pub fn changes_points(&self) -> bool {
         self.now != Some(self.was)
     }
-
-    /// Returns the points after the regrade, for people.
-    pub fn now_text(&self) -> String {
-        self.now
-            .map_or("no score".to_owned(), |now| now.to_string())
-    }
 }
 
 /// A change in the points of an item.
@@ -125,14 +122,6 @@ pub struct ItemChange {
     /// The reason: the verdict and message after the regrade and, if points were gained, also those
     /// before it.
     pub why: String,
-}
-
-impl ItemChange {
-    /// Returns the points before and after the regrade, for people.
-    pub fn point_texts(&self) -> [String; 2] {
-        let text = |points: u32| points.to_string();
-        [self.was, self.now].map(|points| points.map_or("–".to_owned(), text))
-    }
 }
 
 /// Compares the scores of an entry; returns `None` if nothing changed.

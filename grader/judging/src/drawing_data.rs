@@ -139,9 +139,10 @@ impl Sweep {
 
 #[cfg(test)]
 mod tests {
-    use protocol::{Ray, Shape};
+    use protocol::Ray;
 
     use super::*;
+    use crate::tests::sphere;
 
     fn bbox() -> Question {
         let query = (Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD);
@@ -162,13 +163,8 @@ mod tests {
     }
 
     fn build() -> Question {
-        let shape = Shape::Sphere {
-            center: Vec3::ZERO,
-            radius: 1.0,
-            material: 0,
-        };
         Question::Build {
-            shapes: vec![shape],
+            shapes: vec![sphere(Vec3::ZERO, 1.0)],
             max_leaf_size: 1,
         }
     }

@@ -9,6 +9,8 @@ use super::numbers::short;
 
 /// The height of a row.
 const ROW_HEIGHT: f64 = 20.0;
+/// Half the height of a bar.
+const HALF_BAR: f64 = 5.0;
 /// The left end of the axis. The names of the rows are to the left of it.
 const LEFT: f64 = 58.0;
 const RIGHT: f64 = WIDTH - 12.0;
@@ -24,6 +26,18 @@ pub(super) enum BarStyle {
     Right,
     /// For the submitted interval.
     Wrong,
+}
+
+impl BarStyle {
+    /// Returns the colour, the outline, and the opacity of the fill.
+    fn look(self) -> (Ink, LineStyle, f64) {
+        match self {
+            BarStyle::Plain => (Ink::Text, LineStyle::Grid, 0.18),
+            BarStyle::Range => (Ink::Text, LineStyle::Grid, 0.4),
+            BarStyle::Right => (Ink::Right, LineStyle::Right, 0.6),
+            BarStyle::Wrong => (Ink::Wrong, LineStyle::Wrong, 0.15),
+        }
+    }
 }
 
 /// A row of the diagram: its name, its interval, and the text to show if the interval is empty.
@@ -161,11 +175,7 @@ pub(super) fn draw(
 }
 
 fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {
-    let ink = match row.style {
-        BarStyle::Plain | BarStyle::Range => Ink::Text,
-        BarStyle::Right => Ink::Right,
-        BarStyle::Wrong => Ink::Wrong,
-    };
+    let (ink, line, share) = row.style.look();
     let name = dvec2(LEFT - 8.0, y + 14.5);
     canvas.text(name, Anchor::End, ink, row.name);
     let middle = y + 0.5 * ROW_HEIGHT;
@@ -176,15 +186,9 @@ fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {
     };
     let (min, max) = (f64::from(span.min), f64::from(span.max));
     let (from, to) = (axis.page_position(min), axis.page_position(max));
-    let (line, share, half) = match row.style {
-        BarStyle::Plain => (LineStyle::Grid, 0.18, 5.0),
-        BarStyle::Range => (LineStyle::Grid, 0.4, 5.0),
-        BarStyle::Right => (LineStyle::Right, 0.6, 5.0),
-        BarStyle::Wrong => (LineStyle::Wrong, 0.15, 5.0),
-    };
     // Keeps an interval of a single point visible.
     let to = to.max(from + 1.5);
-    let corner = |x: f64, up: f64| dvec2(x, middle + up * half);
+    let corner = |x: f64, up: f64| dvec2(x, middle + up * HALF_BAR);
     let fill = Fill::Tint(ink, share);
     canvas.rectangle(corner(from, -1.0), corner(to, 1.0), line, fill);
     // Draws arrowheads where the interval continues beyond the axis.

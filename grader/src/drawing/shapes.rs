@@ -3,18 +3,15 @@
 use glam::DVec3;
 use protocol::Shape;
 
-use super::hit_comparison::{HitAnswer, HitComparison};
+use super::hit_comparison::HitComparison;
 use super::{Drawing, sphere, triangle};
 
 /// Draws the shape of the expected hit, else that of the submitted hit, else the shape nearest to
 /// the ray.
 pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
-    let position = match (comparison.wanted, comparison.got) {
-        (Some(hit), _) | (None, HitAnswer::Hit(hit)) => Some(hit.position),
-        (None, HitAnswer::Miss | HitAnswer::NoAnswer) => None,
-    };
-    let distance = |shape: &&Shape| match position {
-        Some(point) => distance_to_surface(shape, point),
+    let hit = comparison.wanted.or(comparison.got.hit());
+    let distance = |shape: &&Shape| match hit {
+        Some(hit) => distance_to_surface(shape, hit.position),
         None => distance_to_line(shape, comparison),
     };
     let shape = shapes

@@ -55,21 +55,15 @@ impl Sheet {
     /// Adds two panels side by side, each with its title above it.
     pub(super) fn panels(&mut self, titles: [&str; 2], height: f64) -> [Panel; 2] {
         let middle = WIDTH / 2.0;
-        self.titles([(1.0, titles[0]), (middle + 3.0, titles[1])]);
+        self.title_at(1.0, titles[0]);
+        self.title_at(middle + 3.0, titles[1]);
+        self.advance(ROW_HEIGHT);
         let panels = [
             self.bordered_panel(1.0, middle - 3.0, height),
             self.bordered_panel(middle + 3.0, WIDTH - 1.0, height),
         ];
         self.advance(height + 6.0);
         panels
-    }
-
-    fn titles(&mut self, titles: [(f64, &str); 2]) {
-        for (x, title) in titles {
-            let at = dvec2(x, self.y + 12.0);
-            self.canvas.text(at, Anchor::Start, Ink::Faint, title);
-        }
-        self.advance(ROW_HEIGHT);
     }
 
     fn bordered_panel(&mut self, left: f64, right: f64, height: f64) -> Panel {
@@ -84,9 +78,13 @@ impl Sheet {
 
     /// Adds a title for the elements below it.
     pub(super) fn title(&mut self, title: &str) {
-        let at = dvec2(1.0, self.y + 12.0);
-        self.canvas.text(at, Anchor::Start, Ink::Faint, title);
+        self.title_at(1.0, title);
         self.advance(ROW_HEIGHT);
+    }
+
+    fn title_at(&mut self, x: f64, title: &str) {
+        let at = dvec2(x, self.y + 12.0);
+        self.canvas.text(at, Anchor::Start, Ink::Faint, title);
     }
 
     /// Moves the position of the next element down by this height.

@@ -3,7 +3,7 @@
 use glam::{DVec2, dvec2};
 
 use super::canvas::{Anchor, Canvas, Mark};
-use super::hit_comparison::{HitAnswer, HitComparison};
+use super::hit_comparison::HitComparison;
 use super::ink::{Fill, Ink, LineStyle};
 use super::window::{Panel, Window};
 
@@ -43,10 +43,7 @@ pub(super) fn draw_square(
         canvas.text(*at + dvec2(4.0, -4.0), Anchor::Start, Ink::Text, label);
     }
     let wanted = comparison.wanted.map(|hit| hit.uv);
-    let got = match comparison.got {
-        HitAnswer::Hit(hit) => Some(hit.uv),
-        HitAnswer::Miss | HitAnswer::NoAnswer => None,
-    };
+    let got = comparison.got.hit().map(|hit| hit.uv);
     for (uv, mark) in [(wanted, Mark::Right), (got, Mark::Wrong)] {
         let at = uv
             .map(|uv| window.page_position(uv))

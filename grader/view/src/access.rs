@@ -100,52 +100,6 @@ fn secret() -> Result<String, getrandom::Error> {
 mod tests {
     use super::*;
 
-    fn refusal(text: &str, is_public: bool) -> Option<&'static str> {
-        let access = Access {
-            token: "t0".to_owned(),
-            hosts: ["localhost", "[::1]", "my-80.example"]
-                .map(str::to_owned)
-                .to_vec(),
-            forwarded: None,
-        };
-        let text = format!(
-            "GET /state HTTP/1.1\r\n{}\r\n\r\n",
-            text.replace('\n', "\r\n")
-        );
-        access.refusal(&Request::read(&mut text.as_bytes()).unwrap(), is_public)
-    }
-
-    #[test]
-    fn only_the_header_with_the_token_opens_what_is_not_public() {
-        assert_eq!(refusal("Host: localhost:9000\nView-Token: t0", false), None);
-        assert_eq!(refusal("Host: [::1]:80", true), None);
-        for headers in [
-            "Host: localhost",
-            "Host: localhost\nView-Token: t1",
-            "Host: localhost\nView-Token:",
-            "Host: localhost\nView-Token: t0\nView-Token: t0",
-            "Host: localhost\nCookie: token=t0",
-        ] {
-            let why = refusal(headers, false);
-            assert!(why.is_some_and(|why| why.contains("printed")), "{headers}");
-        }
-    }
-
-    #[test]
-    fn other_hosts_are_refused_even_with_the_token() {
-        assert_eq!(refusal("Host: MY-80.example\nView-Token: t0", false), None);
-        for headers in [
-            "Host: evil.example",
-            "Host: localhost.evil.example",
-            "X: 1",
-            "Host: localhost\nHost: evil.example",
-        ] {
-            let headers = format!("{headers}\nView-Token: t0");
-            assert!(refusal(&headers, false).is_some(), "{headers}");
-            assert!(refusal(&headers, true).is_some(), "{headers}");
-        }
-    }
-
     #[test]
     fn a_codespace_has_a_forwarded_name() {
         let variable = |name: &str| match name {

@@ -9,14 +9,20 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | the command | [`run`], [`cli`], [`browser`] |
-//! | the page | [`routes`], with the files in `page`; [`access`] |
+//! | the command | [`run`] |
+//! | its parts | [`cli`], [`browser`] |
+//! | the page | [`routes`], with the files in `page` |
+//! | who is answered | [`access`] |
 //! | threads | [`workers`], [`watcher`], [`composer`] |
 //! | the state, shared by them | [`shared_session`] |
 //! | the state | [`session`] |
-//! | inputs | [`subject`], [`exam_question`], [`program`], [`recording`], [`probe`] |
+//! | questions as scenes | [`exam_question`] |
+//! | scenes | [`subject`] |
+//! | running programs | [`probe`] |
+//! | builds | [`program`] |
+//! | changes of a submission's source | [`recording`] |
 //! | pure parts | [`model`]: camera, order of drawing, tree, rules of traversal |
-//! | the network | [`http`] |
+//! | the network, errors | [`http`], [`error`] |
 
 pub mod access;
 pub mod browser;

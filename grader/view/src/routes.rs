@@ -29,16 +29,8 @@ const NARROWEST: f32 = 1.0 / 600.0;
 
 /// The files of the page: path, type and text.
 const FILES: [(&str, &str, &str); 10] = [
-    (
-        "/",
-        "text/html; charset=utf-8",
-        include_str!("page/index.html"),
-    ),
-    (
-        "/style.css",
-        "text/css; charset=utf-8",
-        include_str!("page/style.css"),
-    ),
+    ("/", HTML, include_str!("page/index.html")),
+    ("/style.css", CSS, include_str!("page/style.css")),
     ("/icon.svg", "image/svg+xml", ICON),
     // Browsers ask for this one if a page names no icon, like the errors.
     ("/favicon.ico", "image/svg+xml", ICON),
@@ -50,6 +42,8 @@ const FILES: [(&str, &str, &str); 10] = [
     ("/tree.js", SCRIPT, include_str!("page/tree.js")),
 ];
 const ICON: &str = include_str!("page/icon.svg");
+const HTML: &str = "text/html; charset=utf-8";
+const CSS: &str = "text/css; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 const JSON: &str = "application/json";
 
@@ -94,7 +88,7 @@ impl Site for Routes {
     fn answer(&self, request: &Request) -> Response {
         let file = FILES.iter().find(|(path, _, _)| *path == request.path);
         if let Some(why) = self.access.refusal(request, file.is_some()) {
-            return Response::text(Status::Forbidden, why);
+            return Response::text(Status::FORBIDDEN, why);
         }
         if file.is_none() {
             // The page has the token, so the file that contains it is no longer needed.
@@ -103,27 +97,27 @@ impl Site for Routes {
         }
         match (request.method, request.path.as_str(), file) {
             (Method::Get, _, Some((_, content_type, text))) => {
-                Response::new(Status::Ok, content_type, *text)
+                Response::new(Status::OK, content_type, *text)
             }
             (Method::Get, "/state", _) => self.state(number(request, "after")),
-            (Method::Get, "/picture", _) => match self.session.picture() {
-                Some(picture) => Response::new(Status::Ok, "image/png", picture.png.clone()),
-                None => Response::text(Status::NotFound, "there is no picture yet"),
-            },
+            (Method::Get, "/picture", _) => self.session.picture().map_or_else(
+                || not_found("there is no picture yet"),
+                |picture| Response::new(Status::OK, "image/png", picture.png.clone()),
+            ),
             (Method::Get, "/explanation", _) => {
-                match self.session.read(|session, _| session.explanation.clone()) {
-                    Some(explanation) => json(&*explanation),
-                    None => Response::text(Status::NotFound, "no pixel is explained"),
-                }
+                let explanation = self.session.read(|session, _| session.explanation.clone());
+                explanation
+                    .map_or_else(|| not_found("no pixel is explained"), |found| json(&*found))
             }
             (Method::Get, "/tree" | "/boxes" | "/node", _) => {
-                match self.session.read(|session, _| session.tree.clone()) {
-                    Some(tree) => of_tree(&tree, request),
-                    None => Response::text(Status::NotFound, "there is no tree yet"),
-                }
+                let tree = self.session.read(|session, _| session.tree.clone());
+                tree.map_or_else(
+                    || not_found("there is no tree yet"),
+                    |tree| of_tree(&tree, request),
+                )
             }
             (Method::Post, "/command", _) => self.command(&request.body),
-            (Method::Get | Method::Post, _, _) => Response::text(Status::NotFound, "no such page"),
+            (Method::Get | Method::Post, _, _) => not_found("no such page"),
         }
     }
 }
@@ -139,7 +133,7 @@ impl Routes {
     }
 
     fn command(&self, body: &[u8]) -> Response {
-        let bad = |why: &dyn Display| Response::text(Status::BadRequest, &why.to_string());
+        let bad = |why: &dyn Display| Response::text(Status::BAD_REQUEST, &why.to_string());
         let command: Command = match serde_json::from_slice(body) {
             Ok(command) => command,
             Err(error) => return bad(&error),
@@ -178,7 +172,7 @@ fn of_tree(tree: &TreeModel, request: &Request) -> Response {
         }
         _ => match tree.info(index("node")) {
             Some(node) => json(&node),
-            None => Response::text(Status::NotFound, "there is no such node"),
+            None => not_found("there is no such node"),
         },
     }
 }
@@ -194,6 +188,10 @@ fn summary(tree: &TreeModel) -> TreeSummary {
     }
 }
 
+fn not_found(why: &str) -> Response {
+    Response::text(Status::NOT_FOUND, why)
+}
+
 fn number(request: &Request, name: &str) -> u64 {
     request
         .parameter(name)
@@ -206,8 +204,8 @@ fn json(value: &impl Serialize) -> Response {
     let mut text = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, Sanitizing);
     match value.serialize(&mut serializer) {
-        Ok(()) => Response::new(Status::Ok, JSON, text),
-        Err(error) => Response::text(Status::BadRequest, &error.to_string()),
+        Ok(()) => Response::new(Status::OK, JSON, text),
+        Err(error) => Response::text(Status::BAD_REQUEST, &error.to_string()),
     }
 }
 

@@ -55,43 +55,29 @@ fn archives_are_reproducible_and_unpack_to_the_same_files() {
 
 #[test]
 fn finds_an_inserted_secret_of_each_kind() {
+    let secret = |path: &'static str, part| (path, line_with(path, part));
+    let (_, not_centred) = secret("reference/src/camera.rs", "film.as_vec2() - 0.5");
     let inserted = [
-        (
-            "reference/src/camera.rs",
-            line_with("reference/src/camera.rs", "self.vertical_fov"),
-        ),
-        (
-            "reference/variants/",
-            line_with("reference/variants/bvh/build/median.rs", "total_cmp"),
-        ),
-        (
-            "reference/substitution/bvh/bvh.rs",
-            line_with("reference/substitution/bvh/bvh.rs", "split_at_mut"),
-        ),
-        (
-            "reference/author/src/oracle/",
-            line_with("reference/author/src/oracle/sphere.rs", "sqrt"),
-        ),
+        secret("reference/src/camera.rs", "self.vertical_fov"),
+        secret("reference/variants/bvh/build/median.rs", "total_cmp"),
+        secret("reference/substitution/bvh/bvh.rs", "split_at_mut"),
+        secret("reference/author/src/oracle/sphere.rs", "sqrt"),
         (
             "the mistake camera.not_centred",
-            line_with("reference/src/camera.rs", "film.as_vec2() - 0.5").replace(" - 0.5", ""),
+            not_centred.replace(" - 0.5", ""),
         ),
     ];
     for (source, line) in inserted {
         let mut bundle = BUNDLE.clone();
         bundle.insert("scenes/notes.txt", format!("One\n\n\t{line}  \n"));
         let leaks = secrets().search(&bundle);
-        let [
-            Leak::Line {
-                found,
-                source: found_source,
-            },
-        ] = &leaks[..]
-        else {
+        let [Leak::Line { found, source: of }] = &leaks[..] else {
             panic!("{line}: {leaks:?}");
         };
         assert_eq!(found, "scenes/notes.txt:3");
-        assert!(found_source.starts_with(source), "{found_source}");
+        // Other files of the same folder may have the same line.
+        let folder = source.rsplit_once('/').map_or(source, |(folder, _)| folder);
+        assert!(of.starts_with(folder), "{of}");
     }
 }
 
@@ -166,15 +152,11 @@ fn its_lock_file_is_a_subset_of_the_workspaces() {
     let theirs = BUNDLE.text("Cargo.lock").unwrap();
     // Compares the name, version, source and checksum of each package, but not its dependencies, of
     // which the bundle may have fewer.
-    let package = |block: &str| {
-        let lines: Vec<String> = block.lines().take(4).map(str::to_owned).collect();
-        lines
-    };
-    let blocks = |text: &str| -> Vec<Vec<String>> {
-        let blocks = text.split("[[package]]\n").skip(1);
+    fn blocks(lock: &str) -> Vec<Vec<&str>> {
+        let blocks = lock.split("[[package]]\n").skip(1);
         let foreign = blocks.filter(|block| block.contains("checksum"));
-        foreign.map(package).collect()
-    };
+        foreign.map(|it| it.lines().take(4).collect()).collect()
+    }
     let (ours, theirs) = (blocks(&ours), blocks(theirs));
     assert!(theirs.len() > 50, "{}", theirs.len());
     for package in theirs {
@@ -198,17 +180,18 @@ fn refuses_to_write_into_a_folder_that_is_not_empty() {
     );
 }
 
+/// Returns the paths and texts of the bundle's Markdown files.
+fn documents() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let files = BUNDLE.text_files();
+    files.filter(|(path, _)| path.ends_with(".md"))
+}
+
 #[test]
 fn every_link_in_its_documents_leads_to_a_bundled_file() {
-    let pages = BUNDLE
-        .text_files()
-        .filter(|(path, _)| path.ends_with(".md"));
     let mut count = 0;
-    for (path, page) in pages {
-        let links = page
-            .split("](")
-            .skip(1)
-            .filter_map(|rest| rest.split(')').next());
+    for (path, page) in documents() {
+        let links = page.split("](").skip(1);
+        let links = links.filter_map(|rest| rest.split(')').next());
         for link in links.filter(|link| !link.starts_with("http") && !link.starts_with('#')) {
             let target = link.split('#').next().unwrap_or(link);
             let target = resolved(path, target);
@@ -237,17 +220,9 @@ fn resolved(page: &str, link: &str) -> String {
 
 #[test]
 fn its_documents_name_no_staff_command() {
-    for (path, text) in BUNDLE
-        .text_files()
-        .filter(|(path, _)| path.ends_with(".md"))
-    {
-        for command in [
-            "cargo author",
-            "cargo book",
-            "cargo class",
-            "cargo render-reference",
-        ] {
-            assert!(!text.contains(command), "{path}: {command}");
+    for (path, text) in documents() {
+        for command in ["author", "book", "class", "render-reference"] {
+            assert!(!text.contains(&format!("cargo {command}")), "{path}");
         }
     }
 }
@@ -292,17 +267,9 @@ fn an_update_has_everything_but_the_students_files_and_the_same_version() {
     let output = write_to(&archive, &["--update"]);
     assert!(output.status.success(), "{output:?}");
     let update = unzip(&fs::read(archive).unwrap()).unwrap();
-    let missing: Vec<&String> = BUNDLE
-        .files
-        .keys()
-        .filter(|path| !update.files.contains_key(*path))
-        .collect();
+    let missing = BUNDLE.files.keys();
+    let missing = missing.filter(|path| !update.files.contains_key(*path));
     let own = ["bbox", "bvh", "camera", "sphere", "triangle"];
-    assert_eq!(
-        missing,
-        own.map(|name| format!("student/src/{name}.rs"))
-            .iter()
-            .collect::<Vec<_>>()
-    );
+    assert!(missing.eq(&own.map(|name| format!("student/src/{name}.rs"))));
     assert_eq!(update.version(), BUNDLE.version());
 }

@@ -3,12 +3,18 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::Mutex;
 
 use grader::handed_out::RAYS;
 use grader::probe::Budget;
 use grader::task_session::{MAX_CRASHES, MAX_TIMEOUTS};
 
+/// Held while a command runs. Two commands that build the same solutions at the same time would compile
+/// each of them twice; the second one alone finds the programs of the first.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
 fn author(arguments: &[&str]) -> Output {
+    let _lock = ONE_AT_A_TIME.lock();
     Command::new(env!("CARGO_BIN_EXE_author"))
         .args(arguments)
         .output()

@@ -9,21 +9,15 @@ use author::seed::Seed;
 use glam::Vec3;
 use judging::assignment::RAYS;
 use judging::exam::{Item, Key};
-use protocol::{Question, Ray, Shape};
+use protocol::{Question, Ray, Rays, Shape};
 
 use crate::exams::{SEEDS, exam_of, make_exam};
 
 fn rays(question: &Question) -> Vec<Ray> {
-    match question {
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-        Question::BBox { queries, .. } => queries.iter().map(|(ray, _)| *ray).collect(),
-        Question::Camera { .. }
-        | Question::Build { .. }
-        | Question::Radiance { .. }
-        | Question::Done => Vec::new(),
+    if let Question::BBox { queries, .. } = question {
+        return queries.iter().map(|(ray, _)| *ray).collect();
     }
+    question.rays().map(Rays::to_vec).unwrap_or_default()
 }
 
 #[test]

@@ -6,9 +6,10 @@ use std::fs;
 use std::path::Path;
 
 /// The sources of the crates whose modules are in layers.
-const SOURCES: [&str; 2] = [
+const SOURCES: [&str; 3] = [
     concat!(env!("CARGO_MANIFEST_DIR"), "/src"),
     concat!(env!("CARGO_MANIFEST_DIR"), "/../../grader/class/src"),
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../../grader/view/src"),
 ];
 
 /// Returns each module's row in the table of layers.

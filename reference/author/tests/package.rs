@@ -40,11 +40,7 @@ fn the_gradescope_zip_is_complete_and_has_no_needless_files() {
             assert!(!path.contains(staff), "{path}");
         }
     }
-    assert!(
-        package
-            .files
-            .contains_key("pathtracing/reference/src/bvh.rs")
-    );
+    assert!(package.text("pathtracing/reference/src/bvh.rs").is_some());
 }
 
 #[test]
@@ -93,26 +89,15 @@ const RUST: &str = "1.95.0";
 fn packages_install_one_fixed_version_of_rust() {
     let gradescope = collect(&root(), &RAYS, Platform::Gradescope, FINAL.clone()).unwrap();
     let github = collect(&root(), &RAYS, Platform::Github, without_exam()).unwrap();
-    let install = [
-        (
-            gradescope.text("setup.sh"),
-            format!("--default-toolchain {RUST}\n"),
-        ),
-        (
-            github.text(".github/workflows/grade.yml"),
-            format!("rustup toolchain install {RUST} "),
-        ),
-    ];
-    for (script, line) in install {
-        assert!(script.unwrap().contains(&line), "{script:?}");
-    }
+    let setup = gradescope.text("setup.sh").unwrap();
+    assert!(setup.contains(&format!("--default-toolchain {RUST}\n")));
+    let workflow = github.text(".github/workflows/grade.yml").unwrap();
+    assert!(workflow.contains(&format!("rustup toolchain install {RUST} ")));
     let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
     let minimum = manifest.split("rust-version = \"").nth(1).unwrap();
     let numbers = |version: &str| -> Vec<u32> {
-        let numbers = version
-            .split(['.', '"'])
-            .map_while(|number| number.parse().ok());
-        numbers.collect()
+        let parts = version.split(['.', '"']);
+        parts.map_while(|part| part.parse().ok()).collect()
     };
     assert!(numbers(RUST) >= numbers(minimum), "{minimum:.10}");
 }

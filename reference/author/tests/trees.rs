@@ -58,21 +58,16 @@ fn child_boxes_are_inside_their_parents_box() {
 fn a_linear_scan_fails_every_traversal_item() {
     for seed in SEEDS {
         let exam = exam_of(seed);
-        let mut caught: BTreeSet<&str> = BTreeSet::new();
-        for (id, tree, rays) in trees(exam) {
-            let wrong = rays.iter().any(|ray| {
+        let is_wrong = |(_, tree, rays): &(&str, Tree, Vec<Ray>)| {
+            rays.iter().any(|ray| {
                 let ray64 = Ray64::from(ray);
                 scan::closest_hit(&ray64, &tree.shapes) != tree.expected_hit(&ray64)
-            });
-            if wrong {
-                caught.insert(id);
-            }
-        }
-        for item in exam
-            .items
-            .iter()
-            .filter(|item| item.task == RAYS.find("traverse").unwrap().task())
-        {
+            })
+        };
+        let wrong = trees(exam).into_iter().filter(is_wrong);
+        let caught: BTreeSet<&str> = wrong.map(|(id, ..)| id).collect();
+        let traverse = RAYS.find("traverse").unwrap().task();
+        for item in exam.items.iter().filter(|item| item.task == traverse) {
             assert!(caught.contains(&*item.id), "seed {seed}, {}", item.id);
         }
     }

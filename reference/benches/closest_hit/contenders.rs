@@ -137,21 +137,23 @@ impl CrateBvhTree {
     }
 }
 
-/// The crate `bvh`, traversed in order of distance.
-pub struct NearestTraversal(pub Rc<CrateBvhTree>);
-
-impl Contender for NearestTraversal {
-    fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        rays.iter().map(|ray| self.0.closest_ordered(ray)).collect()
-    }
+/// The crate `bvh`, with one of its ways to traverse a tree.
+pub struct Traversed {
+    pub tree: Rc<CrateBvhTree>,
+    /// Whether to traverse in order of distance, or to test every triangle whose box is hit.
+    pub is_ordered: bool,
 }
 
-/// The crate `bvh`, testing every triangle whose box is hit.
-pub struct FullTraversal(pub Rc<CrateBvhTree>);
-
-impl Contender for FullTraversal {
+impl Contender for Traversed {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
-        rays.iter().map(|ray| self.0.closest_of_all(ray)).collect()
+        let distance = |ray| {
+            if self.is_ordered {
+                self.tree.closest_ordered(ray)
+            } else {
+                self.tree.closest_of_all(ray)
+            }
+        };
+        rays.iter().map(distance).collect()
     }
 }
 

@@ -10,9 +10,7 @@ use reference::bvh::Bvh;
 use reference::primitive::Primitive;
 use variants::bvh::wide;
 
-use crate::contenders::{
-    Contender, CrateBvhTree, FullTraversal, MAX_LEAF_SIZE, NearestTraversal, Obvhs,
-};
+use crate::contenders::{Contender, CrateBvhTree, MAX_LEAF_SIZE, Obvhs, Traversed};
 use crate::cost::timed;
 use crate::embree::Embree;
 use crate::mesh::{Mesh, meshes};
@@ -23,6 +21,8 @@ mod contenders;
 mod cost;
 mod embree;
 mod mesh;
+#[path = "../numbers.rs"]
+mod numbers;
 mod rays;
 mod report;
 
@@ -114,8 +114,10 @@ fn build_trees<'a>(
         others.push(("obvhs", Box::new(tree)));
         round.push(("obvhs", time));
         let (tree, time) = timed(|| Rc::new(CrateBvhTree::build(&mesh.corners)));
-        others.push(("bvh, nearest", Box::new(NearestTraversal(Rc::clone(&tree)))));
-        others.push(("bvh, all", Box::new(FullTraversal(tree))));
+        for (name, is_ordered) in [("bvh, nearest", true), ("bvh, all", false)] {
+            let tree = Rc::clone(&tree);
+            others.push((name, Box::new(Traversed { tree, is_ordered })));
+        }
         round.push(("bvh, nearest", time));
         if let Some(embree) = embree {
             let (tree, time) = timed(|| embree.build(mesh));

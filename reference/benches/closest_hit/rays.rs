@@ -6,6 +6,7 @@ use protocol::Ray;
 use reference::bvh::Bvh;
 
 use crate::mesh::Mesh;
+use crate::numbers::SplitMix64;
 
 /// Rays of one kind.
 pub struct Rays {
@@ -50,7 +51,7 @@ fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
         let hits = last.iter().filter_map(|ray| Some((ray, bvh.hit(ray)?)));
         let next = hits.map(|(ray, trace)| {
             let facing = trace.normal * -ray.dir.dot(trace.normal).signum();
-            let dir = (facing + numbers.direction()).normalize_or(facing);
+            let dir = (facing + numbers.in_ball().normalize()).normalize_or(facing);
             Ray::new(trace.position, dir).within(gap, f32::INFINITY)
         });
         last = next.collect();
@@ -70,36 +71,9 @@ fn random(mesh: &Mesh, count: usize) -> Vec<Ray> {
         let from = if mesh.is_building {
             mesh.bbox.min + numbers.point() * size
         } else {
-            center + size.length() * numbers.direction()
+            center + size.length() * numbers.in_ball().normalize()
         };
         Ray::new(from, to - from)
     };
     (0..count).map(ray).collect()
-}
-
-/// A random number generator: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
-/// Generators", 2014.
-struct SplitMix64(u64);
-
-impl SplitMix64 {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn point(&mut self) -> Vec3 {
-        vec3(self.unit(), self.unit(), self.unit())
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        loop {
-            let point = 2.0 * self.point() - 1.0;
-            if (0.01..1.0).contains(&point.length_squared()) {
-                return point.normalize();
-            }
-        }
-    }
 }

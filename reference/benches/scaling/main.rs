@@ -15,6 +15,8 @@ use crate::plot::plot;
 
 mod count;
 mod mesh;
+#[path = "../numbers.rs"]
+mod numbers;
 mod plot;
 
 const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";

@@ -1,7 +1,9 @@
 //! A surface with a variable number of triangles, and rays to trace.
 
-use glam::{Vec3, vec3};
+use glam::Vec3;
 use protocol::{Ray, Shape};
+
+use crate::numbers::SplitMix64;
 
 /// Returns a ball with bumps, made from a cube of 12 · pieces² triangles. It is computed only with
 /// the four basic arithmetic operations and square roots, whose results are the same on every
@@ -46,27 +48,4 @@ pub fn rays(count: usize) -> Vec<Ray> {
         Ray::new(origin, numbers.in_ball() - origin)
     };
     (0..count).map(ray).collect()
-}
-
-/// A random number generator: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
-/// Generators", 2014.
-struct SplitMix64(u64);
-
-impl SplitMix64 {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn in_ball(&mut self) -> Vec3 {
-        loop {
-            let point = vec3(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
-            if (0.01..1.0).contains(&point.length_squared()) {
-                return point;
-            }
-        }
-    }
 }

@@ -69,41 +69,29 @@ fn classify(line: &str) -> LineKind<'_> {
 
 /// Returns the lines of a marked file that are not part of a solution.
 pub(crate) fn lines_without_solutions(source: &str) -> Result<Vec<Line<'_>>, MarkError> {
-    /// An open region: its first line, and whether it has a line for the starter.
-    struct Region {
-        begin: usize,
-        has_starter_line: bool,
-    }
-
     let error = |line, problem| Err(MarkError { line, problem });
     let mut lines = Vec::new();
-    let mut open: Option<Region> = None;
+    // The first line of the open region, and whether it has a line for the starter.
+    let mut open: Option<(usize, bool)> = None;
     for (number, line) in (1..).zip(source.lines()) {
         match (classify(line), &mut open) {
-            (LineKind::Begin, None) => {
-                open = Some(Region {
-                    begin: number,
-                    has_starter_line: false,
-                });
-            }
+            (LineKind::Begin, None) => open = Some((number, false)),
             (LineKind::Begin, Some(_)) => return error(number, MarkProblem::Nested),
             (LineKind::End, None) => return error(number, MarkProblem::NotStarted),
-            (LineKind::End, Some(region)) if !region.has_starter_line => {
-                return error(region.begin, MarkProblem::NoStarterLine);
+            (LineKind::End, Some((begin, false))) => {
+                return error(*begin, MarkProblem::NoStarterLine);
             }
-            (LineKind::End, Some(_)) => open = None,
+            (LineKind::End, Some((_, true))) => open = None,
             (LineKind::Starter(indentation, rest), region) => {
                 lines.push(Line::Starter(indentation, rest));
-                if let Some(region) = region {
-                    region.has_starter_line = true;
-                }
+                *region = region.map(|(begin, _)| (begin, true));
             }
             (LineKind::Other, None) => lines.push(Line::Given(line)),
             (LineKind::Other, Some(_)) => {}
         }
     }
     match open {
-        Some(region) => error(region.begin, MarkProblem::NotEnded),
+        Some((begin, _)) => error(begin, MarkProblem::NotEnded),
         None => Ok(lines),
     }
 }

@@ -1,4 +1,8 @@
-//! A minimal submission and a scene for the tests.
+//! What tests share: a scene, a temporary folder and a minimal submission.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
@@ -20,16 +24,50 @@ pub(crate) fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
     Scene::from_text(&text).expect("the scene is valid")
 }
 
-/// A submission that intersects rays with spheres only. It applies `alter` to each hit.
+/// A temporary folder that is removed at the end of the test.
+pub(crate) struct Folder(pub(crate) PathBuf);
+
+impl Folder {
+    pub(crate) fn new() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("framework-{}-{number}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        fs::create_dir_all(&folder).expect("the folder can be created");
+        Folder(folder)
+    }
+
+    pub(crate) fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, contents).expect("the file can be written");
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // If this fails, the system removes the temporary folder later.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A submission that intersects rays with spheres only.
 pub(crate) struct SphereSubmission {
+    /// Returns the ray through a position on the film, from −1 to 1 in each direction.
+    pub(crate) ray: fn(Vec2) -> Ray,
+    /// Changes each hit.
     pub(crate) alter: fn(&mut Trace),
 }
 
-/// A submission that returns correct hits.
-pub(crate) const CORRECT: SphereSubmission = SphereSubmission { alter: |_| {} };
+/// A submission that returns correct hits, and rays for a field of view of 90° on a square sensor.
+pub(crate) const CORRECT: SphereSubmission = SphereSubmission {
+    ray: |position| Ray::new(Vec3::ZERO, position.extend(-1.0)),
+    alter: |_| {},
+};
 
 struct SquareCamera {
     film: UVec2,
+    ray: fn(Vec2) -> Ray,
 }
 
 struct SphereList {
@@ -39,7 +77,10 @@ struct SphereList {
 
 impl Submission for SphereSubmission {
     fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays> {
-        Box::new(SquareCamera { film: pinhole.film })
+        Box::new(SquareCamera {
+            film: pinhole.film,
+            ray: self.ray,
+        })
     }
 
     fn build(&self, shapes: &[Shape], _: usize) -> Box<dyn Hierarchy> {
@@ -63,10 +104,8 @@ impl Submission for SphereSubmission {
 }
 
 impl CameraRays for SquareCamera {
-    /// Returns a ray for a field of view of 90° on a square sensor.
     fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
-        let position = (pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0;
-        Ray::new(Vec3::ZERO, position.extend(-1.0))
+        (self.ray)((pixel.as_vec2() + offset) / self.film.as_vec2() * 2.0 - 1.0)
     }
 }
 

@@ -61,10 +61,8 @@ pub fn grade_class_with(
     let used = UsedLists::choose(lists, arguments.out.as_deref(), &[])?;
     let given = &used.lists;
     check_lists(given)?;
-    let options = &GradeOptions {
-        policy: given.policy.clone(),
-        ..options.clone()
-    };
+    let mut options = options.clone();
+    options.policy.clone_from(&given.policy);
     let workspace = Workspace::find().map_err(GraderError::from)?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
     if let Some(folder) = &arguments.similarity_input {
@@ -101,7 +99,7 @@ pub fn grade_class_with(
     };
 
     findings.check(given)?;
-    let grader = prepare(options)?;
+    let grader = prepare(&options)?;
     findings.warn_about_extensions(grader.policy());
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
@@ -124,7 +122,7 @@ pub fn grade_class_with(
         ..run
     };
     used.save(&store, &run)?;
-    let run = save_previous_scores(&store, run)?;
+    let mut run = save_previous_scores(&store, run)?;
     let slots = slot_count(arguments.jobs);
     let entry_grader = EntryGrader {
         grader: grader.as_ref(),
@@ -137,10 +135,7 @@ pub fn grade_class_with(
     }
     let results = entry_grader.grade_all(&entries, slots)?;
     let results: Vec<EntryResult> = results.into_iter().map(|(result, _)| result).collect();
-    let run = Run {
-        state: RoundState::Finished,
-        ..run
-    };
+    run.state = RoundState::Finished;
     store.write_run(&run)?;
 
     let changes = Changes {
@@ -167,11 +162,9 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
         Layout::GitHub => input.root.find(CLASSROOM50_SCORES),
         Layout::Gradescope | Layout::Canvas | Layout::Moodle | Layout::Plain => None,
     };
-    let roster = lists.roster.clone().or(own.map(|node| node.path.clone()));
-    Lists {
-        roster,
-        ..lists.clone()
-    }
+    let mut lists = lists.clone();
+    lists.roster = lists.roster.or(own.map(|node| node.path.clone()));
+    lists
 }
 
 /// Returns the run to resume or to start. Scores that depend on other settings are never mixed with
@@ -206,15 +199,12 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
 /// Saves the scores from before a regrade, unless that has been done. The round has already started in
 /// `run.json`, so that a run killed here cannot be resumed as the last round, whose comparison with the
 /// one before it would be lost.
-fn save_previous_scores(store: &Store, run: Run) -> Result<Run, Error> {
+fn save_previous_scores(store: &Store, mut run: Run) -> Result<Run, Error> {
     if run.state != RoundState::SavesPrevious {
         return Ok(run);
     }
     store.save_previous_scores()?;
-    let run = Run {
-        state: RoundState::Started,
-        ..run
-    };
+    run.state = RoundState::Started;
     store.write_run(&run)?;
     Ok(run)
 }

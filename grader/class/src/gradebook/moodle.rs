@@ -58,7 +58,8 @@ fn is_translated(table: &Table) -> bool {
         let cell = row.first().map_or("", |cell| cell.trim());
         let number = number_at_end(cell);
         let word = cell.strip_suffix(number).unwrap_or_default();
-        !number.is_empty() && word.chars().any(char::is_alphabetic)
+        // One letter before a number is the beginning of many student ids.
+        !number.is_empty() && word.chars().rev().skip(1).any(char::is_alphabetic)
     };
     table.column("Identifier").is_none()
         && !table.rows.is_empty()

@@ -257,7 +257,7 @@ fn entry_of_files(mut files: Vec<(CanvasName, &Node)>, handed_out: &HandedOut) -
 
 fn entry(name: &CanvasName, late: bool, from: &str, source: Source) -> Entry {
     let id = format!("{}_{}", name.who, name.user);
-    let mut entry = Entry::new(id, name.person(), &from, source);
+    let mut entry = Entry::new(id, name.person(), from, source);
     entry.info.late = late;
     entry.info.marks_late = true;
     entry

@@ -59,11 +59,8 @@ pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
         let names = names.map(|node| node.name.as_str());
         names.filter(|name| is_version(name, file.name)).collect()
     };
-    let several: Vec<Vec<&str>> = handed_out.files.iter().map(versions).collect();
-    let several: Vec<Vec<&str>> = several
-        .into_iter()
-        .filter(|names| names.len() > 1)
-        .collect();
+    let versions = handed_out.files.iter().map(versions);
+    let several: Vec<Vec<&str>> = versions.filter(|names| names.len() > 1).collect();
     let most = several.iter().max_by_key(|names| names.len())?;
     (several.len() > 1 || most.len() > 2).then(|| {
         format!(
@@ -122,24 +119,20 @@ fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
     let below = |path: &&str| {
         let mut names = path.split('/').filter(|name| !name.is_empty());
         let folder = names.try_fold(node, Node::find);
-        folder.is_some_and(|folder| {
-            handed_out
-                .file_names()
-                .any(|file| folder.find(file).is_some())
-        })
+        folder.is_some_and(|folder| contains_task_file(folder, handed_out))
     };
     handed_out.assignment.folders.iter().any(below)
 }
 
 /// Returns whether a folder has a task file, at any depth that was listed.
 fn has_task_files(node: &Node, handed_out: &HandedOut) -> bool {
-    handed_out
-        .file_names()
-        .any(|file| node.find(file).is_some())
-        || node
-            .children()
-            .iter()
-            .any(|node| has_task_files(node, handed_out))
+    let mut inside = node.children().iter();
+    contains_task_file(node, handed_out) || inside.any(|node| has_task_files(node, handed_out))
+}
+
+fn contains_task_file(folder: &Node, handed_out: &HandedOut) -> bool {
+    let mut files = handed_out.file_names();
+    files.any(|file| folder.find(file).is_some())
 }
 
 fn listed(names: &[&str]) -> String {

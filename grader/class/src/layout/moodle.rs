@@ -108,6 +108,7 @@ fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {
         number: name.number.to_owned(),
         ..Person::default()
     };
+    // With the number, the id stays the same when a namesake hands something in.
     let mut entry = Entry::new(numbered('_'), person, &node.name, source);
     entry.info.hand_back_as = Some(format!("{WHO}_{NUMBER}_assignfeedback_file_feedback.html"));
     entry
@@ -133,22 +134,5 @@ mod tests {
             ("Default group", "")
         );
         assert_eq!(parse("_assignsubmission_file_"), None);
-    }
-
-    /// So it stays the same when a namesake hands something in.
-    #[test]
-    fn the_id_has_the_participants_number() {
-        let name = "Jane Doe_123_assignsubmission_file_bvh.rs";
-        let node = Node {
-            name: name.to_owned(),
-            path: name.into(),
-            children: None,
-            is_link: false,
-        };
-        let entry = entry(
-            &(parse(name).unwrap(), &node),
-            Source::Missing(String::new()),
-        );
-        assert_eq!(entry.id, "Jane Doe_123");
     }
 }

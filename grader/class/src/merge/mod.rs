@@ -27,12 +27,9 @@ pub fn merge_shards(
     handed_out: &HandedOut,
 ) -> Result<Completion, Error> {
     check_out(arguments)?;
-    let shards: Result<Vec<(&PathBuf, Run)>, Error> = arguments
-        .shards
-        .iter()
-        .map(|path| Ok((path, read_finished_run(path)?)))
-        .collect();
-    let shards = shards?;
+    let shards = arguments.shards.iter();
+    let shards = shards.map(|path| Ok((path, read_finished_run(path)?)));
+    let shards: Vec<(&PathBuf, Run)> = shards.collect::<Result<_, Error>>()?;
     let (first, run) = &shards[0];
     for (other, theirs) in &shards[1..] {
         check_compatible((first, run), (other, theirs))?;

@@ -225,11 +225,8 @@ fn the_merged_class_may_not_be_in_a_shard() {
     };
     assert!(check("out").is_ok() && check("new/out").is_ok());
     for out in ["1", "2/new"] {
-        let error = check(out).unwrap_err();
-        assert!(
-            error.to_string().contains("another folder for --out"),
-            "{error}"
-        );
+        let error = check(out).unwrap_err().to_string();
+        assert!(error.contains("another folder for --out"), "{error}");
     }
 }
 

@@ -67,10 +67,9 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
         (None, false) => String::new(),
     };
     let info = &class_row.result.info;
-    let report = class_row
-        .result
-        .score()
-        .map(|_| format!("students/{}/report.html", class_row.result.id));
+    let id = &class_row.result.id;
+    let report = class_row.result.score();
+    let report = report.map(|_| format!("students/{id}/report.html"));
     let manual = grade.counted.map_or(0, |counted| counted.manual);
     let comments: Vec<String> = grade.manual.iter().map(ToString::to_string).collect();
     row.extend([

@@ -9,7 +9,7 @@ use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
 use crate::plural::count;
-use crate::regrade_diff::{Drift, RegradeChanges};
+use crate::regrade_diff::{Drift, ItemChange, RegradeChanges};
 use crate::summary::ClassSummary;
 
 const STRONG: Style = Style::new().bold();
@@ -110,11 +110,8 @@ fn distribution_line(title: &str, distribution: &Distribution) -> String {
 /// Renders the changes in the copy of a gradebook.
 pub fn render_gradebook(filled: &FilledGradebook) -> String {
     let changes = filled.changes.iter();
-    let width = changes
-        .clone()
-        .map(|change| change.who.chars().count())
-        .max();
-    let width = width.unwrap_or(0);
+    let widths = changes.clone().map(|change| change.who.chars().count());
+    let width = widths.max().unwrap_or(0);
     let line = |change: &CellChange| {
         let was = match change.was.trim() {
             "" => "–",
@@ -123,10 +120,8 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
         let (who, was) = (one_line(&change.who), one_line(was));
         format!("{who:width$}  {was} → {}", change.now)
     };
-    let none = filled
-        .changes
-        .is_empty()
-        .then(|| "nothing changes".to_owned());
+    let is_unchanged = filled.changes.is_empty();
+    let none = is_unchanged.then(|| "nothing changes".to_owned());
     let warnings = filled.warnings.iter();
     let warnings = warnings.map(|warning| format!("! {}", one_line(warning)));
     let lines = changes.take(MAX_LINES).map(line);
@@ -207,15 +202,28 @@ pub fn with_changed_points(drifts: &[Drift]) -> Vec<&Drift> {
     drifts.filter(|drift| drift.changes_points()).collect()
 }
 
+/// Returns a score's points after a change.
+pub fn points_now(drift: &Drift) -> String {
+    drift
+        .now
+        .map_or("no score".to_owned(), |now| now.to_string())
+}
+
+/// Returns an item's points before and after a change.
+pub fn points_of_item(change: &ItemChange) -> [String; 2] {
+    let text = |points: u32| points.to_string();
+    [change.was, change.now].map(|points| points.map_or("–".to_owned(), text))
+}
+
 /// Returns lines about the first scores that changed, and the number of others. `location` says where
 /// those are.
 fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
     let mut lines = Vec::new();
     for drift in drifts.iter().take(MAX_LINES) {
-        let now = drift.now_text();
+        let now = points_now(drift);
         lines.push(format!("{}: {} → {now}", one_line(&drift.id), drift.was));
         lines.extend(drift.items.iter().map(|change| {
-            let [was, now] = change.point_texts();
+            let [was, now] = points_of_item(change);
             let (item, why) = (one_line(&change.item), one_line(&change.why));
             format!("    {item} {was} → {now}: {why}")
         }));

@@ -158,7 +158,7 @@ impl Store {
     /// Writes the task files that are graded.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
         let path = self.entry_folder(id).join(SUBMISSION);
-        let mut archive = ArchiveWriter::new();
+        let mut archive = ArchiveWriter::default();
         for (file, text) in &submission.files {
             if let Ok(text) = text {
                 let added = archive.add(file.name, text.as_bytes());

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use crate::faulty_disk::DiskFault;
-use crate::observed::{Observed, all_files};
+use crate::observed::{Files, Observed, all_files};
 use crate::recorded_grader::ProcessFault;
 use crate::world::{Target, World};
 
@@ -25,36 +25,29 @@ const HISTORY: [&str; 5] = [
 /// Everything that the files of a run in a new folder depend on.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Class {
-    submissions: Vec<(&'static str, Option<u32>)>,
+    submissions: BTreeMap<&'static str, Option<u32>>,
     exam: usize,
     policy: usize,
     options: Vec<String>,
 }
 
-type Files = BTreeMap<PathBuf, Vec<u8>>;
+type Contents = BTreeMap<PathBuf, Vec<u8>>;
 
 /// The files of runs in new folders.
 #[derive(Debug, Default)]
-pub struct FreshRuns(BTreeMap<Class, Files>);
+pub struct FreshRuns(BTreeMap<Class, Contents>);
 
 impl FreshRuns {
     /// Returns the files of a run in a new folder, of the class as it is now.
-    fn files(&mut self, world: &World, observed: &Observed) -> &Files {
+    fn files(&mut self, world: &World, observed: &Observed) -> &Contents {
         // A gradebook is also a list of those who should have submitted something.
-        let exported = observed
-            .list("canvas")
-            .map(|_| EXPORT)
-            .into_iter()
-            .flatten();
-        let exported = exported.map(str::to_owned);
+        let exported = observed.list("canvas").map(|_| EXPORT.map(str::to_owned));
+        let exported = exported.into_iter().flatten();
         let manual = observed.list("manual-points");
         let manual = manual.map(|name| format!("--manual-points=ROOT/{name}"));
         let options: Vec<String> = exported.chain(manual).collect();
-        let submissions = world.submissions.iter();
         let class = Class {
-            submissions: submissions
-                .map(|(name, version)| (*name, *version))
-                .collect(),
+            submissions: world.submissions.clone(),
             exam: world.exam,
             policy: world.policy,
             options: options.clone(),
@@ -101,10 +94,8 @@ impl FreshRuns {
                 _ => found == expected,
             };
             if !is_same {
-                let (found, expected) = (
-                    String::from_utf8_lossy(found),
-                    String::from_utf8_lossy(expected),
-                );
+                let [found, expected] =
+                    [found, expected].map(|bytes| String::from_utf8_lossy(bytes));
                 let place = first_difference(&found, &expected);
                 return Err(format!("{target:?}: {} differs: {place}", name.display()));
             }
@@ -115,22 +106,18 @@ impl FreshRuns {
 
 /// Returns whether the page of the class lists changes, which a fresh run does not.
 fn has_changes(world: &World, history: &[&Observed]) -> bool {
-    history
-        .iter()
-        .any(|observed| lists_changes(world, observed))
+    let mut history = history.iter();
+    history.any(|observed| lists_changes(world, observed))
 }
 
 fn lists_changes(world: &World, observed: &Observed) -> bool {
-    let entries = observed.entries.iter();
-    observed
-        .run
-        .as_ref()
-        .is_some_and(|run| !run["before"].is_null())
+    let is_changed = |(id, files): (&String, &Files)| {
+        files.replaced.is_some() || !world.submissions.contains_key(id.as_str())
+    };
+    let run = observed.run.as_ref();
+    run.is_some_and(|run| !run["before"].is_null())
         || observed.has_changed_grades
-        || entries.clone().any(|(_, files)| files.replaced.is_some())
-        || entries
-            .into_iter()
-            .any(|(id, _)| !world.submissions.contains_key(id.as_str()))
+        || observed.entries.iter().any(is_changed)
 }
 
 /// Returns a stamp without the key and the round. After a merge, the people are those of the lists that
@@ -147,10 +134,8 @@ fn stamp(bytes: &[u8], target: Target) -> Value {
 
 /// Returns the texts from shortly before the first difference on.
 fn first_difference(one: &str, other: &str) -> String {
-    let same = one
-        .chars()
-        .zip(other.chars())
-        .take_while(|(one, other)| one == other);
+    let same = one.chars().zip(other.chars());
+    let same = same.take_while(|(one, other)| one == other);
     let from = same.count().saturating_sub(60);
     let short = |text: &str| text.chars().skip(from).take(160).collect::<String>();
     format!("{:?} instead of {:?}", short(one), short(other))

@@ -87,11 +87,9 @@ impl Model {
             }
             // Staff have been told that there is nothing to grade.
             (None, Some("no_submission")) => {
-                let dropped = self
-                    .kept
-                    .remove(id)
-                    .map(|(_, score)| (id.to_owned(), score));
-                self.dropped.extend(dropped);
+                let dropped = self.kept.remove(id);
+                self.dropped
+                    .extend(dropped.map(|(_, score)| (id.to_owned(), score)));
             }
             (None, _) => {}
         }
@@ -132,10 +130,8 @@ impl Model {
         now: &BTreeMap<&str, Option<ScoreId>>,
     ) -> Result<(), String> {
         let list: Vec<Value> = serde_json::from_str(file).map_err(|error| error.to_string())?;
-        let found: BTreeSet<&str> = list
-            .iter()
-            .filter_map(|drift| drift["id"].as_str())
-            .collect();
+        let found = list.iter().filter_map(|drift| drift["id"].as_str());
+        let found: BTreeSet<&str> = found.collect();
         let points = |id: &str, known: ScoreId| -> Vec<u32> {
             let score = score(id, known.version, known.exam);
             score.items().map(|item| item.points).collect()

@@ -123,9 +123,8 @@ pub fn observe(folder: &Path, keys: &mut Keys) -> Result<Observed, String> {
 fn observe_entry(folder: &Path, id: &str) -> Result<Files, String> {
     let stamp = read_json(&folder.join("entry.json"))?;
     let score = read_score(&folder.join("score.json"), id)?;
-    let is_graded = stamp
-        .as_ref()
-        .is_some_and(|stamp| stamp["state"] == "graded");
+    let is_graded = |stamp: &Value| stamp["state"] == "graded";
+    let is_graded = stamp.as_ref().is_some_and(is_graded);
     for page in ["report.html", "feedback.html"] {
         let path = folder.join(page);
         check_page(&path)?;

@@ -152,12 +152,9 @@ impl World {
         let now = SystemTime::now();
         let time = if days < 0 { now - by } else { now + by };
         for name in all_files(&self.root).keys() {
-            let file = File::options()
-                .write(true)
-                .open(self.root.join(name))
-                .unwrap();
-            file.set_times(FileTimes::new().set_modified(time).set_accessed(time))
-                .unwrap();
+            let file = File::options().write(true).open(self.root.join(name));
+            let times = FileTimes::new().set_modified(time).set_accessed(time);
+            file.unwrap().set_times(times).unwrap();
         }
     }
 
@@ -200,10 +197,8 @@ impl World {
         process: ProcessFault,
     ) -> Ended {
         words.push(format!("--out={}", text(&self.folder(target))));
-        words.extend(
-            more.iter()
-                .map(|word| word.replace("ROOT", &text(&self.root))),
-        );
+        let root = text(&self.root);
+        words.extend(more.iter().map(|word| word.replace("ROOT", &root)));
         let cli = Cli::parse_from(words);
         faulty_disk::start(&self.root, disk);
         let result = match &cli.command {
@@ -229,10 +224,8 @@ impl World {
             let name = path.file_name().unwrap_or_default();
             name.to_string_lossy().starts_with(".tmp")
         };
-        all_files(&self.folder(target))
-            .into_keys()
-            .filter(is_temporary)
-            .collect()
+        let files = all_files(&self.folder(target));
+        files.into_keys().filter(is_temporary).collect()
     }
 }
 

@@ -210,10 +210,8 @@ fn no_output_has_a_character_that_affects_the_text_around_it() {
         let text = ["0", "1", "2"].iter().fold(text, |text, style| {
             text.replace(&format!("\u{1b}[{style}m"), "")
         });
-        let dangerous: Vec<char> = text
-            .chars()
-            .filter(|c| *c != '\n' && affects_surroundings(*c))
-            .collect();
+        let is_dangerous = |c: &char| *c != '\n' && affects_surroundings(*c);
+        let dangerous: Vec<char> = text.chars().filter(is_dangerous).collect();
         assert_eq!(dangerous, [] as [char; 0], "{output}: {text:?}");
         assert!(text.contains("\\u{1b}"), "{output} does not show the text");
     }

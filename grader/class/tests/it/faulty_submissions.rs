@@ -151,10 +151,8 @@ fn an_unreadable_folder_is_listed_with_the_reason() {
         return;
     }
     let line = "locked: nothing to grade: the folder or file cannot be read: permission denied";
-    assert_contains(
-        &preview,
-        &[line, "alice: all 5 files", "partly locked: all 5 files"],
-    );
+    let expected = [line, "alice: all 5 files", "partly locked: all 5 files"];
+    assert_contains(&preview, &expected);
 }
 
 /// A linker that fails if there is a file `fault-*` next to it. Each failure removes one such file.

@@ -42,13 +42,11 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
         "leeann_LATE_7002_9003_bvh.rs.html",
     ];
     assert_eq!(names(&files), expected);
-    assert_contains(
-        &text,
-        &[
-            "to hand back: 3 pages",
-            "not in it: emptyeve: nothing to grade",
-        ],
-    );
+    let expected = [
+        "to hand back: 3 pages",
+        "not in it: emptyeve: nothing to grade",
+    ];
+    assert_contains(&text, &expected);
     let inner = unzip(&files[1].1);
     assert_eq!(names(&inner), ["Doe__Jane_feedback.html"]);
     let page = String::from_utf8(inner[0].1.clone()).unwrap();

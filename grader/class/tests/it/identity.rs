@@ -53,14 +53,12 @@ fn a_canvas_name_that_can_be_read_in_two_ways_needs_a_gradebook() {
         .with("leeann_7002_9002_2026_11_bvh.rs", "text")
         .with("kimbob_7003_9003_bvh.rs", "text");
     let preview = class.preview();
-    assert_contains(
-        &preview,
-        &[
-            "the user number 2 of red or 7001 of red_2",
-            "7002 of leeann or 9002 of leeann_7002",
-            "1 of 3 can be graded",
-        ],
-    );
+    let expected = [
+        "the user number 2 of red or 7001 of red_2",
+        "7002 of leeann or 9002 of leeann_7002",
+        "1 of 3 can be graded",
+    ];
+    assert_contains(&preview, &expected);
     let gradebook = class.write_beside(
         "gradebook.csv",
         "Student,ID,SIS Login ID,Section,Path (7)\nRed_2,7001,red,A,\n\"Lee, Ann\",7002,ann,A,\n\
@@ -94,14 +92,12 @@ fn what_is_in_the_only_submission_does_not_describe_the_class() {
         assert_contains(&error, &["the folder mallory has several submissions"]);
         let roster = class.write_beside("roster.csv", "name\nMallory\nBob\n");
         let preview = class.preview_of(&class.input(), &["--roster", &roster]);
-        assert_contains(
-            &preview,
-            &[
-                "1 submission in folders and archives",
-                "  Mallory: all 5 files",
-                "there is only the folder mallory",
-            ],
-        );
+        let expected = [
+            "1 submission in folders and archives",
+            "  Mallory: all 5 files",
+            "there is only the folder mallory",
+        ];
+        assert_contains(&preview, &expected);
     }
 }
 
@@ -113,10 +109,8 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
         .with_minimal_submission("tue/eve")
         .with_minimal_submission("tue/kim");
     let error = class.refused_preview();
-    assert_contains(
-        &error,
-        &["the folder mon has several submissions (ann, bob)"],
-    );
+    let expected = ["the folder mon has several submissions (ann, bob)"];
+    assert_contains(&error, &expected);
     for folder in ["", "Path Tracer/"] {
         for number in ["(1)", " (1)"] {
             let class = TestClass::named("download")

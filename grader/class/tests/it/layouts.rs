@@ -117,10 +117,8 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
 fn reports_invalid_gradescope_metadata() {
     let class = TestClass::named("export").with("submission_metadata.yml", "submission_1: [");
     let error = class.refused_preview();
-    assert_contains(
-        &error,
-        &["submission_metadata.yml", "export the submissions again"],
-    );
+    let expected = ["submission_metadata.yml", "export the submissions again"];
+    assert_contains(&error, &expected);
 }
 
 #[test]

@@ -41,13 +41,11 @@ fn an_estimate_grades_a_few_submissions_and_keeps_their_results() {
     let exam = class.small_exam(&ITEMS);
     let estimate = || class.graded(&exam, &["--estimate", "--jobs", "1"]);
     let text = estimate();
-    assert_contains(
-        &text,
-        &[
-            "estimate from 2 submissions",
-            "2 more submissions, 1 at a time",
-        ],
-    );
+    let expected = [
+        "estimate from 2 submissions",
+        "2 more submissions, 1 at a time",
+    ];
+    assert_contains(&text, &expected);
     assert!(
         text.contains("64 machines like this") && text.contains("core-hours"),
         "{text}"

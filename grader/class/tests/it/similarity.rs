@@ -41,13 +41,11 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
     let roster = class.write_beside("roster.csv", roster);
     let folder = class.path_beside("own");
     let text = successful_stdout(&run(&class, &folder, &["--roster", &roster]));
-    assert_contains(
-        &text,
-        &[
-            "  identical: ann_lee, bob\n",
-            "  identical (same group): z1, z2\n",
-        ],
-    );
+    let expected = [
+        "  identical: ann_lee, bob\n",
+        "  identical (same group): z1, z2\n",
+    ];
+    assert_contains(&text, &expected);
     // Those who have written nothing are identical, too, and not worth a word.
     assert!(!text.contains("identical: dora"), "{text}");
 

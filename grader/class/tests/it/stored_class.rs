@@ -119,17 +119,14 @@ pub fn write_shard(folder: &Path, class: &[StoredEntry], shard: Option<Shard>, s
         write_entry(&store, "gone", vec![Person::named("Gone")], &gone);
     }
     let ids: Vec<String> = (0..class.len()).map(id).collect();
+    let tasks = RAYS.assignment.tasks.iter();
+    let tasks = tasks.map(|task| (task.id.to_owned(), task.points));
     let run = Run {
         shard,
         state: RoundState::Finished,
         entries: own.iter().map(|(index, _)| id(*index)).collect(),
         class: file_hash(ids.join("\n").as_bytes()),
-        tasks: RAYS
-            .assignment
-            .tasks
-            .iter()
-            .map(|task| (task.id.to_owned(), task.points))
-            .collect(),
+        tasks: tasks.collect(),
         ..Run::first_round(Settings {
             exam: "small".to_owned(),
             exam_hash: "0123456789abcdef".to_owned(),

@@ -120,7 +120,7 @@ fn files_that_are_not_graded_are_named_on_every_page() {
     let page = class.read("class.html");
     let (_, attention) = page.split_once("Submissions that need attention").unwrap();
     let (attention, _) = attention.split_once("</section>").unwrap();
-    assert_contains(&attention, &["href=\"students/ann/report.html\""]);
+    assert_contains(attention, &["href=\"students/ann/report.html\""]);
     assert!(!attention.contains("bob"), "{attention}");
     for note in notes {
         for file in [

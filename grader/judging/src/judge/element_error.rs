@@ -56,19 +56,16 @@ fn with_size(what: &str, deviation: f64) -> String {
 #[cfg(test)]
 mod tests {
     use glam::{Vec2, Vec3};
-    use protocol::{ElementOutcome, Question, Ray, Rays, Shape, Trace};
+    use protocol::{ElementOutcome, Question, Ray, Rays, Trace};
 
     use super::*;
     use crate::exam::{ExpectedHit, HitCheck, Key, Surface};
     use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
+    use crate::tests::{EXPECTED, HIT, sphere};
 
     fn question(key: Key) -> ExamQuestion {
         let ray = |x| Ray::new(Vec3::new(x, 0.0, 0.0), Vec3::NEG_Z);
-        let shapes = vec![Shape::Sphere {
-            center: Vec3::NEG_Z * 3.0,
-            radius: 1.0,
-            material: 0,
-        }];
+        let shapes = vec![sphere(Vec3::NEG_Z * 3.0, 1.0)];
         let rays = Rays::List(vec![ray(5.0), ray(0.0)]);
         ExamQuestion::new(Question::Shapes { shapes, rays }, key)
     }
@@ -77,11 +74,8 @@ mod tests {
     fn answer(distance: f32) -> Answer {
         let hit = Trace {
             distance,
-            position: Vec3::NEG_Z * 2.0,
             normal: Vec3::Z,
-            uv: Vec2::ZERO,
-            origin: Vec3::ZERO,
-            material: 0,
+            ..HIT
         };
         Answer::Hits(vec![
             ElementOutcome::Value(None),
@@ -93,10 +87,7 @@ mod tests {
     fn names_the_quantity_and_the_size_of_the_error_in_a_table() {
         let expected = ExpectedHit {
             distance: 2.0,
-            position: Vec3::NEG_Z * 2.0,
-            normal: Vec3::Z,
-            uv: Vec2::ZERO,
-            material: 0,
+            ..EXPECTED
         };
         let question = question(Key::Hits {
             checks: vec![HitCheck::Distance],

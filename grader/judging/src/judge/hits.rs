@@ -65,33 +65,27 @@ impl Table for Hits<'_> {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec3};
+    use glam::Vec3;
     use protocol::{Answer, Question, Rays};
 
     use super::*;
     use crate::exam::{ExamQuestion, Key};
     use crate::judge::judge;
     use crate::judge::measure::LENGTH;
+    use crate::tests::{EXPECTED, sphere};
 
     #[test]
     fn an_error_is_judged_by_the_scale_of_its_ray() {
         for from in [8.0, 800.0] {
             // The ray is as short in both, but the coordinates are not as large.
             let hit = ExpectedHit {
-                distance: 1.0,
                 position: Vec3::X * (from - 1.0),
-                normal: Vec3::X,
-                uv: Vec2::ZERO,
-                material: 0,
+                ..EXPECTED
             };
             let ray = Ray::new(Vec3::X * from, -Vec3::X);
             let question = ExamQuestion::new(
                 Question::Shapes {
-                    shapes: vec![Shape::Sphere {
-                        center: Vec3::X * (from - 2.0),
-                        radius: 1.0,
-                        material: 0,
-                    }],
+                    shapes: vec![sphere(Vec3::X * (from - 2.0), 1.0)],
                     rays: Rays::List(vec![ray]),
                 },
                 Key::Hits {
@@ -100,14 +94,8 @@ mod tests {
                 },
             );
             let is_right = |tolerances: f32| {
-                let trace = Trace {
-                    distance: hit.distance + tolerances * LENGTH * from,
-                    position: hit.position,
-                    normal: hit.normal,
-                    uv: hit.uv,
-                    origin: ray.origin,
-                    material: 0,
-                };
+                let mut trace = hit.to_trace(&ray);
+                trace.distance += tolerances * LENGTH * from;
                 let answer = Answer::Hits(vec![ElementOutcome::Value(Some(trace))]);
                 judge(&question, &answer).failure.is_none()
             };

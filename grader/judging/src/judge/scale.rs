@@ -68,11 +68,7 @@ mod tests {
 
     #[test]
     fn the_largest_number_is_the_scale() {
-        let sphere = Shape::Sphere {
-            center: vec3(0.0, -4.0, 1.0),
-            radius: 0.5,
-            material: 0,
-        };
+        let sphere = crate::tests::sphere(vec3(0.0, -4.0, 1.0), 0.5);
         let ray = Ray::new(vec3(3.0, 0.0, 0.0), Vec3::X);
         assert_eq!(of_hit(&[], &ray, None), 3.0);
         assert_eq!(of_hit(&[sphere], &ray, None), 4.5);

@@ -1,11 +1,11 @@
 //! Tests of observed numbers: they are multiples of the tolerances of their own question.
 
 use glam::{Vec2, Vec3};
-use protocol::Shape;
 
 use super::*;
 use crate::exam::ExpectedHit;
 use crate::judge::measure::{DIRECTION, LENGTH, UV};
+use crate::tests::{EXPECTED, HIT, sphere};
 
 /// Returns the observed numbers of each element of one question.
 fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
@@ -19,17 +19,18 @@ fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
     numbers.collect()
 }
 
-/// Asserts that each number of the wrong answers differs from the correct one by this many tolerances.
-fn assert_tolerances_apart(wrong: &[Vec<f32>], correct: &[Vec<f32>], expected: f32) {
+/// Asserts that each number of the wrong answer is six tolerances from that of the correct one, which is
+/// observed as the key says.
+fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
+    assert_eq!(
+        expected_elements(question),
+        observe_question(question, correct)
+    );
+    let (wrong, correct) = (numbers(question, wrong), numbers(question, correct));
     assert_eq!(wrong.len(), 2, "one entry for each element");
     assert!(wrong.iter().all(|numbers| !numbers.is_empty()));
-    let pairs = wrong.iter().flatten().zip(correct.iter().flatten());
-    for (wrong, correct) in pairs {
-        let tolerances = wrong - correct;
-        assert!(
-            (tolerances - expected).abs() < 0.1,
-            "{tolerances} tolerances, not {expected}"
-        );
+    for (wrong, correct) in wrong.iter().flatten().zip(correct.iter().flatten()) {
+        assert!((wrong - correct - 6.0).abs() < 0.1, "{wrong} and {correct}");
     }
 }
 
@@ -41,18 +42,11 @@ fn distances_are_multiples_of_the_tolerance_of_their_ray() {
     let (near, far) = (8.0, 800.0);
     let hit = |distance: f32| ExpectedHit {
         distance,
-        position: Vec3::X,
-        normal: Vec3::X,
-        uv: Vec2::ZERO,
-        material: 0,
+        ..EXPECTED
     };
     let question = ExamQuestion::new(
         Question::Shapes {
-            shapes: vec![Shape::Sphere {
-                center: Vec3::ZERO,
-                radius: 1.0,
-                material: 0,
-            }],
+            shapes: vec![sphere(Vec3::ZERO, 1.0)],
             rays: Rays::List(vec![ray(near), ray(far)]),
         },
         Key::Hits {
@@ -63,19 +57,13 @@ fn distances_are_multiples_of_the_tolerance_of_their_ray() {
     let answer = |tolerances: f32| {
         let trace = |from: f32| Trace {
             distance: from - 1.0 + tolerances * LENGTH * from,
-            position: Vec3::X,
-            normal: Vec3::X,
-            uv: Vec2::ZERO,
             origin: Vec3::X * from,
-            material: 0,
+            ..HIT
         };
         let traces = [near, far].map(|from| ElementOutcome::Value(Some(trace(from))));
         Answer::Hits(traces.to_vec())
     };
-    let correct = numbers(&question, &answer(0.0));
-    assert_tolerances_apart(&numbers(&question, &answer(6.0)), &correct, 6.0);
-    let expected = expected_elements(&question);
-    assert_eq!(expected, observe_question(&question, &answer(0.0)));
+    assert_six_apart(&question, &answer(6.0), &answer(0.0));
 }
 
 #[test]
@@ -97,32 +85,14 @@ fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
         let spans = [near, far].map(|from| Some(span(from, tolerances * LENGTH * from)));
         Answer::Spans(spans.map(ElementOutcome::Value).to_vec())
     };
-    let correct = numbers(&question, &answer(0.0));
-    assert_tolerances_apart(&numbers(&question, &answer(6.0)), &correct, 6.0);
-    let expected = expected_elements(&question);
-    assert_eq!(expected, observe_question(&question, &answer(0.0)));
-}
-
-/// Returns a hit at the origin with this uv and material.
-fn trace(uv: Vec2, material: u32) -> Trace {
-    Trace {
-        distance: 1.0,
-        position: Vec3::X,
-        normal: Vec3::X,
-        uv,
-        origin: Vec3::ZERO,
-        material,
-    }
+    assert_six_apart(&question, &answer(6.0), &answer(0.0));
 }
 
 #[test]
 fn each_material_is_far_from_the_others() {
     let of = |material| {
-        observe_checked(
-            &[HitCheck::Material],
-            Some(&trace(Vec2::ZERO, material)),
-            1.0,
-        )
+        let trace = Trace { material, ..HIT };
+        observe_checked(&[HitCheck::Material], Some(&trace), 1.0)
     };
     assert!(of(1).matches(&of(1)));
     assert!(!of(1).matches(&of(2)));
@@ -130,11 +100,8 @@ fn each_material_is_far_from_the_others() {
 
 #[test]
 fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
-    let uv = observe_checked(
-        &[HitCheck::Uv],
-        Some(&trace(Vec2::new(3.0 * UV, 0.5), 0)),
-        1.0,
-    );
+    let uv = Vec2::new(3.0 * UV, 0.5);
+    let uv = observe_checked(&[HitCheck::Uv], Some(&Trace { uv, ..HIT }), 1.0);
     assert_eq!(uv, ObservedAnswer::Numbers(vec![3.0, 0.5 / UV]));
     let direction = |dir| observe_ray(&[RayCheck::Direction], &expected_ray(dir));
     let unit = ObservedAnswer::Numbers(vec![0.0, 0.0, 1.0 / DIRECTION]);
@@ -147,7 +114,7 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
 #[test]
 fn what_follows_from_a_wrong_distance_is_not_observed() {
     let checks = [HitCheck::Normal, HitCheck::UnitNormal];
-    let expected = trace(Vec2::ZERO, 0);
+    let expected = HIT;
     let of = |trace: &Trace, expected| observe_hit(&checks, Some(trace), expected, 1.0);
     let farther = |normal| Trace {
         distance: 1.5,

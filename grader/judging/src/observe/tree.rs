@@ -175,7 +175,7 @@ fn of_ranges(tree: &Tree) -> String {
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use protocol::Question;
+    use protocol::{Question, TreeNode};
 
     use crate::exam::{ExamQuestion, Key, TreeCheck};
     use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
@@ -325,6 +325,21 @@ mod tests {
     #[test]
     fn other_defects_are_observed_by_words_without_indices() {
         assert_name("child l: node of", |tree| tree.nodes[1].l = 9);
+        assert_name("root: node of", |tree| tree.root = 9);
         assert_name("nodes: node is reached twice", |tree| tree.nodes[1].r = 1);
+        assert_name("nodes: no node at all", |tree| tree.nodes.clear());
+        assert_name("leaf size: leaf holds primitives", |tree| {
+            tree.nodes[1] = TreeNode::new(tree.nodes[1].min, tree.nodes[1].max, 0, 4, 0, 0);
+        });
+        let split = defect_by(&[TreeCheck::Split], |_| {});
+        assert_eq!(
+            split,
+            Some(("splits: leaf holds of primitives".into(), 0.0))
+        );
+        let stops = defect_by(&[TreeCheck::Stops], |tree| tree.nodes[0].size = 0);
+        assert_eq!(
+            stops,
+            Some(("splits: node was split over primitives".into(), 0.0))
+        );
     }
 }

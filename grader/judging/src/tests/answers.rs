@@ -2,10 +2,10 @@
 
 use std::sync::LazyLock;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
 
-use super::EXAM;
+use super::{EXAM, HIT};
 use crate::exam::{ExamQuestion, Key, Surface};
 
 /// The questions, each with the answer that follows from its key. Trees are left out: many different
@@ -16,15 +16,6 @@ pub static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| 
         .filter_map(|question| Some((question, keys_answer(question)?)))
         .collect()
 });
-
-const UNIT: Trace = Trace {
-    distance: 1.0,
-    position: Vec3::ONE,
-    normal: Vec3::X,
-    uv: Vec2::ZERO,
-    origin: Vec3::ZERO,
-    material: 0,
-};
 
 fn values<T>(all: impl IntoIterator<Item = T>) -> Vec<ElementOutcome<T>> {
     all.into_iter().map(ElementOutcome::Value).collect()
@@ -55,7 +46,7 @@ pub fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
                 distance: surface.depth,
                 normal: surface.normal,
                 uv: surface.uv,
-                ..UNIT
+                ..HIT
             };
             Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
         }
@@ -116,7 +107,7 @@ impl Error {
                     trace.origin = self.vector(trace.origin);
                     trace.material += 1;
                 }
-                None => *hit = Some(UNIT),
+                None => *hit = Some(HIT),
             }),
             Answer::Spans(spans) => self.spoil(&mut spans[index], |span| match span {
                 Some(times) => times.max = self.number(times.max),

@@ -8,12 +8,39 @@ mod properties;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use glam::UVec2;
-use protocol::{Question, Samples};
+use glam::{UVec2, Vec2, Vec3};
+use protocol::{Question, Samples, Shape, Trace};
 
 use crate::assignment::RAYS;
-use crate::exam::{Exam, ExamQuestion, Key};
+use crate::exam::{Exam, ExamQuestion, ExpectedHit, Key};
 use crate::exam_file;
+
+/// Any hit.
+pub const HIT: Trace = Trace {
+    distance: 1.0,
+    position: Vec3::X,
+    normal: Vec3::X,
+    uv: Vec2::ZERO,
+    origin: Vec3::ZERO,
+    material: 0,
+};
+
+/// The key to [`HIT`].
+pub const EXPECTED: ExpectedHit = ExpectedHit {
+    distance: HIT.distance,
+    position: HIT.position,
+    normal: HIT.normal,
+    uv: HIT.uv,
+    material: HIT.material,
+};
+
+pub fn sphere(center: Vec3, radius: f32) -> Shape {
+    Shape::Sphere {
+        center,
+        radius,
+        material: 0,
+    }
+}
 
 /// The practice exam.
 static EXAM: LazyLock<Exam> = LazyLock::new(|| {

@@ -28,12 +28,8 @@ pub(super) fn draw(
     let top = sheet.y;
     let x = |count: u32| RIGHT * f64::from(count) / f64::from(all.max(1));
     let canvas = &mut sheet.canvas;
-    canvas.text(
-        dvec2(WIDTH - 2.0, top - 6.0),
-        Anchor::End,
-        Ink::Faint,
-        "SAH cost",
-    );
+    let at_right = |y: f64| dvec2(WIDTH - 2.0, y);
+    canvas.text(at_right(top - 6.0), Anchor::End, Ink::Faint, "SAH cost");
     let deepest = nodes.iter().map(|node| node.level).max().unwrap_or(0);
     let mut sum = 0.0;
     for level in 0..=deepest.min(Sweep::LEVELS - 1) {
@@ -42,15 +38,15 @@ pub(super) fn draw(
         let cost: f64 = on_level.clone().map(|node| f64::from(node.cost)).sum();
         sum += cost;
         for node in on_level.take(MAX_NODES) {
-            draw_node(
-                canvas,
-                node,
-                [x(node.start), x(node.start.saturating_add(node.count))],
-                y,
-            );
+            let ends = [node.start, node.start.saturating_add(node.count)];
+            draw_node(canvas, node, ends.map(x), y);
         }
-        let at = dvec2(WIDTH - 2.0, y + 13.5);
-        canvas.text(at, Anchor::End, Ink::Text, &format!("{cost:.2}"));
+        canvas.text(
+            at_right(y + 13.5),
+            Anchor::End,
+            Ink::Text,
+            &format!("{cost:.2}"),
+        );
     }
     if let Some((level, start, count)) = mark {
         let y = top + ROW_HEIGHT * f64::from(level.min(deepest));
@@ -72,12 +68,7 @@ pub(super) fn draw(
         let y = sheet.y + 13.5;
         let canvas = &mut sheet.canvas;
         canvas.text(dvec2(0.0, y), Anchor::Start, Ink::Faint, "deeper levels");
-        canvas.text(
-            dvec2(WIDTH - 2.0, y),
-            Anchor::End,
-            Ink::Text,
-            &format!("{rest:.2}"),
-        );
+        canvas.text(at_right(y), Anchor::End, Ink::Text, &format!("{rest:.2}"));
         sheet.advance(ROW_HEIGHT);
     }
     sheet.advance(4.0);

@@ -5,7 +5,7 @@ mod caption;
 use glam::{DVec2, DVec3};
 use protocol::{Answer, Interval, Ray, Trace};
 
-use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, Surface};
+use judging::exam::{ExamQuestion, HitCheck, Key, Surface};
 
 use super::value;
 
@@ -27,6 +27,16 @@ pub(in crate::drawing) enum HitAnswer {
     NoAnswer,
     Miss,
     Hit(DrawnHit),
+}
+
+impl HitAnswer {
+    /// Returns the hit, if there is one.
+    pub(in crate::drawing) fn hit(self) -> Option<DrawnHit> {
+        match self {
+            HitAnswer::Hit(hit) => Some(hit),
+            HitAnswer::Miss | HitAnswer::NoAnswer => None,
+        }
+    }
 }
 
 /// The field of a hit that the drawing shows: the first judged field that is wrong.
@@ -71,8 +81,8 @@ impl HitComparison {
         }
         let (checks, wanted) = match &question.key {
             Key::Hits { checks, hits } => {
-                let hit = hits.get(element)?.as_ref();
-                (checks.clone(), hit.map(|hit| DrawnHit::from_hit(hit, &ray)))
+                let trace = hits.get(element)?.as_ref().map(|hit| hit.to_trace(&ray));
+                (checks.clone(), trace.as_ref().map(DrawnHit::from_trace))
             }
             Key::FirstHits { hits, .. } => {
                 let surface = hits.get(element)?.as_ref();
@@ -98,14 +108,12 @@ impl HitComparison {
 
     /// Returns the point at which the submitted hit is drawn.
     pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
-        match (self.got, self.focus) {
-            (HitAnswer::NoAnswer | HitAnswer::Miss, _) => None,
-            (HitAnswer::Hit(hit), Focus::Position) => Some(hit.position),
-            (
-                HitAnswer::Hit(hit),
-                Focus::Distance | Focus::Normal | Focus::Uv | Focus::Origin | Focus::Material,
-            ) => Some(self.at(hit.distance)),
-        }
+        let hit = self.got.hit()?;
+        Some(if self.focus == Focus::Position {
+            hit.position
+        } else {
+            self.at(hit.distance)
+        })
     }
 
     /// Returns the point of the ray at this distance.
@@ -171,17 +179,6 @@ fn vectors_differ(a: DVec3, b: DVec3) -> bool {
 }
 
 impl DrawnHit {
-    fn from_hit(hit: &ExpectedHit, ray: &Ray) -> DrawnHit {
-        DrawnHit {
-            distance: hit.distance.into(),
-            position: hit.position.as_dvec3(),
-            normal: hit.normal.as_dvec3(),
-            uv: hit.uv.as_dvec2(),
-            origin: ray.origin.as_dvec3(),
-            material: Some(hit.material),
-        }
-    }
-
     fn from_surface(surface: &Surface, ray: &Ray) -> DrawnHit {
         DrawnHit {
             distance: surface.depth.into(),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use protocol::{Interval, TreeNode};
 
 use super::RecordedTraversal;
-use crate::drawing::hit_comparison::{HitAnswer, HitComparison};
+use crate::drawing::hit_comparison::HitComparison;
 
 /// The maximum number of rows.
 const MAX_ROWS: usize = 28;
@@ -64,10 +64,7 @@ impl Layout {
         let parents = ParentMap::new(traversal);
         let leaf_with = |material: Option<u32>| parents.leaf_with(traversal, material?);
         let wanted = leaf_with(comparison.wanted.and_then(|hit| hit.material));
-        let got = match comparison.got {
-            HitAnswer::Hit(hit) => leaf_with(hit.material),
-            HitAnswer::Miss | HitAnswer::NoAnswer => None,
-        };
+        let got = leaf_with(comparison.got.hit().and_then(|hit| hit.material));
         let paths =
             [wanted, got].map(|leaf| leaf.map_or(Vec::new(), |leaf| parents.path_to_root(leaf)));
 

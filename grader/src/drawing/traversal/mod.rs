@@ -64,11 +64,8 @@ fn axis_distances(comparison: &HitComparison, layout: &Layout) -> Vec<f64> {
     seen.extend(spans.flat_map(|span| [f64::from(span.min), f64::from(span.max)]));
     let reach = seen.iter().copied().filter(|t| t.is_finite());
     let reach = 3.0 * reach.fold(1e-3, f64::max);
-    if let HitAnswer::Hit(hit) = comparison.got
-        && hit.distance.abs() < reach
-    {
-        seen.push(hit.distance);
-    }
+    let got = comparison.got.hit().map(|hit| hit.distance);
+    seen.extend(got.filter(|distance| distance.abs() < reach));
     if range.max.is_finite() {
         seen.push(f64::from(range.max).min(reach));
     }

@@ -6,7 +6,7 @@ use glam::dvec2;
 use super::layout::{Layout, NodeRow, NodeStatus};
 use crate::drawing::bars::Axis;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
-use crate::drawing::hit_comparison::{HitAnswer, HitComparison};
+use crate::drawing::hit_comparison::HitComparison;
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 
 /// The height of a row.
@@ -40,7 +40,10 @@ pub(super) fn draw(
     }
     let hits = [
         (comparison.wanted.map(|hit| hit.distance), LineStyle::Right),
-        (got_distance(comparison), LineStyle::Wrong),
+        (
+            comparison.got.hit().map(|hit| hit.distance),
+            LineStyle::Wrong,
+        ),
     ];
     for (distance, line) in hits {
         if let Some(t) = distance.filter(|t| axis.contains(*t)) {
@@ -69,13 +72,6 @@ pub(super) fn draw(
     }
     axis.draw(canvas, foot + 2.0);
     foot + 26.0
-}
-
-fn got_distance(comparison: &HitComparison) -> Option<f64> {
-    match comparison.got {
-        HitAnswer::Hit(hit) => Some(hit.distance),
-        HitAnswer::Miss | HitAnswer::NoAnswer => None,
-    }
 }
 
 fn draw_name(canvas: &mut Canvas, y: f64, row: &NodeRow) {

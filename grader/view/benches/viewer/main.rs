@@ -48,9 +48,8 @@ fn main() {
 /// Measures the time from a movement of the camera to the first picture, and the rate of rays
 /// compared with `cargo render`.
 fn moves_and_rays() {
-    let samples = SAMPLES.to_string();
-    let arguments = [SCENE, "--size", SIZE, "--samples", &samples];
-    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let arguments = &format!("{SCENE} --size {SIZE} --samples {SAMPLES}");
+    let viewer = Viewer::start(&Submission::reference(), arguments);
     let folder = TempDir::new().expect("a folder can be created");
     let mut build = Command::new(env!("CARGO"));
     build.args(["build", "-q", "--package", "reference"]);
@@ -130,8 +129,8 @@ fn rate_of_render(folder: &Path) -> f64 {
 fn saves() {
     let root = workspace();
     let submission = Submission::reference();
-    let arguments = [SCENE, "--size", SIZE, "--samples", "1"];
-    let viewer = Viewer::start(&submission, &arguments);
+    let arguments = &format!("{SCENE} --size {SIZE} --samples 1");
+    let viewer = Viewer::start(&submission, arguments);
     viewer.wait_for_picture();
     let found = Workspace::find().expect("the benchmark runs in the workspace");
     let bare = BareRustc::prepare(&found.cache_folder().join("dependencies"));
@@ -168,8 +167,8 @@ fn is_fresh(state: &Value) -> bool {
 
 /// Measures the CPU time of the viewer and its programs while a page shows a complete picture.
 fn idle() {
-    let arguments = [SCENE, "--size", SIZE, "--samples", "4"];
-    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let arguments = &format!("{SCENE} --size {SIZE} --samples 4");
+    let viewer = Viewer::start(&Submission::reference(), arguments);
     let chromium = Chromium::start();
     let mut tab = chromium.as_ref().map(Chromium::tab);
     if let Some(tab) = &mut tab {
@@ -218,7 +217,7 @@ fn large_mesh() {
     let start = Instant::now();
     let viewer = Viewer::start(
         &Submission::reference(),
-        &[path, "--size", SIZE, "--samples", "1"],
+        &format!("{path} --size {SIZE} --samples 1"),
     );
     viewer.wait_for_picture();
     let first = start.elapsed().as_secs_f64();

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use framework::harness::attempt::attempt;
 use framework::render::integrator::{Integrator, RenderStats};
 use glam::{UVec2, Vec2};
-use protocol::{ElementOutcome, Panic, Ray, Trace};
+use protocol::{ElementOutcome, Panic, Trace};
 
 use crate::messages::{
     Draw, Drawn, Follow, Followed, MAX_PANICS, Quantity, Target, TestCounts, Values,
@@ -16,7 +16,10 @@ use crate::stage::Stage;
 /// Draws pixels until all are drawn or the time is over.
 pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Drawn {
     let mut stats = RenderStats::default();
-    let mut pixels = Pixels::new(request);
+    let mut pixels = Pixels {
+        request,
+        panics: Vec::new(),
+    };
     let values = match request.quantity {
         Quantity::Hit => Values::Hits(pixels.each(None, |_, pixel| {
             stats.rays += 1;
@@ -48,14 +51,7 @@ struct Pixels<'a> {
     panics: Vec<(Panic, Vec<u32>)>,
 }
 
-impl<'a> Pixels<'a> {
-    fn new(request: &'a Draw) -> Self {
-        Pixels {
-            request,
-            panics: Vec::new(),
-        }
-    }
-
+impl Pixels<'_> {
     /// Computes the value of each pixel, until the time is over. A pixel with a panic gets
     /// `replacement`.
     fn each<T: Clone>(&mut self, replacement: T, mut value: impl FnMut(u32, UVec2) -> T) -> Vec<T> {
@@ -141,10 +137,6 @@ impl Stage<'_> {
 /// Records a ray or a path.
 pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -> Followed {
     let mut stats = RenderStats::default();
-    let hit = |ray: &Ray| {
-        stage.world.hit(ray);
-        None
-    };
     record::start(request);
     let outcome = attempt(|| match request.target {
         Target::Centre(pixel) => {
@@ -154,20 +146,20 @@ pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -
         Target::Path { pixel, sample } => {
             Some(integrator.sample_radiance(pixel, sample, &mut stats))
         }
-        Target::Ray(ray) => hit(&ray),
+        Target::Ray(ray) => {
+            stage.world.hit(&ray);
+            None
+        }
     });
     let rays = record::finish();
-    match outcome {
-        ElementOutcome::Value(radiance) => Followed {
-            rays,
-            radiance,
-            panic: None,
-        },
-        ElementOutcome::Panicked(panic) => Followed {
-            rays,
-            radiance: None,
-            panic: Some(panic),
-        },
+    let (radiance, panic) = match outcome {
+        ElementOutcome::Value(radiance) => (radiance, None),
+        ElementOutcome::Panicked(panic) => (None, Some(panic)),
         ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
+    };
+    Followed {
+        rays,
+        radiance,
+        panic,
     }
 }

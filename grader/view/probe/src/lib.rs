@@ -5,7 +5,6 @@
 //! which `BBox::hit` and `Primitive::hit` report their calls to [`record`], lists the tests of a
 //! ray. Neither is used for grading.
 
-mod camera;
 mod draw;
 pub mod messages;
 pub mod record;

@@ -35,56 +35,53 @@ pub fn box_test<B>(
     times: Interval,
     inside: Option<Interval>,
 ) -> Option<Interval> {
-    COUNTS.set(TestCounts {
-        boxes: COUNTS.get().boxes.saturating_add(1),
-        ..COUNTS.get()
-    });
-    if LISTING.get() {
-        let test = Test::Box {
+    record(
+        |counts| &mut counts.boxes,
+        || Test::Box {
             min,
             max,
             times,
             inside,
             address: std::ptr::from_ref(bbox).addr() as u64,
-        };
-        push(test);
-    }
+        },
+    );
     inside
 }
 
 /// Records a call of `Primitive::hit`, and returns its result. `material` is the index of the shape.
 pub fn primitive_test(material: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
-    COUNTS.set(TestCounts {
-        primitives: COUNTS.get().primitives.saturating_add(1),
-        ..COUNTS.get()
-    });
-    if LISTING.get() {
-        let test = Test::Primitive {
+    record(
+        |counts| &mut counts.primitives,
+        || Test::Primitive {
             shape: material,
             range: ray.range,
             distance: hit.map(|trace| trace.distance),
-        };
-        push(test);
-    }
+        },
+    );
     hit
 }
 
-/// Adds a test to the current ray. A test outside of any ray is not listed.
-fn push(test: Test) {
+/// Counts a test, and adds it to the current ray. A test outside of any ray is not listed.
+fn record(number: fn(&mut TestCounts) -> &mut u32, test: impl FnOnce() -> Test) {
+    let add = |counts: &mut TestCounts| {
+        let number = number(counts);
+        *number = number.saturating_add(1);
+    };
+    let mut counts = COUNTS.get();
+    add(&mut counts);
+    COUNTS.set(counts);
+    if !LISTING.get() {
+        return;
+    }
     LIST.with_borrow_mut(|list| {
-        let Some(list) = list else { return };
-        let Some(ray) = list.rays.last_mut() else {
+        let Some(List { rays, left }) = list else {
             return;
         };
-        match test {
-            Test::Box { .. } => ray.counts.boxes = ray.counts.boxes.saturating_add(1),
-            Test::Primitive { .. } => {
-                ray.counts.primitives = ray.counts.primitives.saturating_add(1);
-            }
-        }
-        if let Some(left) = list.left.checked_sub(1) {
-            list.left = left;
-            ray.tests.push(test);
+        let Some(ray) = rays.last_mut() else { return };
+        add(&mut ray.counts);
+        if *left > 0 {
+            *left -= 1;
+            ray.tests.push(test());
         }
     });
 }
@@ -119,14 +116,8 @@ impl Aggregate for Recorded {
             return tree.closest_hit(ray);
         }
         LIST.with_borrow_mut(|list| {
-            if let Some(list) = list {
-                list.rays.push(FollowedRay {
-                    ray: *ray,
-                    hit: None,
-                    tests: Vec::new(),
-                    counts: TestCounts::default(),
-                });
-            }
+            let rays = list.iter_mut().map(|list| &mut list.rays);
+            rays.for_each(|rays| rays.push(FollowedRay::new(*ray)));
         });
         let hit = tree.closest_hit(ray);
         LIST.with_borrow_mut(|list| {

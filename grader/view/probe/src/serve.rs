@@ -37,33 +37,26 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
     let mut stage: Option<Stage> = None;
     let mut request = pipe.receive()?;
     loop {
-        request = match (request, &mut stage) {
+        let response = match (request, &mut stage) {
             (Request::Open(data), stage) => {
                 // The old tree is freed first, so that there are never two.
                 *stage = None;
                 let (opened, new) = Stage::open(submission, *data);
                 *stage = new;
-                pipe.send(&Response::Opened(opened))?;
-                pipe.receive()?
+                Response::Opened(opened)
             }
             (Request::Aim(aim), Some(stage)) => {
                 stage.aim(aim);
-                pipe.send(&Response::Aimed)?;
-                pipe.receive()?
+                Response::Aimed
             }
-            (other, Some(stage)) => serve_aimed(stage, other, pipe)?,
-            (
-                Request::Aim(_)
-                | Request::Draw(_)
-                | Request::Tree(_)
-                | Request::Follow(_)
-                | Request::Boxes(_),
-                None,
-            ) => {
-                pipe.send(&Response::NotOpen)?;
-                pipe.receive()?
+            (other, Some(stage)) => {
+                request = serve_aimed(stage, other, pipe)?;
+                continue;
             }
-        }
+            (_, None) => Response::NotOpen,
+        };
+        pipe.send(&response)?;
+        request = pipe.receive()?;
     }
 }
 

@@ -3,12 +3,14 @@
 use std::borrow::Cow;
 
 use framework::harness::attempt::attempt;
+use framework::math::sin_cos;
 use framework::scene::Scene;
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
 use glam::{UVec2, Vec2, Vec3};
-use protocol::{ElementOutcome, Interval, Panic, Ray, Shape, Trace, TreeNode};
+use protocol::{
+    ElementOutcome, ExamCamera, Interval, Panic, PinholeCamera, Ray, Sample, Shape, Trace, TreeNode,
+};
 
-use crate::camera::ViewerCamera;
 use crate::messages::{Opened, Part, TreeSize};
 use crate::record::Recorded;
 use crate::scene_data::{Aim, SceneData, TreeSource};
@@ -105,12 +107,36 @@ fn camera(submission: &dyn Submission, aim: &Aim, has_camera: bool) -> Box<dyn C
     }
 }
 
+/// The viewer's own camera, which is used while a submission's camera is not written yet: a camera
+/// of the exam, whose rays `protocol` computes.
+struct ViewerCamera(ExamCamera);
+
+impl ViewerCamera {
+    fn new(pinhole: &PinholeCamera) -> Self {
+        let (sin, cos) = sin_cos(0.5 * pinhole.vertical_fov.to_radians());
+        ViewerCamera(ExamCamera {
+            eye: Vec3::ZERO,
+            forward: Vec3::NEG_Z * cos,
+            right: Vec3::X * sin * pinhole.aspect_ratio,
+            up: Vec3::Y * sin,
+            film: pinhole.film,
+        })
+    }
+}
+
+impl CameraRays for ViewerCamera {
+    fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+        let ViewerCamera(camera) = self;
+        camera.ray(Sample { pixel, offset })
+    }
+}
+
 /// Finds the parts that are not written yet by calling each once.
 fn missing_parts(submission: &dyn Submission, scene: &Scene) -> Vec<(Part, Panic)> {
     let ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
-    let is_sphere = |shape: &&Shape| matches!(shape, Shape::Sphere { .. });
-    let hit = |shape: Option<&Shape>| {
-        if let Some(shape) = shape {
+    let hit = |is_sphere: bool| {
+        let is_such = |shape: &&Shape| matches!(shape, Shape::Sphere { .. }) == is_sphere;
+        if let Some(shape) = scene.shapes.iter().find(is_such) {
             submission.primitive_list(&[*shape]).closest_hit(&ray);
         }
     };
@@ -123,14 +149,8 @@ fn missing_parts(submission: &dyn Submission, scene: &Scene) -> Vec<(Part, Panic
     };
     let outcomes = [
         (Part::Camera, attempt(camera)),
-        (
-            Part::Triangle,
-            attempt(|| hit(scene.shapes.iter().find(|shape| !is_sphere(shape)))),
-        ),
-        (
-            Part::Sphere,
-            attempt(|| hit(scene.shapes.iter().find(is_sphere))),
-        ),
+        (Part::Triangle, attempt(|| hit(false))),
+        (Part::Sphere, attempt(|| hit(true))),
         (Part::BBox, attempt(bbox)),
     ];
     let missing = |(part, outcome)| match outcome {

@@ -2,21 +2,23 @@
 
 use std::io::{self, Write};
 
-/// The status of a response.
+/// The status of a response, as in its first line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
+pub struct Status(&'static str);
+
+impl Status {
     /// The request succeeded.
-    Ok,
+    pub const OK: Status = Status("200 OK");
     /// There is nothing new.
-    NoContent,
+    pub const NO_CONTENT: Status = Status("204 No Content");
     /// The request is malformed.
-    BadRequest,
+    pub const BAD_REQUEST: Status = Status("400 Bad Request");
     /// The request is not allowed.
-    Forbidden,
+    pub const FORBIDDEN: Status = Status("403 Forbidden");
     /// There is no such page.
-    NotFound,
+    pub const NOT_FOUND: Status = Status("404 Not Found");
     /// The server is busy.
-    Unavailable,
+    pub const UNAVAILABLE: Status = Status("503 Service Unavailable");
 }
 
 /// A response.
@@ -43,19 +45,6 @@ const HEADERS: [(&str, &str); 7] = [
     ("Connection", "close"),
 ];
 
-impl Status {
-    fn line(self) -> &'static str {
-        match self {
-            Status::Ok => "200 OK",
-            Status::NoContent => "204 No Content",
-            Status::BadRequest => "400 Bad Request",
-            Status::Forbidden => "403 Forbidden",
-            Status::NotFound => "404 Not Found",
-            Status::Unavailable => "503 Service Unavailable",
-        }
-    }
-}
-
 impl Response {
     /// Creates a response with a body of this type.
     pub fn new(status: Status, content_type: &str, body: impl Into<Vec<u8>>) -> Self {
@@ -74,7 +63,7 @@ impl Response {
     /// Creates a response that says that there is nothing new.
     pub fn nothing() -> Self {
         Response {
-            status: Status::NoContent,
+            status: Status::NO_CONTENT,
             content_type: None,
             body: Vec::new(),
         }
@@ -88,7 +77,7 @@ impl Response {
 
     /// Writes the response.
     pub fn write(&self, to: &mut impl Write) -> io::Result<()> {
-        let mut head = format!("HTTP/1.1 {}\r\n", self.status.line());
+        let mut head = format!("HTTP/1.1 {}\r\n", self.status.0);
         let own = self
             .content_type
             .iter()
@@ -97,9 +86,7 @@ impl Response {
             head += &format!("{name}: {value}\r\n");
         }
         head += &format!("Content-Length: {}\r\n\r\n", self.body.len());
-        let mut bytes = head.into_bytes();
-        bytes.extend_from_slice(&self.body);
-        to.write_all(&bytes)?;
+        to.write_all(&[head.as_bytes(), &self.body].concat())?;
         to.flush()
     }
 }

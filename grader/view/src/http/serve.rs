@@ -94,14 +94,14 @@ impl<S: Site> Server<S> {
                 self.untrusted().remove(&number);
                 let slot = slot.insert(Arc::clone(&self.trusted));
                 if Arc::strong_count(slot) > MAX_TRUSTED + 1 {
-                    Response::text(Status::Unavailable, "too many connections")
+                    Response::text(Status::UNAVAILABLE, "too many connections")
                 } else {
                     self.site.answer(&request)
                 }
             }
             Ok(request) => self.site.answer(&request),
             Err(RequestError::Io(error)) => return Err(error),
-            Err(error) => Response::text(Status::BadRequest, &error.to_string()),
+            Err(error) => Response::text(Status::BAD_REQUEST, &error.to_string()),
         };
         response.write(&mut Timed::new(stream, WRITE_TIMEOUT))
     }
@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn a_response_that_nobody_reads_ends_at_the_deadline() {
         let (client, server) = connection();
-        let response = Response::new(Status::Ok, "text/plain", vec![0; 64 << 20]);
+        let response = Response::new(Status::OK, "text/plain", vec![0; 64 << 20]);
         let started_at = Instant::now();
         let mut timed = Timed::new(&server, Duration::from_millis(100));
         assert!(response.write(&mut timed).is_err());

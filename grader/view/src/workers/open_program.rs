@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use grader::probe::Fault;
-use protocol::ElementOutcome;
+use protocol::{ElementOutcome, Panic};
 use view_probe::messages::{
-    BoxQueries, Draw, Follow, FollowedRay, Request, Response, Target, TreeData, TreeSize,
+    BoxQueries, Draw, Drawn, Follow, FollowedRay, Request, Response, Target, TreeData, TreeSize,
 };
 use view_probe::scene_data::{Aim, SceneData, TreeSource};
 
@@ -23,8 +23,6 @@ const MAX_TESTS: u32 = 4_000;
 const LIMIT: Duration = Duration::from_secs(10);
 
 /// A program that is started when it is needed, with the scene and the camera that it has.
-///
-/// Its methods return `None` if their result is no longer wanted.
 pub(super) struct OpenProgram<'a> {
     session: &'a SharedSession,
     is_recorded: bool,
@@ -35,6 +33,36 @@ pub(super) struct OpenProgram<'a> {
     size: TreeSize,
     /// The tree, if a pixel has been explained.
     tree: Option<TreeModel>,
+}
+
+/// A reason why work has no result.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Stop {
+    /// The result is no longer wanted, or the reason has been reported.
+    #[error("the result is no longer wanted")]
+    Unwanted,
+    /// The program failed.
+    #[error("{0}")]
+    Fault(Fault),
+    /// The program could not be started, or its response is not of use.
+    #[error("{0}")]
+    Invalid(String),
+}
+
+impl Stop {
+    /// Returns whether the reason is to be reported.
+    pub(super) fn is_wanted(&self) -> bool {
+        !matches!(self, Stop::Unwanted)
+    }
+
+    fn unexpected(response: &Response) -> Self {
+        let why = if *response == Response::NotOpen {
+            "it has no scene"
+        } else {
+            "it sent an invalid answer"
+        };
+        Stop::Invalid(why.to_owned())
+    }
 }
 
 impl<'a> OpenProgram<'a> {
@@ -50,42 +78,36 @@ impl<'a> OpenProgram<'a> {
         }
     }
 
-    /// Makes sure that the program has the scene and the camera of the work. Returns whether it
-    /// has; reasons why it has not are reported.
-    pub(super) fn prepare(&mut self, work: &Work) -> bool {
+    /// Makes sure that the program has the scene and the camera of the work.
+    pub(super) fn prepare(&mut self, work: &Work) -> Result<(), Stop> {
         if self.key.program != work.key.program {
             self.probe = None;
         }
-        let has_scene = self.probe.is_some() && self.key.scene == work.key.scene;
-        if !has_scene && !self.open(work) {
-            self.probe = None;
-            return false;
-        }
-        if self.aim == Some(work.aim) {
-            return true;
-        }
-        match self.ask(work, &Request::Aim(work.aim), LIMIT) {
-            Some(Ok(Response::Aimed)) => {
-                self.aim = Some(work.aim);
-                return true;
+        if self.probe.is_none() || self.key.scene != work.key.scene {
+            let opened = self.open(work);
+            if opened.is_err() {
+                self.probe = None;
             }
-            // Building the tree failed, which has been reported.
-            Some(Ok(Response::NotOpen)) | None => {}
-            Some(Ok(other)) => self.not_started(work, &unexpected(&other)),
-            Some(Err(fault)) => self.not_started(work, &fault.to_string()),
+            opened?;
         }
-        false
+        if self.aim != Some(work.aim) {
+            let response = self.ask(work, &Request::Aim(work.aim), LIMIT)?;
+            if response == Response::NotOpen {
+                // Building the tree failed, which has been reported.
+                return Err(Stop::Unwanted);
+            }
+            if response != Response::Aimed {
+                return Err(Stop::unexpected(&response));
+            }
+            self.aim = Some(work.aim);
+        }
+        Ok(())
     }
 
-    fn open(&mut self, work: &Work) -> bool {
+    fn open(&mut self, work: &Work) -> Result<(), Stop> {
         if self.probe.is_none() {
-            match Probe::start(&work.program, work.memory) {
-                Ok(probe) => self.probe = Some(probe),
-                Err(error) => {
-                    self.not_started(work, &error.to_string());
-                    return false;
-                }
-            }
+            let probe = Probe::start(&work.program, work.memory);
+            self.probe = Some(probe.map_err(|error| Stop::Invalid(error.to_string()))?);
         }
         let mut data = SceneData::clone(&work.subject.data);
         data.aim = work.aim;
@@ -94,99 +116,87 @@ impl<'a> OpenProgram<'a> {
         self.aim = None;
         self.tree = None;
         let started_at = Instant::now();
-        match self.ask(work, &Request::Open(Box::new(data)), work.open_limit) {
-            Some(Ok(Response::Opened(opened))) => {
-                let size = match opened.tree {
-                    ElementOutcome::Value(size) => Some(size),
-                    ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
-                };
-                let took = started_at.elapsed();
-                self.session
-                    .update(|session, _| session.opened(work.key, opened, took));
-                self.size = size.unwrap_or_default();
-                self.aim = size.map(|_| work.aim);
-                return size.is_some();
-            }
-            Some(Ok(other)) => self.not_started(work, &unexpected(&other)),
-            Some(Err(fault)) => {
+        let opened = match self.ask(work, &Request::Open(Box::new(data)), work.open_limit) {
+            Ok(Response::Opened(opened)) => opened,
+            Ok(other) => return Err(Stop::unexpected(&other)),
+            Err(Stop::Fault(fault)) => {
                 let why = fault.to_string();
                 self.session
                     .update(|session, _| session.opening_ended(work.key, &why));
+                return Err(Stop::Unwanted);
             }
-            None => {}
-        }
-        false
-    }
-
-    fn not_started(&self, work: &Work, why: &str) {
+            Err(stop) => return Err(stop),
+        };
+        let size = match opened.tree {
+            ElementOutcome::Value(size) => Some(size),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        };
+        let took = started_at.elapsed();
         self.session
-            .update(|session, _| session.not_started(work.key, why));
+            .update(|session, _| session.opened(work.key, opened, took));
+        self.size = size.ok_or(Stop::Unwanted)?;
+        self.aim = Some(work.aim);
+        Ok(())
     }
 
     /// Asks the program. After a fault or an abandoned request, the program has ended, and is
     /// started again when it is needed.
-    fn ask(
-        &mut self,
-        work: &Work,
-        request: &Request,
-        limit: Duration,
-    ) -> Option<Result<Response, Fault>> {
+    fn ask(&mut self, work: &Work, request: &Request, limit: Duration) -> Result<Response, Stop> {
         let session = self.session;
         let is_abandoned = || !session.read(|session, _| session.is_wanted(work.key));
-        let response = self.probe.as_mut()?.ask(request, limit, is_abandoned);
-        if response.is_err() {
+        let probe = self.probe.as_mut().ok_or(Stop::Unwanted)?;
+        probe.ask(request, limit, is_abandoned).map_err(|reason| {
             self.probe = None;
             self.aim = None;
-        }
-        match response {
-            Ok(response) => Some(Ok(response)),
-            Err(NoResponse::Fault(fault)) => Some(Err(fault)),
-            Err(NoResponse::Abandoned) => None,
-        }
-    }
-
-    /// Draws some pixels of a tile, and reports them.
-    pub(super) fn draw(&mut self, work: &Work, tile: usize, draw: &Draw, limit: Duration) {
-        match self.ask(work, &Request::Draw(*draw), limit) {
-            Some(Ok(Response::Drawn(drawn))) => self.session.update(|session, now| {
-                session.drawn(work.key, tile, draw, &drawn, now);
-            }),
-            Some(Ok(other)) => self.not_started(work, &unexpected(&other)),
-            Some(Err(fault)) => self.session.update(|session, _| {
-                session.drawing_ended(work.key, tile, draw, &fault);
-            }),
-            None => {}
-        }
-    }
-
-    /// Returns the tree with facts about its nodes, or the reason why there is none.
-    pub(super) fn tree(&mut self, work: &Work) -> Option<Result<TreeModel, String>> {
-        if let Some(why) = work.subject.oversize(self.size) {
-            return Some(Err(why));
-        }
-        let (request, limit) = (Request::Tree(self.size), work.open_limit.max(LIMIT));
-        Some(match self.ask(work, &request, limit)? {
-            Ok(Response::Tree(ElementOutcome::Value(TreeData(tree)))) => Ok(TreeModel::new(tree)),
-            Ok(Response::Tree(ElementOutcome::Panicked(panic))) => {
-                Err(format!("panicked: {} ({})", panic.message, panic.location))
+            match reason {
+                NoResponse::Fault(fault) => Stop::Fault(fault),
+                NoResponse::Abandoned => Stop::Unwanted,
             }
-            Ok(other) => Err(unexpected(&other)),
-            Err(fault) => Err(fault.to_string()),
         })
     }
 
-    /// Explains a pixel, or returns the reason why it is not explained.
-    pub(super) fn explain(
+    /// Draws some pixels of a tile.
+    pub(super) fn draw(
         &mut self,
         work: &Work,
-        pinned: &Pinned,
-    ) -> Option<Result<Explanation, String>> {
+        draw: &Draw,
+        limit: Duration,
+    ) -> Result<Drawn, Stop> {
+        let response = self.ask(work, &Request::Draw(*draw), limit)?;
+        let Response::Drawn(drawn) = response else {
+            return Err(Stop::unexpected(&response));
+        };
+        Ok(drawn)
+    }
+
+    /// Returns the tree with facts about its nodes.
+    pub(super) fn tree(&mut self, work: &Work) -> Result<TreeModel, Stop> {
+        if let Some(why) = work.subject.oversize(self.size) {
+            return Err(Stop::Invalid(why));
+        }
+        let limit = work.open_limit.max(LIMIT);
+        let response = self.ask(work, &Request::Tree(self.size), limit)?;
+        if let Response::Tree(ElementOutcome::Panicked(Panic { message, location })) = &response {
+            return Err(Stop::Invalid(format!("panicked: {message} ({location})")));
+        }
+        let Response::Tree(ElementOutcome::Value(TreeData(tree))) = response else {
+            return Err(Stop::unexpected(&response));
+        };
+        Ok(TreeModel::new(tree))
+    }
+
+    /// Explains a pixel.
+    pub(super) fn explain(&mut self, work: &Work, pinned: &Pinned) -> Result<Explanation, Stop> {
         let tree = match self.tree.take() {
             Some(tree) => tree,
-            None => match self.tree(work)? {
-                Ok(tree) => tree,
-                Err(why) => return Some(Err(format!("The tree cannot be read: {why}"))),
-            },
+            None => self.tree(work).map_err(|stop| {
+                let why = format!("The tree cannot be read: {stop}");
+                if stop.is_wanted() {
+                    Stop::Invalid(why)
+                } else {
+                    stop
+                }
+            })?,
         };
         let explanation = self.explain_in(&tree, work, pinned);
         self.tree = Some(tree);
@@ -198,18 +208,21 @@ impl<'a> OpenProgram<'a> {
         tree: &TreeModel,
         work: &Work,
         pinned: &Pinned,
-    ) -> Option<Result<Explanation, String>> {
-        let question = work.subject.question.as_ref();
+    ) -> Result<Explanation, Stop> {
         let target = match (pinned.pixel, pinned.sample) {
             (Some(pixel), None) => Target::Centre(pixel),
             (Some(pixel), Some(sample)) => Target::Path { pixel, sample },
-            (None, _) => Target::Ray(question?.ray?),
+            (None, _) => {
+                let question = work.subject.question.as_ref();
+                let ray = question.and_then(|question| question.ray);
+                Target::Ray(ray.ok_or(Stop::Unwanted)?)
+            }
         };
         let max_tests = MAX_TESTS;
         let request = Request::Follow(Follow { target, max_tests });
-        let followed = match self.ask(work, &request, LIMIT)? {
-            Ok(Response::Followed(followed)) => followed,
-            other => return Some(Err(reason(other))),
+        let response = self.ask(work, &request, LIMIT)?;
+        let Response::Followed(followed) = response else {
+            return Err(Stop::unexpected(&response));
         };
         let tests = followed.rays.iter().flat_map(|ray| &ray.tests);
         let context = Context {
@@ -218,15 +231,11 @@ impl<'a> OpenProgram<'a> {
             is_list: matches!(work.subject.data.tree, TreeSource::List),
             addresses: NodeAddresses::find(tests, tree),
         };
-        let mut spans = Vec::new();
-        for ray in &followed.rays {
-            match self.spans(work, ray, &context)? {
-                Ok(of_ray) => spans.push(of_ray),
-                Err(why) => return Some(Err(why)),
-            }
-        }
+        let rays = followed.rays.iter();
+        let spans = rays.map(|ray| self.spans(work, ray, &context));
+        let spans: Vec<BTreeMap<u32, NodeSpan>> = spans.collect::<Result<_, _>>()?;
         let (pixel, sample) = (pinned.pixel, pinned.sample);
-        Some(Ok(explain(pixel, sample, &followed, &spans, &context)))
+        Ok(explain(pixel, sample, &followed, &spans, &context))
     }
 
     /// Returns the parts of a ray in the boxes of the nodes that its explanation needs.
@@ -235,7 +244,7 @@ impl<'a> OpenProgram<'a> {
         work: &Work,
         ray: &FollowedRay,
         context: &Context,
-    ) -> Option<Result<BTreeMap<u32, NodeSpan>, String>> {
+    ) -> Result<BTreeMap<u32, NodeSpan>, Stop> {
         let rows = rows(ray, context.tree, context.addresses);
         let nodes = judged_nodes(&rows, context.tree);
         let corners = nodes
@@ -245,33 +254,15 @@ impl<'a> OpenProgram<'a> {
             ray: ray.ray,
             boxes: corners.flatten().collect(),
         });
-        let inside = match self.ask(work, &request, LIMIT)? {
-            Ok(Response::Spans(inside)) => inside,
-            other => return Some(Err(reason(other))),
+        let response = self.ask(work, &request, LIMIT)?;
+        let Response::Spans(inside) = response else {
+            return Err(Stop::unexpected(&response));
         };
         let (pairs, _) = inside.as_chunks();
         let span = |&[inside, inside_larger]: &[_; 2]| NodeSpan {
             inside,
             inside_larger,
         };
-        Some(Ok(nodes.into_iter().zip(pairs.iter().map(span)).collect()))
+        Ok(nodes.into_iter().zip(pairs.iter().map(span)).collect())
     }
-}
-
-/// Returns why a response is not the one that was asked for.
-fn reason(response: Result<Response, Fault>) -> String {
-    match response {
-        Ok(response) => unexpected(&response),
-        Err(fault) => fault.to_string(),
-    }
-}
-
-fn unexpected(response: &Response) -> String {
-    let is_open = *response != Response::NotOpen;
-    let why = if is_open {
-        "it sent an invalid answer"
-    } else {
-        "it has no scene"
-    };
-    why.to_owned()
 }

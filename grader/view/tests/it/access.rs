@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 #[cfg(target_os = "linux")]
 use std::{fs, os::unix::fs::PermissionsExt, path::Path};
 
+use grader::printing::without_commands;
 use serde_json::json;
 #[cfg(target_os = "linux")]
 use tempfile::TempDir;
@@ -14,17 +15,41 @@ use crate::harness::{Submission, Viewer, view, view_and_open};
 
 #[test]
 fn only_the_users_browser_is_answered() {
-    let viewer = Viewer::start(&Submission::starter(), &["--allow-host", "tunnel.example"]);
+    let viewer = Viewer::start(&Submission::starter(), "--allow-host tunnel.example");
     let get = |path: &str, headers: &str| viewer.request("GET", path, headers, "").status;
     for public in ["/", "/main.js", "/favicon.ico"] {
-        assert_eq!(get(public, "Host: localhost\r\n"), 200, "{public}");
-        assert_eq!(get(public, "Host: evil.example\r\n"), 403, "{public}");
+        for (headers, status) in [
+            ("Host: localhost", 200),
+            ("Host: [::1]:80", 200),
+            ("Host: evil.example", 403),
+            ("X: 1", 403),
+            ("Host: localhost\r\nHost: evil.example", 403),
+        ] {
+            assert_eq!(get(public, &format!("{headers}\r\n")), status, "{headers}");
+        }
     }
-    let page = viewer.headers();
-    let state = |headers: &str| get("/state?after=0", headers);
-    assert_eq!(state(&page), 200);
-    assert_eq!(state(&page.replace("localhost", "tunnel.example")), 200);
-    assert_eq!(state(&page.replace("localhost", "evil.example")), 403);
+    let token = viewer.first.split_once('=').unwrap().1;
+    for (headers, status) in [
+        ("Host: localhost:9000\r\nView-Token: TOKEN", 200),
+        ("Host: TUNNEL.example\r\nView-Token: TOKEN", 200),
+        ("Host: evil.example\r\nView-Token: TOKEN", 403),
+        ("Host: localhost.evil.example\r\nView-Token: TOKEN", 403),
+        ("View-Token: TOKEN", 403),
+        (
+            "Host: localhost\r\nHost: evil.example\r\nView-Token: TOKEN",
+            403,
+        ),
+        ("Host: localhost\r\nView-Token: t1", 403),
+        ("Host: localhost\r\nView-Token:", 403),
+        (
+            "Host: localhost\r\nView-Token: TOKEN\r\nView-Token: TOKEN",
+            403,
+        ),
+        ("Host: localhost\r\nCookie: token=TOKEN", 403),
+    ] {
+        let headers = format!("{}\r\n", headers.replace("TOKEN", token));
+        assert_eq!(get("/state?after=0", &headers), status, "{headers}");
+    }
     for path in ["/state", "/picture", "/tree", "/boxes", "/node", "/nothing"] {
         assert_eq!(get(path, "Host: localhost\r\n"), 403, "{path}");
         let with_token = viewer.first.replace('/', path);
@@ -36,7 +61,7 @@ fn only_the_users_browser_is_answered() {
 /// only without the page's own headers, and with none of the answer shown.
 #[test]
 fn a_page_of_another_port_can_send_no_command() {
-    let viewer = Viewer::start(&Submission::starter(), &[]);
+    let viewer = Viewer::start(&Submission::starter(), "");
     let command = json!({ "view": "depth" }).to_string();
     let post = |headers: &str| viewer.request("POST", "/command", headers, &command);
     assert_eq!(post(&viewer.headers()).status, 204);
@@ -70,7 +95,7 @@ fn open_silent_connections(viewer: &Viewer, sent: &str) -> Vec<TcpStream> {
 
 #[test]
 fn connections_that_send_or_read_nothing_do_not_keep_the_page_waiting() {
-    let viewer = Viewer::start(&Submission::starter(), &[]);
+    let viewer = Viewer::start(&Submission::starter(), "");
     let mut open = Vec::new();
     for sent in [
         "",
@@ -89,7 +114,7 @@ fn connections_that_send_or_read_nothing_do_not_keep_the_page_waiting() {
 
 #[test]
 fn every_response_forbids_what_the_page_does_not_need() {
-    let viewer = Viewer::start(&Submission::starter(), &[]);
+    let viewer = Viewer::start(&Submission::starter(), "");
     for path in ["/", "/main.js", "/nothing", "/state?after=0"] {
         let head = viewer.get(path).head;
         for header in [
@@ -105,7 +130,7 @@ fn every_response_forbids_what_the_page_does_not_need() {
 
 #[test]
 fn a_scene_is_named_and_never_a_path() {
-    let viewer = Viewer::start(&Submission::starter(), &[]);
+    let viewer = Viewer::start(&Submission::starter(), "");
     for name in [
         "../Cargo.toml",
         "/etc/passwd",
@@ -115,7 +140,7 @@ fn a_scene_is_named_and_never_a_path() {
     ] {
         assert_eq!(viewer.send(&json!({ "scene": name })), 400, "{name}");
     }
-    assert_eq!(viewer.send(&json!({ "scene": "flat" })), 204);
+    viewer.command(&json!({ "scene": "flat" }));
     viewer.wait_for(|state| state["subject"] == "flat");
     for bad in [
         json!({ "film": [0, 1] }),
@@ -130,24 +155,43 @@ fn a_scene_is_named_and_never_a_path() {
 }
 
 #[test]
-fn a_port_in_use_is_named() {
+fn an_error_of_the_user_says_what_to_do() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
-    let port = taken.local_addr().unwrap().port().to_string();
-    let output = view().args(["--port", &port]).output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{error}");
-    assert!(error.contains(&format!("port {port} is in use")), "{error}");
+    let port = taken.local_addr().unwrap().port();
+    for (arguments, text) in [
+        (format!("--port {port}"), format!("port {port} is in use")),
+        ("gyroidd".into(), "`gyroidd` (did you mean gyroid?)".into()),
+        ("none".into(), "cornell-box, flat".into()),
+        (
+            "--item camera.corners#1".into(),
+            "cargo grade --replay camera.corners#1".into(),
+        ),
+        (
+            "--item sphere.none#1".into(),
+            "has no item `sphere.none`".into(),
+        ),
+        (
+            "--item sphere.from_inside#99999".into(),
+            "so there is no number 99999".into(),
+        ),
+    ] {
+        let output = view().args(arguments.split(' ')).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains::<&str>(&text), "{error}");
+    }
 }
 
+/// A CI system executes commands in a log.
 #[test]
-fn an_unknown_scene_is_an_error_that_lists_the_known_ones() {
-    let output = view().arg("gyroidd").output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{error}");
-    assert!(
-        error.contains("`gyroidd` (did you mean gyroid?)") && error.contains("cornell-box, flat"),
-        "{error}"
-    );
+fn no_name_in_an_error_is_a_command_in_a_log() {
+    let name = "::error::a ##[set-env name=a]b";
+    for option in [None, Some("--submission"), Some("--item"), Some("--size")] {
+        let output = view().args(option).arg(name).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(without_commands(&error), error, "{option:?}");
+        assert!(error.contains("set-env"), "{option:?}: {error}");
+    }
 }
 
 /// The browser gets the path of a file, since every user of a machine can read the arguments of

@@ -10,8 +10,8 @@ use crate::harness::{Submission, Viewer};
 
 #[test]
 fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
-    let arguments = ["flat", "--size", "64x48", "--samples", "1"];
-    let Some((_chromium, _viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+    let arguments = "flat --size 64x48 --samples 1";
+    let Some((_chromium, _viewer, mut tab)) = start(&Submission::reference(), arguments) else {
         return;
     };
     tab.eval("document.getElementById('stage').focus(); 0");
@@ -57,8 +57,8 @@ fn position_and_backward(state: &Value) -> [Vec3; 2] {
 
 #[test]
 fn keys_alone_move_the_camera_in_every_way() {
-    let arguments = ["flat", "--size", "16x12", "--samples", "1"];
-    let Some((_chromium, viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+    let arguments = "flat --size 16x12 --samples 1";
+    let Some((_chromium, viewer, mut tab)) = start(&Submission::reference(), arguments) else {
         return;
     };
     // The picture is reached with the Tab key.
@@ -126,13 +126,10 @@ fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
     };
     let submission = Submission::reference();
     submission.write("sphere.rs", &Submission::starter().read("sphere.rs"));
-    let viewer = Viewer::start(
-        &submission,
-        &["spheres", "--size", "32x24", "--samples", "1"],
-    );
+    let viewer = Viewer::start(&submission, "spheres --size 32x24 --samples 1");
     viewer.wait_for_picture();
     viewer.explain([16, 4], Some(0));
-    assert_eq!(viewer.send(&json!({ "view": "tests" })), 204);
+    viewer.command(&json!({ "view": "tests" }));
     let phone = Reader {
         width: 390,
         dark: false,
@@ -159,10 +156,9 @@ fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
     };
     let submission = Submission::reference();
     let correct = submission.read("camera.rs");
-    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
     let panic = "assert!(pixel.x != 3, \"column {} {}\", pixel.x, \"x\".repeat(999));";
-    submission.replace("camera.rs", signature, &format!("{signature} {panic}"));
-    let viewer = Viewer::start(&submission, &["flat", "--size", "20x10", "--samples", "1"]);
+    submission.insert_into_camera(panic);
+    let viewer = Viewer::start(&submission, "flat --size 20x10 --samples 1");
     viewer.wait_for_picture();
     let phone = Reader {
         width: 390,

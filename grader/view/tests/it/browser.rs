@@ -5,7 +5,6 @@ use glam::{UVec2, uvec2};
 use serde_json::json;
 
 use crate::expected_tests::Expected;
-use crate::explanations::TESTS_TWICE;
 use crate::harness::{Submission, Viewer};
 
 pub const IS_COMPLETE: &str = "document.body.dataset.complete === 'true'";
@@ -24,7 +23,7 @@ pub fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
 
 /// Starts a browser and the viewer, and waits until the picture is complete. Returns `None` if there is
 /// no browser.
-pub fn start(submission: &Submission, arguments: &[&str]) -> Option<(Chromium, Viewer, Tab)> {
+pub fn start(submission: &Submission, arguments: &str) -> Option<(Chromium, Viewer, Tab)> {
     let chromium = Chromium::start()?;
     let viewer = Viewer::start(submission, arguments);
     let mut tab = open(&viewer, &chromium, DESKTOP);
@@ -76,8 +75,8 @@ fn middle(tab: &mut Tab) -> (f64, f64) {
 #[test]
 fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     let submission = Submission::reference();
-    let arguments = ["checkered-teapot", "--size", "96x72", "--samples", "2"];
-    let Some((_chromium, viewer, mut tab)) = start(&submission, &arguments) else {
+    let arguments = "checkered-teapot --size 96x72 --samples 2";
+    let Some((_chromium, viewer, mut tab)) = start(&submission, arguments) else {
         return;
     };
     let own = viewer.wait_for_picture();
@@ -148,31 +147,44 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
 }
 
 #[test]
-fn a_primitive_that_is_tested_twice_is_noted_in_the_table() {
+fn a_primitive_that_is_tested_twice_is_noted() {
     let submission = Submission::reference();
-    submission.replace_traversal(TESTS_TWICE);
-    let arguments = ["flat", "--size", "16x16", "--samples", "1"];
-    let Some((_chromium, viewer, mut tab)) = start(&submission, &arguments) else {
+    submission.replace_traversal(
+        "    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let all = || self.primitives.iter().map(|primitive| primitive.hit(ray));
+        all().chain(all()).fold(None, Trace::nearer)
+    }
+",
+    );
+    let viewer = Viewer::start(&submission, "flat --size 16x16 --samples 1");
+    let explanation = viewer.explain([8, 8], None);
+    let ray = &explanation["rays"][0];
+    let rows = ray["rows"].as_array().unwrap();
+    assert!(rows.len() > 2 && rows.len().is_multiple_of(2), "{rows:?}");
+    let (first, second) = rows.split_at(rows.len() / 2);
+    assert!(first.iter().all(|row| row["again"] == false), "{first:?}");
+    assert!(second.iter().all(|row| row["again"] == true), "{second:?}");
+    let note = format!("{} tests repeat earlier ones", second.len());
+    let notes = ray["notes"].to_string();
+    assert!(notes.contains(&note), "{notes}");
+
+    let Some(chromium) = Chromium::start() else {
         return;
     };
-    explain(&mut tab, &viewer, uvec2(8, 8));
-    let rows = tab.eval(
-        "[...document.querySelectorAll('#explanation tbody tr')].map((row) => row.innerText)",
+    let mut tab = open(&viewer, &chromium, DESKTOP);
+    tab.wait_until(HAS_TABLE, TEXT);
+    let noted = tab.eval(
+        "[...document.querySelectorAll('#explanation tbody tr')]\
+         .map((row) => row.innerText.includes('(tested before)'))",
     );
-    let rows: Vec<String> = serde_json::from_value(rows).unwrap();
-    let (first, second) = rows.split_at(rows.len() / 2);
-    let is_noted = |row: &String| row.contains("(tested before)");
-    assert!(!first.iter().any(is_noted), "{first:?}");
-    assert!(
-        !second.is_empty() && second.iter().all(is_noted),
-        "{second:?}"
-    );
+    let again: Vec<bool> = rows.iter().map(|row| row["again"] == true).collect();
+    assert_eq!(noted, json!(again));
 }
 
 #[test]
 fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
-    let arguments = ["flat", "--size", "64x48", "--samples", "1"];
-    let Some((_chromium, viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+    let arguments = "flat --size 64x48 --samples 1";
+    let Some((_chromium, viewer, mut tab)) = start(&Submission::reference(), arguments) else {
         return;
     };
     tab.eval("document.getElementById('load-tree').click(); 0");
@@ -233,8 +245,8 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
 
 #[test]
 fn two_windows_show_the_same_camera_and_pixel() {
-    let arguments = ["flat", "--size", "32x24", "--samples", "1"];
-    let Some((chromium, viewer, mut first)) = start(&Submission::reference(), &arguments) else {
+    let arguments = "flat --size 32x24 --samples 1";
+    let Some((chromium, viewer, mut first)) = start(&Submission::reference(), arguments) else {
         return;
     };
     first.eval("document.querySelector('[data-side=top]').click(); 0");
@@ -263,10 +275,7 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
     let Some(chromium) = Chromium::start() else {
         return;
     };
-    let viewer = Viewer::start(
-        &Submission::reference(),
-        &["flat", "--size", "16x12", "--samples", "1"],
-    );
+    let viewer = Viewer::start(&Submission::reference(), "flat --size 16x12 --samples 1");
     let mut tabs: Vec<Tab> = (0..10).map(|_| open(&viewer, &chromium, DESKTOP)).collect();
     // A hidden tab waits until it is seen.
     for tab in &mut tabs {
@@ -274,7 +283,7 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
         tab.wait_until(IS_COMPLETE, TEXT);
         tab.wait_until("document.getElementById('pixels').width === 16", TEXT);
     }
-    assert_eq!(viewer.send(&json!({ "view": "depth" })), 204);
+    viewer.command(&json!({ "view": "depth" }));
     for tab in &mut tabs {
         tab.bring_to_front();
         tab.wait_until("document.querySelector('[value=depth]').checked", TEXT);
@@ -288,8 +297,8 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
 
 #[test]
 fn the_secret_leaves_the_address_and_stays_in_this_browser() {
-    let arguments = ["flat", "--size", "16x12", "--samples", "1"];
-    let Some((chromium, viewer, mut tab)) = start(&Submission::reference(), &arguments) else {
+    let arguments = "flat --size 16x12 --samples 1";
+    let Some((chromium, viewer, mut tab)) = start(&Submission::reference(), arguments) else {
         return;
     };
     let address = format!("http://127.0.0.1:{}/", viewer.port);

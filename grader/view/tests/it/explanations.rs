@@ -9,8 +9,8 @@ use crate::harness::{Submission, Viewer};
 #[test]
 fn the_tests_of_a_pixel_are_those_of_the_references_traversal() {
     let expected = Expected::of_scene("checkered-teapot", uvec2(48, 36));
-    let arguments = ["checkered-teapot", "--size", "48x36", "--samples", "1"];
-    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let arguments = "checkered-teapot --size 48x36 --samples 1";
+    let viewer = Viewer::start(&Submission::reference(), arguments);
     let mut hits = 0;
     for pixel in [
         uvec2(20, 18),
@@ -35,10 +35,7 @@ fn the_tests_of_a_pixel_are_those_of_the_references_traversal() {
 
 #[test]
 fn every_ray_of_a_path_is_listed() {
-    let viewer = Viewer::start(
-        &Submission::reference(),
-        &["--size", "32x32", "--samples", "1"],
-    );
+    let viewer = Viewer::start(&Submission::reference(), "--size 32x32 --samples 1");
     let explanation = viewer.explain([16, 8], Some(0));
     let rays = explanation["rays"].as_array().unwrap();
     let kinds: Vec<&str> = rays
@@ -54,8 +51,8 @@ fn every_ray_of_a_path_is_listed() {
 
 /// Returns the rules that are broken in some of the pixels of a scene.
 fn broken_rules(submission: &Submission) -> Vec<String> {
-    let arguments = ["gyroid", "--size", "24x24", "--samples", "1"];
-    let viewer = Viewer::start(submission, &arguments);
+    let arguments = "gyroid --size 24x24 --samples 1";
+    let viewer = Viewer::start(submission, arguments);
     let mut rules = Vec::new();
     let pixels = (0..36).map(|n| [2 + 4 * (n % 6), 2 + 4 * (n / 6)]);
     for pixel in pixels {
@@ -87,32 +84,8 @@ fn a_traversal_without_boxes_says_so() {
     let scan = "    pub fn hit(&self, ray: &Ray) -> Option<Trace> {\n        \
         self.primitives.iter().map(|primitive| primitive.hit(ray)).fold(None, Trace::nearer)\n    }\n";
     submission.replace_traversal(scan);
-    let viewer = Viewer::start(&submission, &["flat", "--size", "16x16", "--samples", "1"]);
+    let viewer = Viewer::start(&submission, "flat --size 16x16 --samples 1");
     let explanation = viewer.explain([8, 8], None);
     let note = explanation["rays"][0]["notes"][0].as_str().unwrap();
     assert!(note.contains("tested no box"), "{note}");
-}
-
-/// A traversal that calls `Primitive::hit` for the same primitives twice, and is otherwise correct.
-pub const TESTS_TWICE: &str = "    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        let all = || self.primitives.iter().map(|primitive| primitive.hit(ray));
-        all().chain(all()).fold(None, Trace::nearer)
-    }
-";
-
-#[test]
-fn a_primitive_that_is_tested_twice_is_noted() {
-    let submission = Submission::reference();
-    submission.replace_traversal(TESTS_TWICE);
-    let viewer = Viewer::start(&submission, &["flat", "--size", "16x16", "--samples", "1"]);
-    let explanation = viewer.explain([8, 8], None);
-    let ray = &explanation["rays"][0];
-    let rows = ray["rows"].as_array().unwrap();
-    assert!(rows.len() > 2 && rows.len().is_multiple_of(2), "{rows:?}");
-    let (first, second) = rows.split_at(rows.len() / 2);
-    assert!(first.iter().all(|row| row["again"] == false), "{first:?}");
-    assert!(second.iter().all(|row| row["again"] == true), "{second:?}");
-    let note = format!("{} tests repeat earlier ones", second.len());
-    let notes = ray["notes"].to_string();
-    assert!(notes.contains(&note), "{notes}");
 }

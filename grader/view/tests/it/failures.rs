@@ -31,7 +31,7 @@ fn panicked(viewer: &Viewer) -> usize {
 
 #[test]
 fn the_starter_lists_the_tasks_that_are_missing_with_their_lines() {
-    let viewer = Viewer::start(&Submission::starter(), &["spheres", "--size", "16x12"]);
+    let viewer = Viewer::start(&Submission::starter(), "spheres --size 16x12");
     let state = viewer.wait_for_picture();
     let notes = notes(&state);
     for (task, file) in [
@@ -51,10 +51,7 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     let starter = Submission::starter();
     submission.write("sphere.rs", &starter.read("sphere.rs"));
     submission.write("bvh.rs", &starter.read("bvh.rs"));
-    let viewer = Viewer::start(
-        &submission,
-        &["spheres", "--size", "32x24", "--samples", "1"],
-    );
+    let viewer = Viewer::start(&submission, "spheres --size 32x24 --samples 1");
     let state = viewer.wait_for_picture();
     let notes = notes(&state);
     assert!(notes.contains("spheres are left out"), "{notes}");
@@ -90,11 +87,8 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
 #[test]
 fn an_error_of_the_compiler_leaves_the_picture_until_it_is_fixed() {
     let submission = Submission::reference();
-    let viewer = Viewer::start(&submission, &["flat", "--size", "24x20", "--samples", "2"]);
-    assert_eq!(
-        viewer.send(&json!({ "move": { "orbit": [0.3, 0.1] } })),
-        204
-    );
+    let viewer = Viewer::start(&submission, "flat --size 24x20 --samples 2");
+    viewer.command(&json!({ "move": { "orbit": [0.3, 0.1] } }));
     viewer.wait_for_picture();
     viewer.explain([12, 10], None);
     let before = viewer.wait_for_picture();
@@ -123,10 +117,9 @@ fn an_error_of_the_compiler_leaves_the_picture_until_it_is_fixed() {
 #[test]
 fn a_panic_paints_its_pixels_and_names_its_place() {
     let submission = Submission::reference();
-    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
     let panic = "assert!(pixel.x != 3, \"column {}\", pixel.x);";
-    submission.replace("camera.rs", signature, &format!("{signature} {panic}"));
-    let viewer = Viewer::start(&submission, &["flat", "--size", "20x10", "--samples", "1"]);
+    submission.insert_into_camera(panic);
+    let viewer = Viewer::start(&submission, "flat --size 20x10 --samples 1");
     let state = viewer.wait_for_picture();
     assert_eq!(panicked(&viewer), 10);
     let note = &state["panics"][0];
@@ -147,10 +140,9 @@ fn a_panic_paints_its_pixels_and_names_its_place() {
 #[test]
 fn a_hang_ends_and_its_pixel_is_found() {
     let submission = Submission::reference();
-    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
     let hang = "while pixel == UVec2::new(5, 6) { std::hint::black_box(()); }";
-    submission.replace("camera.rs", signature, &format!("{signature} {hang}"));
-    let viewer = Viewer::start(&submission, &["flat", "--size", "16x12", "--samples", "1"]);
+    submission.insert_into_camera(hang);
+    let viewer = Viewer::start(&submission, "flat --size 16x12 --samples 1");
     let state = viewer.wait_for_picture();
     assert_eq!(panicked(&viewer), 1);
     let note = &state["panics"][0];
@@ -164,26 +156,6 @@ fn a_hang_ends_and_its_pixel_is_found() {
     );
 }
 
-#[test]
-fn a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
-    let submission = Submission::reference();
-    let correct = submission.read("bvh.rs");
-    submission.insert_into_build(
-        "if primitives.len() < usize::MAX { return Self::build(primitives, max_leaf_size); }",
-    );
-    let viewer = Viewer::start(&submission, &["flat", "--size", "8x8", "--samples", "1"]);
-    let state = viewer.wait_for(|state| state["has_stopped"] == true);
-    let notes = notes(&state);
-    // The recursion may have been compiled to a loop.
-    assert!(
-        notes.contains("stack overflowed") || notes.contains("stopped, because"),
-        "{notes}"
-    );
-    submission.write("bvh.rs", &correct);
-    let state = viewer.wait_for_picture();
-    assert_eq!(state["notes"], json!([]));
-}
-
 /// Makes `Bvh::build` endless.
 fn make_build_endless(submission: &Submission) {
     submission.insert_into_build("while max_leaf_size > 0 { std::hint::black_box(()); }");
@@ -193,12 +165,9 @@ fn make_build_endless(submission: &Submission) {
 fn an_endless_build_ends_at_its_limit_and_can_be_fixed() {
     let submission = Submission::reference();
     let correct = submission.read("bvh.rs");
-    let viewer = Viewer::start(&submission, &["flat", "--size", "24x20", "--samples", "1"]);
+    let viewer = Viewer::start(&submission, "flat --size 24x20 --samples 1");
     viewer.wait_for_picture();
-    assert_eq!(
-        viewer.send(&json!({ "move": { "orbit": [0.3, 0.1] } })),
-        204
-    );
+    viewer.command(&json!({ "move": { "orbit": [0.3, 0.1] } }));
     viewer.explain([12, 10], None);
     let before = viewer.wait_for_picture();
     let picture = viewer.picture();
@@ -227,25 +196,37 @@ fn an_endless_build_ends_at_its_limit_and_can_be_fixed() {
 }
 
 #[test]
-fn a_panic_while_building_names_its_line_and_the_page_survives() {
+fn a_panic_or_a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     let submission = Submission::reference();
     let correct = submission.read("bvh.rs");
-    submission.insert_into_build("assert!(primitives.is_empty(), \"not today\");");
-    let viewer = Viewer::start(&submission, &["flat", "--size", "8x8", "--samples", "1"]);
-    let state = viewer.wait_for(|state| state["notes"] != json!([]));
-    let notes = notes(&state);
     let mut lines = correct.lines();
     let line = lines
         .position(|line| line.contains("pub fn build("))
         .unwrap()
         + 1;
+    submission.insert_into_build("assert!(primitives.is_empty(), \"not today\");");
+    let viewer = Viewer::start(&submission, "flat --size 8x8 --samples 1");
+    let state = viewer.wait_for(|state| state["notes"] != json!([]));
+    let panic = notes(&state);
     assert!(
-        notes.contains("panicked: not today") && notes.contains(&format!("bvh.rs:{line}")),
-        "{notes}"
+        panic.contains("panicked: not today") && panic.contains(&format!("bvh.rs:{line}")),
+        "{panic}"
     );
     submission.write("bvh.rs", &correct);
-    let state = viewer.wait_for_picture();
-    assert_eq!(state["notes"], json!([]));
+    assert_eq!(viewer.wait_for_picture()["notes"], json!([]));
+
+    submission.insert_into_build(
+        "if primitives.len() < usize::MAX { return Self::build(primitives, max_leaf_size); }",
+    );
+    let state = viewer.wait_for(|state| state["has_stopped"] == true);
+    let overflow = notes(&state);
+    // The recursion may have been compiled to a loop.
+    assert!(
+        overflow.contains("stack overflowed") || overflow.contains("stopped, because"),
+        "{overflow}"
+    );
+    submission.write("bvh.rs", &correct);
+    assert_eq!(viewer.wait_for_picture()["notes"], json!([]));
 }
 
 /// Returns the processes that a process has started.
@@ -266,10 +247,9 @@ fn children(parent: u32) -> Vec<u32> {
 #[test]
 fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
     let submission = Submission::reference();
-    let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
     let hang = "while pixel.x < 9999 { std::hint::black_box(()); }";
-    submission.replace("camera.rs", signature, &format!("{signature} {hang}"));
-    let viewer = Viewer::start(&submission, &["flat", "--size", "16x12"]);
+    submission.insert_into_camera(hang);
+    let viewer = Viewer::start(&submission, "flat --size 16x12");
     viewer.wait_for(|state| state["build"] == "ready");
     let deadline = Instant::now() + Duration::from_secs(60);
     let mut programs = Vec::new();
@@ -293,7 +273,7 @@ fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
 fn a_save_ends_programs_that_hang_before_their_limit() {
     let submission = Submission::reference();
     make_build_endless(&submission);
-    let viewer = Viewer::start(&submission, &["flat", "--size", "8x8"]);
+    let viewer = Viewer::start(&submission, "flat --size 8x8");
     viewer.wait_for(|state| state["is_opening"] == true);
     submission.write("bvh.rs", "not Rust");
     viewer.wait_for(|state| state["build"] == "failed");

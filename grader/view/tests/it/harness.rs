@@ -87,6 +87,12 @@ impl Submission {
         self.replace("bvh.rs", signature, &format!("{signature} {statement}"));
     }
 
+    /// Inserts a statement at the beginning of `Camera::sample_ray`.
+    pub fn insert_into_camera(&self, statement: &str) {
+        let signature = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
+        self.replace("camera.rs", signature, &format!("{signature} {statement}"));
+    }
+
     /// Replaces text in a file, and panics if the file does not contain it.
     pub fn replace(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);
@@ -114,16 +120,16 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// Starts the viewer on a submission.
-    pub fn start(submission: &Submission, arguments: &[&str]) -> Self {
+    /// Starts the viewer on a submission, with arguments that are separated by spaces.
+    pub fn start(submission: &Submission, arguments: &str) -> Self {
         Viewer::try_start(submission, arguments).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Starts the viewer like [`Viewer::start`], or returns its error message.
-    pub fn try_start(submission: &Submission, arguments: &[&str]) -> Result<Self, String> {
+    pub fn try_start(submission: &Submission, arguments: &str) -> Result<Self, String> {
         let mut command = view();
         command.arg("--submission").arg(submission.path());
-        Viewer::run(command.args(arguments))
+        Viewer::run(command.args(arguments.split_whitespace()))
     }
 
     /// Starts the viewer at any port.
@@ -215,6 +221,12 @@ impl Viewer {
             .status
     }
 
+    /// Sends a command of the page that is accepted.
+    #[track_caller]
+    pub fn command(&self, command: &Value) {
+        assert_eq!(self.send(command), 204, "{command}");
+    }
+
     /// Waits for a state, following the news like the page.
     #[track_caller]
     pub fn wait_for(&self, is_expected: impl Fn(&Value) -> bool) -> Value {
@@ -255,7 +267,7 @@ impl Viewer {
     #[track_caller]
     pub fn explain(&self, pixel: [u32; 2], sample: Option<u32>) -> Value {
         let command = json!({ "pick": { "pixel": pixel, "sample": sample } });
-        assert_eq!(self.send(&command), 204);
+        self.command(&command);
         self.explanation()
     }
 

@@ -6,8 +6,7 @@ use serde_json::{Value, json};
 
 use crate::harness::{Submission, Viewer};
 
-const CAMERA: &str = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
-const ARGUMENTS: [&str; 5] = ["flat", "--size", "4x3", "--samples", "1"];
+const ARGUMENTS: &str = "flat --size 4x3 --samples 1";
 
 /// Wraps `Bvh::build`, so that `change` can change its result.
 fn change_tree(submission: &Submission, change: &str) {
@@ -31,8 +30,8 @@ fn first_note(state: &Value) -> &str {
 fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
     let submission = Submission::reference();
     change_tree(&submission, "bvh.nodes.resize(1_500_000, bvh.nodes[0]);");
-    let viewer = Viewer::start(&submission, &ARGUMENTS);
-    assert_eq!(viewer.send(&json!({ "view": "bvh" })), 204);
+    let viewer = Viewer::start(&submission, ARGUMENTS);
+    viewer.command(&json!({ "view": "bvh" }));
     let state = viewer.wait_for_picture();
     let note = first_note(&state);
     assert!(
@@ -40,10 +39,7 @@ fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
         "{note}"
     );
     assert_eq!(state["has_stopped"], false);
-    assert_eq!(
-        viewer.send(&json!({ "pick": { "pixel": [1, 1], "sample": null } })),
-        204
-    );
+    viewer.command(&json!({ "pick": { "pixel": [1, 1], "sample": null } }));
     let state = viewer.wait_for(|state| state["explanation_fault"].is_string());
     let why = state["explanation_fault"].as_str().unwrap();
     assert!(why.contains("it has 1500000 nodes"), "{why}");
@@ -68,8 +64,8 @@ fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
          std::hint::black_box(node.bbox.hit(ray, ray.range)); } }\n        \
          self.primitives[0].hit(ray)\n    }\n",
     );
-    let viewer = Viewer::start(&submission, &["gyroid", "--size", "4x3", "--samples", "1"]);
-    assert_eq!(viewer.send(&json!({ "view": "bvh" })), 204);
+    let viewer = Viewer::start(&submission, "gyroid --size 4x3 --samples 1");
+    viewer.command(&json!({ "view": "bvh" }));
     let started_at = Instant::now();
     let slowest = |path: &str| {
         let started_at = Instant::now();
@@ -100,8 +96,8 @@ fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
 fn a_long_panic_with_odd_characters_is_short_and_harmless_on_the_page() {
     let submission = Submission::reference();
     let panic = "panic!(\"\\u{202e}\\u{1b}[2J\\u{7}<b>\\\\{}\", \"é\".repeat(50 << 20));";
-    submission.replace("camera.rs", CAMERA, &format!("{CAMERA} {panic}"));
-    let viewer = Viewer::start(&submission, &ARGUMENTS);
+    submission.insert_into_camera(panic);
+    let viewer = Viewer::start(&submission, ARGUMENTS);
     let state = viewer.wait_for_picture();
     let message = state["panics"][0]["message"].as_str().unwrap();
     let start = "\\u{202e}\\u{1b}[2J\\u{7}<b>\\ééé";
@@ -143,7 +139,7 @@ mod pipe {
     fn responses_that_nothing_asked_for_are_refused_in_bounded_memory() {
         let submission = Submission::reference();
         let correct = submission.read("bvh.rs");
-        let viewer = Viewer::start(&submission, &ARGUMENTS);
+        let viewer = Viewer::start(&submission, ARGUMENTS);
         viewer.wait_for_picture();
         let before = peak_memory(&viewer);
         let header = "send(&LENGTH_u32.to_le_bytes()); send(&1u64.to_le_bytes());";

@@ -10,4 +10,3 @@ mod harness;
 mod hostile;
 mod pictures;
 mod questions;
-mod runner_commands;

@@ -28,43 +28,29 @@ fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Ve
 
 #[test]
 fn a_picture_is_that_of_the_render_command_pixel_for_pixel() {
-    let arguments = [
-        "spheres",
-        "--size",
-        "70x66",
-        "--samples",
-        "5",
-        "--seed",
-        "7",
-    ];
-    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let arguments = "spheres --size 70x66 --samples 5 --seed 7";
+    let viewer = Viewer::start(&Submission::reference(), arguments);
     viewer.wait_for_picture();
     let film = uvec2(70, 66);
     assert!(viewer.picture() == rendered("spheres.json", film, 5, 7, 0.0));
 
     // More samples are added to those that are there.
-    assert_eq!(viewer.send(&json!({ "samples": 9 })), 204);
-    assert_eq!(viewer.send(&json!({ "exposure": -1.5 })), 204);
+    viewer.command(&json!({ "samples": 9 }));
+    viewer.command(&json!({ "exposure": -1.5 }));
     viewer.wait_for(|state| state["is_picture_complete"] == true && state["complete_samples"] == 9);
     assert!(viewer.picture() == rendered("spheres.json", film, 9, 7, -1.5));
 }
 
 #[test]
 fn returning_to_the_scenes_camera_gives_the_same_picture() {
-    let viewer = Viewer::start(
-        &Submission::reference(),
-        &["flat", "--size", "40x30", "--samples", "2"],
-    );
+    let viewer = Viewer::start(&Submission::reference(), "flat --size 40x30 --samples 2");
     viewer.wait_for_picture();
     let before = viewer.picture();
-    assert_eq!(
-        viewer.send(&json!({ "move": { "orbit": [0.5, 0.2] } })),
-        204
-    );
+    viewer.command(&json!({ "move": { "orbit": [0.5, 0.2] } }));
     let state = viewer.wait_for_picture();
     assert_eq!(state["camera"]["is_own"], false);
     assert!(viewer.picture() != before);
-    assert_eq!(viewer.send(&json!("own_camera")), 204);
+    viewer.command(&json!("own_camera"));
     let state = viewer.wait_for_picture();
     assert_eq!(state["camera"]["is_own"], true);
     assert!(viewer.picture() == before);
@@ -72,11 +58,11 @@ fn returning_to_the_scenes_camera_gives_the_same_picture() {
 
 #[test]
 fn every_view_has_a_picture_of_its_own() {
-    let arguments = ["checkered-teapot", "--size", "64x48", "--samples", "1"];
-    let viewer = Viewer::start(&Submission::reference(), &arguments);
+    let arguments = "checkered-teapot --size 64x48 --samples 1";
+    let viewer = Viewer::start(&Submission::reference(), arguments);
     let mut pictures = Vec::new();
     for view in ["shaded", "clay", "normals", "depth", "uv", "bvh", "tests"] {
-        assert_eq!(viewer.send(&json!({ "view": view })), 204);
+        viewer.command(&json!({ "view": view }));
         viewer.wait_for(|state| state["view"] == view && state["is_picture_complete"] == true);
         let picture = viewer.picture();
         assert!(!pictures.contains(&picture), "{view}");
@@ -86,9 +72,9 @@ fn every_view_has_a_picture_of_its_own() {
 
 #[test]
 fn the_tree_is_that_of_the_submission() {
-    let viewer = Viewer::start(&Submission::reference(), &["flat", "--size", "8x8"]);
+    let viewer = Viewer::start(&Submission::reference(), "flat --size 8x8");
     assert_eq!(viewer.get("/tree").status, 404);
-    assert_eq!(viewer.send(&json!("tree")), 204);
+    viewer.command(&json!("tree"));
     let state = viewer.wait_for(|state| state["has_tree"] == true);
     let tree: serde_json::Value = serde_json::from_slice(&viewer.get("/tree").body).unwrap();
     let scene = Scene::load(&workspace().join("scenes/flat.json")).unwrap();

@@ -22,14 +22,6 @@ pub(super) fn bundle(root: &Path, args: &BundleArgs) -> CommandResult {
     write_bundle(root, &bundle, &secrets, args.out.as_deref(), args.check)
 }
 
-/// Collects a platform's package, writes it, and runs it as the platform does if asked to.
-pub(super) fn package(root: &Path, args: &PackageArgs) -> CommandResult {
-    let (exam, policy) = (args.exam.as_deref(), args.policy.as_deref());
-    let course = Course::new(HANDED_OUT, args.exam_seed, exam, policy)?;
-    let package = package::collect(root, HANDED_OUT, args.platform, course)?;
-    write_package(root, args.platform, &package, &args.out, args.check)
-}
-
 /// Writes the students' bundle. Fails if the bundle contains a secret.
 fn write_bundle(
     root: &Path,
@@ -54,15 +46,13 @@ fn write_bundle(
     Ok(())
 }
 
-/// Writes a platform's package, and runs it as the platform does if `check` is set. A template
+/// Collects a platform's package, writes it, and runs it as the platform does if asked to. A template
 /// repository is searched for secrets first.
-fn write_package(
-    root: &Path,
-    platform: Platform,
-    package: &Bundle,
-    out: &Path,
-    check: bool,
-) -> CommandResult {
+pub(super) fn package(root: &Path, args: &PackageArgs) -> CommandResult {
+    let (exam, policy) = (args.exam.as_deref(), args.policy.as_deref());
+    let course = Course::new(HANDED_OUT, args.exam_seed, exam, policy)?;
+    let (platform, out) = (args.platform, args.out.as_path());
+    let package = &package::collect(root, HANDED_OUT, platform, course)?;
     match platform {
         Platform::Gradescope => {
             let is_zip = out.extension().is_some_and(|extension| extension == "zip");
@@ -82,7 +72,7 @@ fn write_package(
             write_bundle(root, package, &secrets, Some(out), false)?;
         }
     }
-    if !check {
+    if !args.check {
         return Ok(());
     }
     let line = match platform {

@@ -3,7 +3,6 @@
 
 mod archives;
 mod book;
-mod hints;
 mod proofs;
 
 use std::io::{self, Write};
@@ -62,7 +61,7 @@ pub fn run(command: Command) -> CommandResult {
             generate(slice::from_ref(&coverage.table), check.mode(), "coverage")?;
             report(&coverage.problems, &coverage.summary_line())
         }
-        Command::Hints(args) => hints::hints(root, args),
+        Command::Hints(args) => proofs::hints(root, args),
         Command::Prove(args) => proofs::prove(args),
         Command::Calibrate(args) => proofs::calibrate(root, args),
     }

@@ -1,4 +1,4 @@
-//! `cargo author mistakes`, `mutants`, `prove` and `calibrate`.
+//! `cargo author mistakes`, `mutants`, `prove`, `calibrate` and `hints`.
 
 use std::path::Path;
 
@@ -8,12 +8,15 @@ use judging::exam::Exam;
 use super::{
     CommandResult, HANDED_OUT, PRACTICE, generate, record_result, report, solutions, written,
 };
-use crate::cli::{CalibrateArgs, MistakesArgs, ProveArgs, RecordArgs};
+use crate::cli::{CalibrateArgs, HintsArgs, MistakesArgs, ProveArgs, RecordArgs};
 use crate::exams;
 use crate::generated_file::Mode;
 use crate::proof::calibrate::{FEW_SEEDS, MANY_SEEDS, table};
 use crate::proof::failures::{SeedCounts, THINNEST};
 use crate::proof::mutants::{self, SAMPLE_STEP};
+use crate::proof::recognition::{
+    recognise, recognise_independent, recognise_pairs, recognise_unknown, recognise_with_seeds,
+};
 use crate::proof::{self, failures, matrix};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
@@ -112,4 +115,28 @@ pub(super) fn calibrate(root: &Path, args: CalibrateArgs) -> CommandResult {
         generate(&[table], Mode::Write, "calibrate")?;
     }
     report(&calibration.margins.problems(), &line)
+}
+
+/// Measures how mistakes are recognised, prints the result, and records it if asked to.
+pub(super) fn hints(root: &Path, args: HintsArgs) -> CommandResult {
+    let solutions = solutions()?;
+    let practice = exams::load_practice(root)?;
+    let seeds = args.seeds.as_ref().map(written);
+    let (run, recognition) = if let Some(seeds) = args.seeds {
+        ("hints", recognise_with_seeds(&solutions, seeds)?)
+    } else if args.independent {
+        let recognition = recognise_independent(&solutions, &practice)?;
+        ("hints --independent", recognition)
+    } else if args.unknown {
+        let recognition = recognise_unknown(&solutions, &practice)?;
+        ("hints --unknown", recognition)
+    } else if let Some(count) = args.pairs {
+        let recognition = recognise_pairs(&solutions, &practice, count)?;
+        ("hints --pairs", recognition)
+    } else {
+        ("hints, one exam", recognise(&solutions, &practice)?)
+    };
+    let exams = seeds.as_deref().unwrap_or(PRACTICE);
+    record_result(args.record, run, exams, &recognition.summary_line)?;
+    report(&recognition.problems, &recognition.to_string())
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
-use protocol::{Question, Ray, Shape};
+use protocol::{Question, Ray, Rays, Shape};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
@@ -168,16 +168,10 @@ fn start_at_box(bounds: &Bounds, ray: &Ray) -> Cell {
 
 /// Returns the rays of a question, except those of a camera.
 fn asked_rays(question: &Question) -> Vec<Ray> {
-    match question {
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => rays.to_vec(),
-        Question::BBox { queries, .. } => queries.iter().map(|(ray, _)| *ray).collect(),
-        Question::Camera { .. }
-        | Question::Build { .. }
-        | Question::Radiance { .. }
-        | Question::Done => Vec::new(),
+    if let Question::BBox { queries, .. } = question {
+        return queries.iter().map(|(ray, _)| *ray).collect();
     }
+    question.rays().map(Rays::to_vec).unwrap_or_default()
 }
 
 /// Returns how often a cell is asked. A cell that stands for several is asked as often as the one of

@@ -16,7 +16,7 @@ use judging::assignment::TaskInfo;
 use judging::exam::Exam;
 
 use crate::generated_file::GeneratedFile;
-use crate::solutions::toml_file::read_toml;
+use crate::solutions::read_toml;
 use cells::Counts;
 use list::{Listed, Sentence};
 
@@ -56,7 +56,7 @@ impl Coverage {
 /// Determines the coverage of the contract by an exam.
 pub fn coverage(root: &Path, handed_out: &HandedOut, exam: &Exam) -> Result<Coverage> {
     let folder = handed_out.solutions();
-    let listed: Listed = read_toml(&root.join(&folder).join(SENTENCES))?;
+    let listed: Listed = read_toml(&root.join(folder).join(SENTENCES))?;
     let text = format!(
         "# Coverage of the contract\n\n\
          Written by `cargo author coverage` for the {} exam. Each row is a sentence of the \

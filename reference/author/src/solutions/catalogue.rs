@@ -17,9 +17,9 @@ use judging::section::Section;
 use serde::Deserialize;
 
 use crate::solutions::Solutions;
+use crate::solutions::read_toml;
 use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::read_toml;
 
 /// A wrong solution, as it is written in a catalogue.
 #[derive(Clone, Debug, Default, Deserialize)]

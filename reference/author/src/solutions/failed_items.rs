@@ -10,7 +10,7 @@ use grader::handed_out::HandedOut;
 use serde::{Deserialize, Serialize};
 
 use crate::generated_file::GeneratedFile;
-use crate::solutions::toml_file::read_toml;
+use crate::solutions::read_toml;
 
 /// The path of the file, relative to the folder of an assignment's solutions.
 pub const FILE: &str = "mistakes/fails.toml";

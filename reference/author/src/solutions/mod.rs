@@ -12,11 +12,14 @@ pub mod mutants;
 pub mod recording;
 pub mod solution;
 pub mod sources;
-pub mod toml_file;
 pub mod variants;
 pub mod workbench;
 
-use anyhow::{Result, bail};
+use std::path::Path;
+
+use anyhow::{Result, anyhow, bail};
+use grader::files;
+use serde::de::DeserializeOwned;
 
 use crate::solutions::catalogue::{Mistake, mistakes};
 use crate::solutions::failed_items::FailedItems;
@@ -115,4 +118,10 @@ impl Solutions {
         }
         Ok(self)
     }
+}
+
+/// Reads a TOML file. If it is not TOML, or does not have the expected keys, the error says where.
+pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T> {
+    let text = files::read_to_string(path)?;
+    toml::from_str(&text).map_err(|error| anyhow!("{}: {error}", path.display()))
 }

@@ -8,9 +8,9 @@ use judging::assignment::{Assignment, Task};
 use projection::replacements;
 use serde::Deserialize;
 
+use crate::solutions::read_toml;
 use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
-use crate::solutions::toml_file::read_toml;
 
 /// The folder of the variants.
 const FOLDER: &str = "reference/variants";

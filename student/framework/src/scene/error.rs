@@ -67,37 +67,31 @@ impl TextPosition {
     }
 }
 
+/// Prints the message, and the line with a mark under the column. A line that is too long for a
+/// terminal is not printed.
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match &self.file {
             Some(file) => write!(f, "{}:", file.display())?,
             None => f.write_str("scene:")?,
         }
-        let Some(position) = &self.position else {
-            return write!(f, " {}", self.message);
+        let message = &self.message;
+        let Some(TextPosition { line, column, text }) = &self.position else {
+            return write!(f, " {message}");
         };
-        write!(f, "{}:", position.line)?;
-        if position.column > 0 {
-            write!(f, "{}:", position.column)?;
+        match column {
+            0 => write!(f, "{line}: {message}")?,
+            _ => write!(f, "{line}:{column}: {message}")?,
         }
-        write!(f, " {}{position}", self.message)
-    }
-}
-
-/// Prints the line with a mark under the column. A line that is too long for a terminal is not
-/// printed.
-impl fmt::Display for TextPosition {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let shown = self.text.trim_end();
-        if shown.is_empty() || shown.len() > 100 {
+        let text = text.trim_end().replace('\t', " ");
+        if text.is_empty() || text.len() > 100 {
             return Ok(());
         }
-        let (line, column) = (self.line, self.column);
-        write!(f, "\n{line:>5} | {}", shown.replace('\t', " "))?;
-        if column > 0 {
-            write!(f, "\n      | {:>column$}", '^')?;
+        write!(f, "\n{line:>5} | {text}")?;
+        match column {
+            0 => Ok(()),
+            _ => write!(f, "\n      | {:>column$}", '^'),
         }
-        Ok(())
     }
 }
 

@@ -1,44 +1,20 @@
 //! Tests of scene and mesh files. Error messages must begin with the name of the file to fix.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use protocol::Shape;
 
 use super::Scene;
+use crate::tests::Folder;
 
-/// A temporary folder that is removed at the end of the test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(test: &str) -> Self {
-        let name = format!("framework-{test}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        fs::create_dir_all(&folder).expect("the folder can be created");
-        Folder(folder)
-    }
-
-    fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.0.join(name);
-        fs::write(&path, contents).expect("the file can be written");
-        path
-    }
-
-    /// Returns the error message for a scene, without the name of the folder.
-    fn problem(&self, scene: &Path) -> String {
-        let error = Scene::load(scene).expect_err("the scene is invalid");
-        error.to_string().replace(
-            &format!("{}{}", self.0.display(), std::path::MAIN_SEPARATOR),
-            "",
-        )
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // If this fails, the system removes the temporary folder later.
-        let _ = fs::remove_dir_all(&self.0);
-    }
+/// Checks that the message about a scene begins with this text, after the name of the folder.
+fn check(scene: &Path, expected: &str) {
+    let error = Scene::load(scene).expect_err("the scene is invalid");
+    let folder = scene.parent().expect("the scene is in a folder");
+    let folder = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
+    let message = error.to_string().replace(&folder, "");
+    assert!(message.starts_with(expected), "{message}");
 }
 
 fn scene_with(mesh: &str) -> String {
@@ -57,7 +33,7 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 #[test]
 fn a_mesh_is_scaled_rotated_and_translated() {
-    let folder = Folder::new("transformed");
+    let folder = Folder::new();
     folder.write("a.obj", SQUARE);
     let keys = r#", "scale": 2, "rotate": [90, 0, 0], "translate": [5, 0, 0]"#;
     let scene = Scene::load(&folder.write("s.json", scene_with(keys)));
@@ -77,7 +53,7 @@ fn a_mesh_is_scaled_rotated_and_translated() {
 
 #[test]
 fn names_in_a_mesh_can_have_any_encoding() {
-    let folder = Folder::new("latin-1");
+    let folder = Folder::new();
     let mesh = [b"o Kugelfl\xe4che\n# \xfc\n", SQUARE.as_bytes()].concat();
     folder.write("a.obj", mesh);
     let scene = Scene::load(&folder.write("s.json", scene_with("")));
@@ -85,84 +61,51 @@ fn names_in_a_mesh_can_have_any_encoding() {
 }
 
 #[test]
-fn reports_a_missing_mesh_at_the_line_that_names_it() {
-    let folder = Folder::new("missing");
-    let message = folder.problem(&folder.write("s.json", scene_with("")));
-    assert!(
-        message.starts_with("s.json:5:25: mesh: a.obj: cannot read the file: "),
-        "{message}"
-    );
-}
-
-#[test]
-fn reports_a_bad_line_of_a_mesh_in_the_mesh_file() {
-    let folder = Folder::new("range");
+fn an_error_in_a_mesh_names_both_files() {
+    let folder = Folder::new();
+    let scene = folder.write("s.json", scene_with(""));
+    let missing = "s.json:5:25: mesh: a.obj: cannot read the file: ";
+    check(&scene, missing);
     folder.write("a.obj", SQUARE.replace("f 1 2 3 4", "f 1 2 9"));
-    let message = folder.problem(&folder.write("s.json", scene_with("")));
-    let expected = "mesh: a.obj:5: there is no position 9: the indices are 1 to 4\n    5 | f 1 2 9";
-    assert!(message.contains(expected), "{message}");
+    let line = "s.json:5:25: mesh: a.obj:5: there is no position 9: the indices are 1 to 4\n    \
+                5 | f 1 2 9";
+    check(&scene, line);
+    folder.write("a.obj", SQUARE);
+    let small = folder.write("small.json", scene_with(r#", "scale": 1e-30"#));
+    let no_area = "small.json:5:25: no triangle of the mesh has an area";
+    check(&small, no_area);
+    folder.write("a.obj", SQUARE.replace("v 1 1 0", "v 1e5 1 0"));
+    let large = folder.write("large.json", scene_with(r#", "scale": 1e6"#));
+    let beyond = "large.json:5:25: the mesh has a coordinate beyond 1e9";
+    check(&large, beyond);
 }
 
 #[test]
-fn reports_the_name_of_an_unreadable_file() {
-    let folder = Folder::new("binary");
-    let message = folder.problem(&folder.write("s.json", [b'{', 0xff, 0xfe]));
-    assert_eq!(
-        message,
-        "s.json: the file is not UTF-8 text (invalid byte at offset 1); is it the right file?"
-    );
-    let message = folder.problem(&folder.write("empty.json", ""));
-    let expected = "empty.json: the scene is empty";
-    assert!(message.starts_with(expected), "{message}");
-    let message = folder.problem(&folder.0.join("none.json"));
-    let expected = "none.json: cannot read the file: ";
-    assert!(message.starts_with(expected), "{message}");
+fn an_error_begins_with_the_name_of_the_file() {
+    let folder = Folder::new();
+    let not_utf8 = "s.json: the file is not UTF-8 text (invalid byte at offset 1); is it the right";
+    check(&folder.write("s.json", [b'{', 0xff, 0xfe]), not_utf8);
+    let empty = "empty.json: the scene is empty";
+    check(&folder.write("empty.json", ""), empty);
+    let unreadable = "none.json: cannot read the file: ";
+    check(&folder.0.join("none.json"), unreadable);
+    let mesh = "a.obj: this is a mesh, not a scene. A scene can show it, with this entry in its \
+                `shapes`: { \"mesh\": { \"file\": \"a.obj\"";
+    check(&folder.write("a.obj", SQUARE), mesh);
 }
 
 #[test]
 fn reads_files_with_a_byte_order_mark() {
-    let folder = Folder::new("marks");
+    let folder = Folder::new();
     folder.write("a.obj", format!("\u{feff}{SQUARE}"));
-    let text = scene_with("");
-    let little: Vec<u8> = format!("\u{feff}{text}")
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    let big: Vec<u8> = format!("\u{feff}{text}")
-        .encode_utf16()
-        .flat_map(u16::to_be_bytes)
-        .collect();
-    for bytes in [format!("\u{feff}{text}").into_bytes(), little, big] {
+    let marked = format!("\u{feff}{}", scene_with(""));
+    let units: Vec<u16> = marked.encode_utf16().collect();
+    let little = units.iter().copied().flat_map(u16::to_le_bytes).collect();
+    let big = units.iter().copied().flat_map(u16::to_be_bytes).collect();
+    for bytes in [marked.into_bytes(), little, big] {
         let scene = Scene::load(&folder.write("s.json", bytes)).expect("the scene is valid");
         assert_eq!(scene.shapes.len(), 2);
     }
-}
-
-#[test]
-fn a_mesh_is_not_a_scene() {
-    let folder = Folder::new("mesh-as-scene");
-    let message = folder.problem(&folder.write("a.obj", SQUARE));
-    assert!(
-        message.starts_with("a.obj: this is a mesh, not a scene") && message.contains("\"a.obj\""),
-        "{message}"
-    );
-}
-
-#[test]
-fn rejects_a_mesh_that_no_ray_can_hit() {
-    let folder = Folder::new("no-area");
-    folder.write("a.obj", SQUARE);
-    let message = folder.problem(&folder.write("s.json", scene_with(r#", "scale": 1e-30"#)));
-    assert!(
-        message.starts_with("s.json:5:25: no triangle of the mesh has an area"),
-        "{message}"
-    );
-    folder.write("a.obj", SQUARE.replace('1', "1e5").replace("f 1e5", "f 1"));
-    let message = folder.problem(&folder.write("s.json", scene_with(r#", "scale": 1e6"#)));
-    assert!(
-        message.starts_with("s.json:5:25: the mesh has a coordinate beyond 1e9"),
-        "{message}"
-    );
 }
 
 #[test]

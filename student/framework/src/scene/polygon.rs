@@ -61,7 +61,12 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     if fan(&points).all(|cross| cross.length() <= smallest) {
         return Err("`points` are on a line, so the polygon has no area".to_owned());
     }
-    let normal = fan(&points).sum::<DVec3>().normalize_or_zero();
+    let crosses = "the outline of `points` crosses itself: list the corners in order, all around";
+    let sum: DVec3 = fan(&points).sum();
+    if sum.length() <= smallest {
+        return Err(crosses.to_owned());
+    }
+    let normal = sum.normalize();
     let off_plane = |p: &DVec3| (*p - points[0]).dot(normal).abs() > FLATNESS_TOLERANCE * size;
     if let Some(index) = points.iter().position(off_plane) {
         return Err(format!(
@@ -69,8 +74,7 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
             index + 1
         ));
     }
-    let triangles = triangulate(&points)
-        .ok_or("the outline of `points` crosses itself: list the corners in order, all around")?;
+    let triangles = triangulate(&points).ok_or(crosses)?;
     Ok((normal.as_vec3(), triangles))
 }
 

@@ -6,7 +6,7 @@ use super::sanitized;
 use super::submissions::report_link;
 use crate::plural::count;
 use crate::regrade_diff::{Changes, Drift};
-use crate::report::text::with_changed_points;
+use crate::report::text::{points_now, points_of_item, with_changed_points};
 
 /// Renders the differences from earlier runs, if there are any.
 pub(super) fn sections(changes: &Changes) -> Markup {
@@ -52,11 +52,11 @@ fn drifts(drifts: &[&Drift]) -> Markup {
             @for drift in drifts {
                 li {
                     a href=(report_link(&drift.id)) { (sanitized(&drift.id)) }
-                    ": " strong { (drift.was) " → " (drift.now_text()) }
+                    ": " strong { (drift.was) " → " (points_now(drift)) }
                     @if !drift.items.is_empty() { details {
                         summary { (count(drift.items.len(), "item")) }
                         ul { @for item in &drift.items {
-                            @let [was, now] = item.point_texts();
+                            @let [was, now] = points_of_item(item);
                             li {
                                 code { (sanitized(&item.item)) } " "
                                 (was) " → " (now) ": "

@@ -139,17 +139,10 @@ impl TestClass {
     }
 
     pub fn preview_of(&self, input: &Path, more: &[&str]) -> String {
-        let output = class_command()
-            .arg(input)
-            .arg("--dry-run")
-            .args(more)
-            .output()
-            .unwrap();
-        successful_stdout(&output);
-        String::from_utf8(output.stdout)
-            .unwrap()
-            .trim_matches('\n')
-            .to_owned()
+        let mut command = class_command();
+        command.arg(input).arg("--dry-run").args(more);
+        let preview = successful_stdout(&command.output().unwrap());
+        preview.trim_matches('\n').to_owned()
     }
 
     /// Writes lists beside the class. Returns the options that pass them.

@@ -48,12 +48,8 @@ fn each_completion_grades_one_shard_with_limits() {
     let shards = &container["env"][0];
     assert_eq!(shards["name"], "SHARDS");
     assert_eq!(shards["value"], spec["completions"].to_string());
-    let command: Vec<&str> = container["command"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|word| word.as_str().unwrap())
-        .collect();
+    let command = container["command"].as_array().unwrap().iter();
+    let command: Vec<&str> = command.map(|word| word.as_str().unwrap()).collect();
     let command = command.join(" ");
     assert!(command.contains("--shard \"$((JOB_COMPLETION_INDEX + 1))/$SHARDS\""));
     assert_exam_and_policy(&command);

@@ -139,10 +139,8 @@ fn a_killed_part_is_graded_again_and_the_results_equal_one_run() {
     assert!(!shown.contains("Deadline=N/A"), "{shown}");
     let shown = cluster.describe(&merge);
     println!("{shown}");
-    assert_contains(
-        &shown,
-        &["KillOInInvalidDependent=Yes", "TimeLimit=00:10:00"],
-    );
+    let expected = ["KillOInInvalidDependent=Yes", "TimeLimit=00:10:00"];
+    assert_contains(&shown, &expected);
 
     let logs = merge_logs(&retried);
     println!("logs of the merges: {logs:#?}");

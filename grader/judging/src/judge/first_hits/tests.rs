@@ -1,6 +1,7 @@
 use glam::{Vec2, Vec3};
 
 use super::*;
+use crate::tests::HIT;
 
 fn judge(
     hits: &[Option<Surface>],
@@ -41,11 +42,9 @@ const WALL: Surface = Surface {
 fn answer_of(surface: Surface) -> ElementOutcome<Option<Trace>> {
     ElementOutcome::Value(Some(Trace {
         distance: surface.depth,
-        position: Vec3::ZERO,
         normal: surface.normal,
         uv: surface.uv,
-        origin: Vec3::ZERO,
-        material: 0,
+        ..HIT
     }))
 }
 
@@ -55,14 +54,8 @@ fn key() -> Vec<Option<Surface>> {
 }
 
 fn answers(at_wall: ElementOutcome<Option<Trace>>) -> Vec<ElementOutcome<Option<Trace>>> {
-    let answer = |i| {
-        if i < 50 {
-            at_wall.clone()
-        } else {
-            ElementOutcome::Value(None)
-        }
-    };
-    (0..100).map(answer).collect()
+    let elsewhere = vec![ElementOutcome::Value(None); 50];
+    [vec![at_wall; 50], elsewhere].concat()
 }
 
 #[test]
@@ -164,10 +157,6 @@ fn nan_depth_is_wrong() {
         depth: f32::NAN,
         ..WALL
     };
-    assert_eq!(
-        judge(&key(), &[], &answers(answer_of(nan)))
-            .credit
-            .apply(100),
-        40
-    );
+    let judgement = judge(&key(), &[], &answers(answer_of(nan)));
+    assert_eq!(judgement.credit.apply(100), 40);
 }

@@ -13,6 +13,7 @@ use super::defect::TreeDefect;
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
 /// A node that can be reached from the root.
+#[derive(Debug)]
 pub struct ReachedNode<'a> {
     /// Index of the node in the tree's nodes.
     pub index: u32,

@@ -56,11 +56,10 @@ fn a_mistake_that_explains_nearly_all_answers_is_named() {
 /// that are wrong and that no mistake changes.
 fn is_named(items: &[(usize, usize)], rivals: &[usize], others: usize) -> bool {
     let text = |changed: usize, of_item: &dyn Fn(usize, usize) -> String, other: &str| {
-        let own = items.iter().enumerate();
-        let own = own.map(|(index, &(size, differing))| match index < changed {
-            true => of_item(size, differing),
-            false => String::new(),
-        });
+        let changed_items = items[..changed.min(items.len())].iter();
+        let unchanged = vec![String::new(); items.len().saturating_sub(changed)];
+        let own = changed_items.map(|&(size, differing)| of_item(size, differing));
+        let own = own.chain(unchanged);
         let all: Vec<String> = own.chain(vec![other.to_owned(); others]).collect();
         all.join("|")
     };

@@ -33,6 +33,18 @@ pub struct FollowedRay {
     pub counts: TestCounts,
 }
 
+impl FollowedRay {
+    /// Returns a ray without tests.
+    pub(crate) fn new(ray: Ray) -> Self {
+        FollowedRay {
+            ray,
+            hit: None,
+            tests: Vec::new(),
+            counts: TestCounts::default(),
+        }
+    }
+}
+
 /// A call of `BBox::hit` or `Primitive::hit`, with its result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Test {

@@ -21,31 +21,35 @@ fn tree() -> TreeModel {
     })
 }
 
-fn box_test(node: usize) -> Test {
-    let node = tree().tree.nodes[node];
-    Test::Box {
-        min: node.min,
-        max: node.max,
-        times: Interval::AHEAD,
-        inside: None,
-        address: 0,
+/// Returns a test: `b2` of the box of node 2, `p1` of primitive 1, which is missed, `p1:3.5` of one
+/// that is hit at 3.5.
+fn test(text: &str) -> Test {
+    let (kind, rest) = text.split_at(1);
+    let (number, distance) = rest.split_once(':').unwrap_or((rest, ""));
+    let number: u32 = number.parse().unwrap();
+    if kind == "b" {
+        let node = tree().tree.nodes[number as usize];
+        return Test::Box {
+            min: node.min,
+            max: node.max,
+            times: Interval::AHEAD,
+            inside: None,
+            address: 0,
+        };
     }
-}
-
-fn primitive(shape: u32, distance: Option<f32>) -> Test {
     Test::Primitive {
-        shape,
+        shape: number,
         range: Interval::AHEAD,
-        distance,
+        distance: distance.parse().ok(),
     }
 }
 
 /// Returns the rules that these tests of a ray along x break, with the nodes.
-fn broken(tests: &[Test]) -> Vec<(Rule, u32)> {
+fn broken(tests: &str) -> Vec<(Rule, u32)> {
     let ray = FollowedRay {
         ray: Ray::new(vec3(-1.0, 0.5, 0.5), Vec3::X),
         hit: None,
-        tests: tests.to_vec(),
+        tests: tests.split(' ').map(test).collect(),
         counts: TestCounts::default(),
     };
     let span = |min, max| Some(Interval::new(min, max));
@@ -73,42 +77,18 @@ fn broken(tests: &[Test]) -> Vec<(Rule, u32)> {
 
 #[test]
 fn a_correct_traversal_breaks_no_rule() {
-    let all = [
-        box_test(1),
-        box_test(4),
-        primitive(0, None),
-        box_test(2),
-        box_test(3),
-        primitive(1, Some(3.5)),
-    ];
-    assert_eq!(broken(&all), []);
-    let pruned = [box_test(1), box_test(4), primitive(0, Some(1.5))];
-    assert_eq!(broken(&pruned), []);
+    assert_eq!(broken("b1 b4 p0 b2 b3 p1:3.5"), []);
+    assert_eq!(broken("b1 b4 p0:1.5"), [], "pruned");
+    assert_eq!(broken("p0:-5.0 b2 p1"), [], "a hit outside of the range");
 }
 
 #[test]
 fn each_rule_is_found_when_it_is_broken() {
-    let missed = [
-        box_test(1),
-        box_test(4),
-        primitive(0, None),
-        box_test(2),
-        primitive(2, None),
-    ];
-    assert_eq!(broken(&missed), [(Rule::MissedBox, 3)]);
-    let beyond = [primitive(0, Some(1.5)), box_test(2), primitive(1, None)];
-    assert_eq!(
-        broken(&beyond),
-        [(Rule::BeyondClosestHit, 4), (Rule::BeyondClosestHit, 2)]
-    );
-    let farther = [
-        box_test(1),
-        box_test(4),
-        box_test(2),
-        primitive(1, None),
-        primitive(0, None),
-    ];
-    assert_eq!(broken(&farther), [(Rule::FartherChildFirst, 4)]);
+    assert_eq!(broken("b1 b4 p0 b2 p2"), [(Rule::MissedBox, 3)]);
+    let beyond = Rule::BeyondClosestHit;
+    assert_eq!(broken("p0:1.5 b2 p1"), [(beyond, 4), (beyond, 2)]);
+    let farther = [(Rule::FartherChildFirst, 4)];
+    assert_eq!(broken("b1 b4 b2 p1 p0"), farther);
 }
 
 #[test]
@@ -139,10 +119,4 @@ fn addresses_tell_nodes_with_equal_boxes_apart() {
     let copied = [test(1.0, 500), test(0.5, 500), test(2.0, 500)];
     assert_eq!(NodeAddresses::find(copied.iter(), &tree), None);
     assert_eq!(NodeAddresses::find(tests[..1].iter(), &tree), None);
-}
-
-#[test]
-fn a_hit_outside_the_rays_range_is_not_the_closest() {
-    let behind = [primitive(0, Some(-5.0)), box_test(2), primitive(1, None)];
-    assert_eq!(broken(&behind), []);
 }

@@ -5,11 +5,13 @@ use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
 use super::{
-    almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box, ray_from_around,
+    almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box,
+    random_box_question, ray_from_around,
 };
 use crate::items::place::{Place, dust};
 use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
+use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
 pub(super) const THROUGH: Declaration = Declaration {
@@ -51,20 +53,17 @@ pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
 };
 
 fn slab_after_slab(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut question = || {
-        let bounds = random_box(rng);
-        // Hits, and misses that cross all three slabs, but never at the same time.
-        let queries = hits_and_misses(rng, &bounds, |rng| {
-            let ray = rng.retry(|rng| {
-                let ray = ray_from_around(rng, &bounds);
-                let ray64 = Ray64::from(&ray);
-                let crosses = |axis: usize| bounds.slab(axis).span(&ray64).is_some();
-                (0..3).all(crosses).then_some(ray)
-            });
-            (ray, Interval::AHEAD)
+    // Hits, and misses that cross all three slabs, but never at the same time.
+    let query = |rng: &mut Rng, bounds: &Bounds| {
+        let ray = rng.retry(|rng| {
+            let ray = ray_from_around(rng, bounds);
+            let ray64 = Ray64::from(&ray);
+            let crosses = |axis: usize| bounds.slab(axis).span(&ray64).is_some();
+            (0..3).all(crosses).then_some(ray)
         });
-        bbox_question(bounds, queries)
+        (ray, Interval::AHEAD)
     };
+    let mut question = || random_box_question(rng, query);
     vec![question(), dust(question())]
 }
 
@@ -110,9 +109,8 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
 };
 
 fn axis_parallel(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let bounds = random_box(rng);
     let zero = |rng: &mut Rng| if rng.coin() { 0.0 } else { -0.0 };
-    let queries = hits_and_misses(rng, &bounds, |rng| {
+    let question = random_box_question(rng, |rng, bounds| {
         let target = bounds.center() + rng.point(0.9) * (bounds.max - bounds.min);
         let axis = rng.index(3);
         // The direction is parallel to an axis, or perpendicular to one.
@@ -124,10 +122,7 @@ fn axis_parallel(rng: &mut Rng) -> Vec<ExamQuestion> {
         let ray = Ray::new((target - 7.0 * dir.as_dvec3().normalize()).as_vec3(), dir);
         (ray, Interval::AHEAD)
     });
-    vec![
-        bbox_question(bounds, queries),
-        almost_parallel::question(rng),
-    ]
+    vec![question, almost_parallel::question(rng)]
 }
 
 pub(super) const FLAT: Declaration = Declaration {

@@ -106,6 +106,16 @@ fn hits_and_misses(
     queries
 }
 
+/// Creates a question about a random box, with queries that hit it and as many that miss it.
+fn random_box_question(
+    rng: &mut Rng,
+    mut query: impl FnMut(&mut Rng, &Bounds) -> Query,
+) -> ExamQuestion {
+    let bounds = random_box(rng);
+    let queries = hits_and_misses(rng, &bounds, |rng| query(rng, &bounds));
+    bbox_question(bounds, queries)
+}
+
 /// Returns a ray from a point outside the box toward a point in or near the box.
 fn ray_from_around(rng: &mut Rng, bounds: &Bounds) -> Ray {
     let target = bounds.center() + rng.point(1.0) * (bounds.max - bounds.min);

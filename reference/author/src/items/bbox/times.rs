@@ -4,7 +4,7 @@ use glam::DVec3;
 use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
-use super::{Query, bbox_question, hits_and_misses, random_box, ray_from_around};
+use super::{Query, random_box_question, ray_from_around};
 use crate::items::place::dust;
 use crate::items::{Declaration, Group, ray};
 use crate::oracle::Ray64;
@@ -28,18 +28,17 @@ pub(super) const BEHIND: Declaration = Declaration {
 };
 
 fn behind(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let bounds = random_box(rng);
-    let queries = hits_and_misses(rng, &bounds, |rng| {
+    let question = random_box_question(rng, |rng, bounds| {
         let ray = if rng.coin() {
-            ray_from_around(rng, &bounds)
+            ray_from_around(rng, bounds)
         } else {
-            let inside = random_point_in(rng, &bounds);
-            let origin = ray_from_around(rng, &bounds).origin.as_dvec3();
+            let inside = random_point_in(rng, bounds);
+            let origin = ray_from_around(rng, bounds).origin.as_dvec3();
             ray(origin, origin + (origin - inside))
         };
         (ray, Interval::AHEAD)
     });
-    vec![bbox_question(bounds, queries)]
+    vec![question]
 }
 
 pub(super) const FROM_INSIDE: Declaration = Declaration {
@@ -54,10 +53,9 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 };
 
 fn from_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let bounds = random_box(rng);
-    let queries = hits_and_misses(rng, &bounds, |rng| {
+    let question = random_box_question(rng, |rng, bounds| {
         let origin = if rng.coin() {
-            random_point_in(rng, &bounds)
+            random_point_in(rng, bounds)
         } else {
             bounds.center() + rng.direction() * 6.0
         };
@@ -65,7 +63,7 @@ fn from_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
         let ray = Ray::new(origin.as_vec3(), rng.direction().as_vec3());
         (ray, Interval::new(min, f32::INFINITY))
     });
-    vec![bbox_question(bounds, queries)]
+    vec![question]
 }
 
 fn random_query(rng: &mut Rng, bounds: &Bounds) -> Query {
@@ -102,21 +100,19 @@ pub(super) const CLIPPED: Declaration = Declaration {
 
 fn clipped(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut question = || {
-        let bounds = random_box(rng);
         // Hits begin inside the box, end inside it, do both, and do neither, in turn.
         let mut count = 0;
-        let queries = hits_and_misses(rng, &bounds, |rng| {
+        random_box_question(rng, |rng, bounds| {
             rng.retry(|rng| {
-                let query = random_query(rng, &bounds);
-                let Some(inside) = ends_inside(&bounds, &query) else {
+                let query = random_query(rng, bounds);
+                let Some(inside) = ends_inside(bounds, &query) else {
                     return Some(query);
                 };
                 let is_in_turn = inside == (count % 2 == 0, count / 2 % 2 == 0);
                 count += usize::from(is_in_turn);
                 is_in_turn.then_some(query)
             })
-        });
-        bbox_question(bounds, queries)
+        })
     };
     vec![question(), dust(question())]
 }
@@ -133,9 +129,8 @@ pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
 };
 
 fn wholly_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let bounds = random_box(rng);
-    let queries = hits_and_misses(rng, &bounds, |rng| {
-        let ray = ray_from_around(rng, &bounds);
+    let question = random_box_question(rng, |rng, bounds| {
+        let ray = ray_from_around(rng, bounds);
         rng.retry(|rng| {
             let (min, size) = (rng.uniform(0.0, 12.0), rng.uniform(0.1, 0.6));
             let times = Interval::new(min as f32, (min + size) as f32);
@@ -150,7 +145,7 @@ fn wholly_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
             ((inside(times.min) && inside(times.max)) || misses).then_some((ray, times))
         })
     });
-    vec![bbox_question(bounds, queries)]
+    vec![question]
 }
 
 pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
@@ -164,9 +159,8 @@ pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
 };
 
 fn times_not_range(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let bounds = random_box(rng);
-    let queries = hits_and_misses(rng, &bounds, |rng| {
-        let ray = ray_from_around(rng, &bounds);
+    let question = random_box_question(rng, |rng, bounds| {
+        let ray = ray_from_around(rng, bounds);
         // One interval gives a hit and the other a miss; one becomes `times`, the other the range.
         let (short, long) = (Interval::new(0.0, 1.0), Interval::new(0.0, 30.0));
         let (range, times) = if rng.coin() {
@@ -176,5 +170,5 @@ fn times_not_range(rng: &mut Rng) -> Vec<ExamQuestion> {
         };
         (ray.within(range.min, range.max), times)
     });
-    vec![bbox_question(bounds, queries)]
+    vec![question]
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use serde::Deserialize;
 
-use crate::solutions::toml_file::read_toml;
+use crate::solutions::read_toml;
 
 /// The path of the list, relative to the workspace's root.
 pub const PATH: &str = "reference/mutants/equivalent.toml";

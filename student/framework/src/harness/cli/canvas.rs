@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use glam::{UVec2, Vec3};
 
-use super::error::RenderError;
 use super::image_file;
 use crate::render::film::{Film, Tone};
 
@@ -126,11 +125,6 @@ pub(super) fn passes(samples: u32) -> impl Iterator<Item = std::ops::Range<u32>>
     let next = move |start: &u32| Some((2 * start).max(1).min(samples)).filter(|end| end > start);
     let starts = std::iter::successors(Some(0), next);
     starts.filter_map(move |start| Some(start..next(&start)?))
-}
-
-/// Has Ctrl-C handled by `handle`.
-pub(super) fn on_ctrl_c(handle: impl FnMut() + Send + 'static) -> Result<(), RenderError> {
-    ctrlc::set_handler(handle).map_err(RenderError::threads)
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ use glam::{UVec2, Vec2};
 use protocol::{Trace, Tree};
 
 use crate::harness::attempt::{attempt, keep_panics_quiet};
-use crate::harness::cli::canvas::{Canvas, Event, on_ctrl_c};
+use crate::harness::cli::canvas::{Canvas, Event};
 use crate::harness::cli::error::RenderError;
 use crate::harness::cli::options::Options;
 use crate::harness::cli::parallel::{RenderPool, value_or_error};
@@ -85,13 +85,14 @@ impl Events {
 
     fn keep_picture_on_ctrl_c(&self) -> Result<(), RenderError> {
         let (sender, has_picture) = (self.sender.clone(), Arc::clone(&self.has_picture));
-        on_ctrl_c(move || {
+        ctrlc::set_handler(move || {
             // Only the first time, so that pressing it again ends the process in any case.
             let is_kept = has_picture.swap(false, Ordering::Relaxed);
             if !is_kept || sender.send(Event::Interrupted).is_err() {
                 std::process::exit(canvas::INTERRUPTED);
             }
         })
+        .map_err(RenderError::threads)
     }
 }
 

@@ -1,17 +1,17 @@
 //! Tests of the whole command, from its arguments to the written file.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Parser;
-use glam::{UVec2, Vec2, Vec3};
-use protocol::{Interval, PinholeCamera, Ray, Shape, TreeNode};
+use glam::Vec3;
+use protocol::Ray;
 
 use super::options::Options;
 use super::{Events, run};
 use crate::harness::attempt::keep_panics_quiet;
-use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
-use crate::tests::CORRECT;
+use crate::submission::Submission;
+use crate::tests::{CORRECT, Folder, SphereSubmission};
 
 const SCENE: &str = r#"{
   "camera": { "vertical_fov": 90, "film": [12, 8], "position": [0, 0, 0], "look_at": [0, 0, -1], "up": [0, 1, 0] },
@@ -28,53 +28,37 @@ const SCENE: &str = r#"{
   ]
 }"#;
 
-/// Creates a temporary folder with a scene in it.
-fn folder(test: &str) -> PathBuf {
-    let name = format!("framework-cli-{test}-{}", std::process::id());
-    let folder = std::env::temp_dir().join(name);
-    fs::create_dir_all(&folder).expect("the folder can be created");
-    fs::write(folder.join("spheres.json"), SCENE).expect("the scene can be written");
-    folder
-}
-
 /// Runs the command with the output file `out` and more arguments. Returns the bytes of the file,
 /// or the error message.
-fn render(
-    submission: &dyn Submission,
-    test: &str,
-    out: &str,
-    more: &str,
-) -> Result<Vec<u8>, String> {
-    let folder = folder(test);
-    let path = |name: &str| folder.join(name).display().to_string();
-    let mut arguments = vec!["render".to_owned(), path("spheres.json"), path(out)];
-    arguments.extend(more.split_whitespace().map(str::to_owned));
-    let options = Options::try_parse_from(arguments).map_err(|error| error.to_string())?;
-    let result = run(submission, &options, &Events::new()).map_err(|error| error.to_string());
-    let bytes = result.and_then(|()| fs::read(path(out)).map_err(|error| error.to_string()));
-    // If this fails, the system removes the temporary folder later.
-    let _ = fs::remove_dir_all(&folder);
-    bytes
+fn render(submission: &dyn Submission, out: &str, more: &str) -> Result<Vec<u8>, String> {
+    let folder = Folder::new();
+    let scene = folder.write("spheres.json", SCENE).display().to_string();
+    let out = folder.0.join(out).display().to_string();
+    let arguments = ["render", &scene, &out].into_iter();
+    let options = Options::try_parse_from(arguments.chain(more.split_whitespace()));
+    let options = options.map_err(|error| error.to_string())?;
+    run(submission, &options, &Events::new()).map_err(|error| error.to_string())?;
+    fs::read(out).map_err(|error| error.to_string())
+}
+
+/// Runs the command with a correct submission.
+fn picture(out: &str, more: &str) -> Vec<u8> {
+    render(&CORRECT, out, more).expect("rendering succeeds")
 }
 
 #[test]
 fn any_number_of_threads_writes_the_same_bytes() {
     for out in ["a.png", "a.exr"] {
-        let one =
-            render(&CORRECT, "one", out, "--samples 3 --threads 1").expect("rendering succeeds");
-        let three =
-            render(&CORRECT, "three", out, "--samples 3 --threads 3").expect("rendering succeeds");
-        assert!(one == three, "{out}");
-        let seed =
-            render(&CORRECT, "seed", out, "--samples 3 --seed 1").expect("rendering succeeds");
-        assert!(one != seed, "{out}: the seed makes no difference");
+        let one = picture(out, "--samples 3 --threads 1");
+        assert!(one == picture(out, "--samples 3 --threads 3"), "{out}");
+        let other = picture(out, "--samples 3 --seed 1");
+        assert!(one != other, "{out}: the seed makes no difference");
     }
 }
 
 #[test]
 fn the_upper_rows_of_the_picture_come_first_in_the_file() {
-    let bytes =
-        render(&CORRECT, "top", "a.png", "--size 3x3 --bounces 0").expect("rendering succeeds");
+    let bytes = picture("a.png", "--size 3x3 --bounces 0");
     let picture = image::load_from_memory(&bytes).expect("the file is a PNG");
     let picture = picture.to_rgb8();
     // The light fills most of the upper pixel, and the lower pixel shows only the environment.
@@ -85,22 +69,13 @@ fn the_upper_rows_of_the_picture_come_first_in_the_file() {
 #[test]
 fn every_view_can_be_rendered() {
     for view in ["shaded", "normals", "depth", "uv", "bvh"] {
-        let test = format!("view-{view}");
-        let result = render(
-            &CORRECT,
-            &test,
-            "a.png",
-            &format!("--samples 1 --view {view}"),
-        );
-        assert!(result.is_ok(), "{view}: {result:?}");
+        picture("a.png", &format!("--samples 1 --view {view}"));
     }
 }
 
 #[test]
 fn reports_bad_input_before_rendering() {
-    let error = |out: &str, more: &str| {
-        render(&CORRECT, "invalid", out, more).expect_err("the input is invalid")
-    };
+    let error = |out, more| render(&CORRECT, out, more).expect_err("the input is invalid");
     assert!(error("a.jpg", "").ends_with("use a file name that ends in .png or .exr"));
     assert!(error("none/a.png", "").ends_with("none: it does not exist"));
     assert!(error("a.png", "--size 0x4").contains("each side must be from 1 to 16384"));
@@ -108,51 +83,14 @@ fn reports_bad_input_before_rendering() {
     assert!(error("a.png", "--pixel 12,0").contains("outside the film, which has 12 x 8"));
 }
 
-/// A submission whose camera calls the given function, which can panic.
-struct Unfinished {
-    camera: fn() -> Ray,
-}
-
-impl Submission for Unfinished {
-    fn camera(&self, _: &PinholeCamera) -> Box<dyn CameraRays> {
-        Box::new(Unfinished { ..*self })
-    }
-
-    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
-        CORRECT.primitive_list(shapes)
-    }
-
-    fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval> {
-        CORRECT.intersect_box(min, max, ray, times)
-    }
-
-    fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy> {
-        CORRECT.build(shapes, max_leaf_size)
-    }
-
-    fn prebuilt_tree(
-        &self,
-        shapes: &[Shape],
-        tree: &[TreeNode],
-        root: usize,
-    ) -> Box<dyn Hierarchy> {
-        CORRECT.prebuilt_tree(shapes, tree, root)
-    }
-}
-
-impl CameraRays for Unfinished {
-    fn ray(&self, _: UVec2, _: Vec2) -> Ray {
-        (self.camera)()
-    }
-}
-
 #[test]
 fn reports_the_pixel_of_a_panic_and_the_command_to_rerun_it() {
     keep_panics_quiet();
-    let bug = Unfinished {
-        camera: || panic!("attempt to subtract with overflow"),
+    let bug = SphereSubmission {
+        ray: |_| panic!("attempt to subtract with overflow"),
+        ..CORRECT
     };
-    let message = render(&bug, "bug", "a.png", "--threads 1").expect_err("the camera panics");
+    let message = render(&bug, "a.png", "--threads 1").expect_err("the camera panics");
     assert!(
         message.starts_with("panicked: attempt to subtract with overflow ("),
         "{message}"
@@ -177,10 +115,11 @@ fn recurse(depth: u64) -> u64 {
 fn a_stack_overflow_names_the_task() {
     const IS_CHILD: &str = "FRAMEWORK_TEST_OVERFLOWS";
     if std::env::var_os(IS_CHILD).is_some() {
-        let endless = Unfinished {
-            camera: || Ray::new(Vec3::ZERO, Vec3::splat(recurse(0) as f32)),
+        let endless = SphereSubmission {
+            ray: |_| Ray::new(Vec3::ZERO, Vec3::splat(recurse(0) as f32)),
+            ..CORRECT
         };
-        let ended = render(&endless, "overflow", "a.png", "");
+        let ended = render(&endless, "a.png", "");
         panic!("the stack does not overflow: {ended:?}");
     }
     let child = std::process::Command::new(std::env::current_exe().expect("tests have a path"))
@@ -202,8 +141,8 @@ fn a_stack_overflow_names_the_task() {
 
 #[test]
 fn an_exr_file_holds_the_distances_themselves() {
-    let bytes = render(&CORRECT, "raw", "a.exr", "--view depth --size 3x3");
-    let picture = image::load_from_memory(&bytes.expect("rendering succeeds"));
+    let bytes = picture("a.exr", "--view depth --size 3x3");
+    let picture = image::load_from_memory(&bytes);
     let picture = picture.expect("the file is an EXR").to_rgb32f();
     // The spheres at the sides are three away, with radius one.
     let distance = picture.get_pixel(0, 1).0[0];

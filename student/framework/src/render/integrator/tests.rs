@@ -196,7 +196,7 @@ fn counts_and_discards_paths_with_an_invalid_answer() {
         |trace| trace.material = 77,
     ];
     for alter in alterations {
-        let world = World::new(&SphereSubmission { alter }, &scene);
+        let world = World::new(&SphereSubmission { alter, ..CORRECT }, &scene);
         let integrator = Integrator::new(&scene, &world, settings(3, 4));
         let mut stats = RenderStats::default();
         let light = integrator.pixel_radiance(uvec2(4, 4), &mut stats);
@@ -210,6 +210,7 @@ fn the_length_of_a_normal_makes_no_difference() {
     let scene = scene(1.0, GLASS, &sphere(-3.0, 2.0, "glass"));
     let long = SphereSubmission {
         alter: |trace| trace.normal *= 3.0,
+        ..CORRECT
     };
     let expected = render(&CORRECT, &scene, &settings(2, 4));
     let pixels = render(&long, &scene, &settings(2, 4));

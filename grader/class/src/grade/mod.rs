@@ -4,7 +4,6 @@ use std::num::NonZero;
 use std::path::Path;
 use std::thread;
 
-use grader::error::Error as GraderError;
 use grader::grade::Grader;
 use grader::options::GradeOptions;
 use grader::printing::print;
@@ -63,7 +62,7 @@ pub fn grade_class_with(
     check_lists(given)?;
     let mut options = options.clone();
     options.policy.clone_from(&given.policy);
-    let workspace = Workspace::find().map_err(GraderError::from)?;
+    let workspace = Workspace::find()?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
     if let Some(folder) = &arguments.similarity_input {
         let out = arguments.out.as_deref();

@@ -17,15 +17,19 @@ use judging::sanitize::sanitize_line;
 use tempfile::NamedTempFile;
 
 use crate::access::Access;
+use crate::browser;
 use crate::cli::{Arguments, DEFAULT_PORT};
+use crate::composer;
 use crate::error::ViewError;
 use crate::exam_question::subject_of_question;
+use crate::http;
 use crate::program::Programs;
 use crate::routes::Routes;
 use crate::session::{Resources, Session, Worker};
 use crate::shared_session::SharedSession;
 use crate::subject::{PathSettings, SceneList, Subject};
-use crate::{browser, composer, http, watcher, workers};
+use crate::watcher;
+use crate::workers;
 
 const NO_REFERENCE: &str = "there is no reference here: leave out --reference";
 

@@ -1,4 +1,4 @@
-//! What tests share: a scene, a temporary folder and a minimal submission.
+//! Helpers of tests: a scene, a temporary folder and a minimal submission.
 
 use std::fs;
 use std::path::PathBuf;

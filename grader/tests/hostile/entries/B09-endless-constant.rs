@@ -2,7 +2,7 @@
 //! into = "sphere.rs"
 //! within = ["hit"]
 //! verdicts = ["not_compiled"]
-//! wall = 120
+//! wall = 200
 //! slow = true
 //!
 //! [points]

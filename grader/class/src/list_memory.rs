@@ -176,7 +176,7 @@ fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
         .join(format!("{}-{hash}.{extension}", kind.name()))
 }
 
-/// Reads a copy, which must be as it was written.
+/// Reads a copy, which must be unchanged since it was written.
 fn read_copy(kind: ListKind, path: &Path, list: &KeptList) -> Result<Vec<u8>, Error> {
     match files::read(path) {
         Ok(bytes) if file_hash(&bytes) == list.hash => Ok(bytes),

@@ -126,7 +126,7 @@ pub struct Stamp {
     pub key: String,
     /// The round of the run in which the entry was graded.
     pub round: u32,
-    /// The result. Its id is empty, and so is its score, until they are read.
+    /// The result, without its id (the folder's name) and its score (in a file of its own).
     #[serde(flatten)]
     pub result: EntryResult,
 }

@@ -75,7 +75,7 @@ impl ClassContext<'_> {
     }
 }
 
-/// Writes the files about a class, and prints the summary and what has changed.
+/// Writes the files about a class and prints the summary and the changes.
 fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Result<(), Error> {
     let summary = ClassSummary::new(class);
     for row in &class.rows {

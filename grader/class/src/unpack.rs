@@ -57,7 +57,7 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
     })
 }
 
-/// A reason why an archive cannot be unpacked.
+/// Why an archive cannot be unpacked.
 #[derive(Debug, thiserror::Error)]
 enum UnpackError {
     #[error(transparent)]

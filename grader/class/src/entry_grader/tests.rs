@@ -23,7 +23,7 @@ struct FailingGrader {
     policy: Policy,
     /// How often it was asked.
     asked: AtomicUsize,
-    /// The store in which it looks for a result of entry `a` while it grades.
+    /// The store that it searches for a result of entry `a` while grading.
     watched: Option<Store>,
     has_seen_result: AtomicBool,
 }

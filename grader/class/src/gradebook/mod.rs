@@ -74,7 +74,7 @@ struct Key {
 enum KeyKind {
     /// The platform's own number, which a file name can have by chance: the names must be alike too.
     Number,
-    /// A student id. A person has only one: a row with another one is somebody else's.
+    /// A student id. A person has only one: a row with a different id is somebody else's.
     Sid,
     /// An account name, or the email address in its place. A person may have several.
     Login,
@@ -85,7 +85,7 @@ enum KeyKind {
 }
 
 impl Key {
-    /// Returns the key of a column whose cells are compared as they are.
+    /// Returns the key of a column whose cells are compared unchanged.
     fn new(kind: KeyKind, column: usize) -> Self {
         let text = str::to_owned;
         Key { kind, column, text }

@@ -11,7 +11,7 @@ fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
     tests::person(json!({ "name": name, "email": email, "sid": sid, "number": number }))
 }
 
-/// Returns a class in which these people have 80 of 100 points.
+/// Returns a class whose people each have 80 of 100 points.
 fn class(people: &[(&str, Person)]) -> GradedClass {
     let class_row = |(id, person): &(&str, Person)| {
         let mut result = tests::result(id, &[], tests::graded(80));

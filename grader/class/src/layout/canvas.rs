@@ -38,7 +38,7 @@ pub(super) struct CanvasName<'a> {
 }
 
 impl<'a> CanvasName<'a> {
-    /// Returns the name of which this part is the user, if it can be one.
+    /// Returns the name whose user is this part, if the part can be a user.
     fn new(parts: &[&'a str], user: usize, attachment: u64, file: String) -> Option<Self> {
         let (who, late) = split_late(&parts[..user])?;
         let user = parts[user];

@@ -53,7 +53,7 @@ impl Shards {
         store.write_run(&run).unwrap();
     }
 
-    /// Writes a list, and returns its path.
+    /// Writes a list and returns its path.
     fn list(&self, kind: ListKind, text: &str) -> Lists {
         let path = self.path("given");
         fs::write(&path, text).unwrap();
@@ -97,7 +97,7 @@ impl Shards {
         fs::read_to_string(self.path("out").join(name)).unwrap()
     }
 
-    /// Merges, and returns the points that count for Ann.
+    /// Merges and returns the points that count for Ann.
     fn points(&self, arguments: &MergeArguments) -> String {
         merge_shards(arguments, &RAYS).unwrap();
         let grades = self.read("grades.csv");

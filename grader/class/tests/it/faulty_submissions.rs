@@ -1,5 +1,5 @@
 //! Tests that each faulty submission gets a row, and that the points of the others are not
-//! affected; and that a fault of the machine is tried again, and gives no score if it remains.
+//! affected; and that a fault of the machine is retried and gives no score if it remains.
 
 use std::process::Output;
 

@@ -154,14 +154,14 @@ impl TestClass {
         lists.iter().map(write).collect()
     }
 
-    /// Grades the class with lists and more options, and returns the standard output.
+    /// Grades the class with lists and more options and returns the standard output.
     pub fn graded_with(&self, exam: &str, lists: &[(&str, &str)], more: &[&str]) -> String {
         let lists = self.lists(lists);
         let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
         self.graded(exam, &[&lists, more].concat())
     }
 
-    /// Grades the class, and returns the standard output.
+    /// Grades the class and returns the standard output.
     pub fn graded(&self, exam: &str, more: &[&str]) -> String {
         successful_stdout(&self.grade(exam, more))
     }

@@ -12,7 +12,7 @@ use bench_support::median::median;
 use bench_support::short_form::repetitions;
 use glam::{Vec2, Vec3, vec3};
 use grader::probe::{ItemLimits, Launcher};
-use protocol::{Question, Ray, Rays, Shape, Vertex, wire};
+use protocol::{Geometry, Question, Ray, Shape, Vertex, wire};
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
@@ -102,9 +102,11 @@ fn questions(rays_per_question: usize) -> Vec<Question> {
         Ray::new(vec3(x, y, 0.0), Vec3::NEG_Z)
     };
     let rays: Vec<Ray> = (0..RAYS).map(ray).collect();
-    let questions = rays.chunks(rays_per_question).map(|rays| Question::Shapes {
+    let geometry = Geometry::List {
         shapes: vec![triangle],
-        rays: Rays::List(rays.to_vec()),
-    });
-    questions.collect()
+    };
+    let questions = rays.chunks(rays_per_question);
+    questions
+        .map(|rays| Question::hits(geometry.clone(), rays.to_vec()))
+        .collect()
 }

@@ -5,7 +5,7 @@
 //! it. It is neither judged nor sent to the probe.
 
 use glam::Vec3;
-use protocol::{Interval, Question, Rays, packed};
+use protocol::{Geometry, Interval, Question, Rows, packed};
 use serde::{Deserialize, Serialize};
 
 /// The intermediate steps that lead to the correct answers to one question.
@@ -15,11 +15,11 @@ pub enum DrawingData {
     /// No data.
     #[default]
     None,
-    /// Data for `BBox` questions: for each query, the interval in which the ray is between the two
+    /// Data for tables of `BBox::hit`: for each query, the interval in which the ray is between the two
     /// planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
     /// parallel to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
-    /// Data for `Traverse` questions with a list of rays: one correct traversal per ray.
+    /// Data for tables of hits in a tree of the exam: one correct traversal per ray.
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
     /// Data for `Build` questions: the tree of the exact SAH sweep.
     Sweep(#[serde(with = "packed::text")] Sweep),
@@ -67,6 +67,9 @@ pub struct LevelNode {
     pub cost: f32,
 }
 
+/// The problem of data for another kind of question.
+const OTHER_KIND: &str = "the drawing data is of another kind than the question";
+
 impl DrawingData {
     /// Returns whether there is no data.
     pub fn is_none(&self) -> bool {
@@ -81,7 +84,7 @@ impl DrawingData {
         let count = question.count();
         match (self, question) {
             (DrawingData::None, _) => None,
-            (DrawingData::Slabs(slabs), Question::BBox { .. }) => {
+            (DrawingData::Slabs(slabs), Question::BBoxHit(_)) => {
                 (slabs.len() != count).then(|| {
                     format!(
                         "the drawing data has slabs for {} of {count} queries",
@@ -89,14 +92,11 @@ impl DrawingData {
                     )
                 })
             }
-            (
-                DrawingData::Traversals(traversals),
-                Question::Traverse {
-                    nodes,
-                    rays: Rays::List(_),
-                    ..
-                },
-            ) => {
+            (DrawingData::Traversals(traversals), Question::Hit(table)) => {
+                let (Geometry::Tree { nodes, .. }, Rows::List(_)) = (&table.subject, &table.rows)
+                else {
+                    return Some(OTHER_KIND.to_owned());
+                };
                 let mut steps = traversals.iter().flatten();
                 match steps.find(|step| step.node as usize >= nodes.len()) {
                     Some(step) => Some(format!(
@@ -116,7 +116,7 @@ impl DrawingData {
                 sweep.problem(shapes.len())
             }
             (DrawingData::Slabs(_) | DrawingData::Traversals(_) | DrawingData::Sweep(_), _) => {
-                Some("the drawing data is of another kind than the question".to_owned())
+                Some(OTHER_KIND.to_owned())
             }
         }
     }
@@ -139,27 +139,27 @@ impl Sweep {
 
 #[cfg(test)]
 mod tests {
-    use protocol::Ray;
+    use protocol::{Corners, Query, Ray};
 
     use super::*;
     use crate::tests::sphere;
 
     fn bbox() -> Question {
-        let query = (Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD);
-        Question::BBox {
-            min: Vec3::NEG_ONE,
-            max: Vec3::ONE,
-            queries: vec![query],
-        }
+        let query = Query {
+            ray: Ray::new(Vec3::ZERO, Vec3::X),
+            times: Interval::AHEAD,
+        };
+        let (min, max) = (Vec3::NEG_ONE, Vec3::ONE);
+        Question::boxes(Corners { min, max }, vec![query])
     }
 
     fn traverse() -> Question {
-        Question::Traverse {
+        let tree = Geometry::Tree {
             shapes: Vec::new(),
             nodes: Vec::new(),
             root: 0,
-            rays: Rays::List(vec![Ray::new(Vec3::ZERO, Vec3::X)]),
-        }
+        };
+        Question::hits(tree, vec![Ray::new(Vec3::ZERO, Vec3::X)])
     }
 
     fn build() -> Question {

@@ -10,9 +10,10 @@ use serde::{Deserialize, Serialize};
 use crate::assignment::Assignment;
 use crate::content_hash::file_hash;
 use crate::exam::{Exam, Item, Key};
+use crate::judge::table::judged_quantities;
 
 /// Version of the file format that this grader reads.
-const SCHEMA_VERSION: u32 = 1;
+const SCHEMA_VERSION: u32 = 2;
 /// Maximum number of pixels along one side of a picture. The committed exams use 64.
 const MAX_PICTURE_SIDE: u32 = 4096;
 
@@ -168,8 +169,10 @@ fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
         return Some("it has no points or no questions".to_owned());
     }
     let question_problem = |(number, question): (usize, &crate::exam::ExamQuestion)| {
-        if let Some(film) =
-            film(&question.question).filter(|film| film.max_element() > MAX_PICTURE_SIDE)
+        if let Some(film) = question
+            .question
+            .film()
+            .filter(|film| film.max_element() > MAX_PICTURE_SIDE)
         {
             let UVec2 { x, y } = film;
             return Some(format!(
@@ -192,26 +195,6 @@ fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
         }
     };
     (1..).zip(&item.questions).find_map(question_problem)
-}
-
-/// Returns the film of a question that asks for a whole picture.
-fn film(question: &Question) -> Option<UVec2> {
-    use protocol::{Rays, Samples};
-
-    match question {
-        Question::Camera { camera, samples } => match samples {
-            Samples::EveryPixel => Some(camera.film),
-            Samples::List(_) => None,
-        },
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => match rays {
-            Rays::View(view) => Some(view.film),
-            Rays::List(_) => None,
-        },
-        Question::Radiance { film, .. } => Some(*film),
-        Question::BBox { .. } | Question::Build { .. } | Question::Done => None,
-    }
 }
 
 /// Returns the reason why the item's signatures are invalid, or `None` if they are valid.
@@ -244,39 +227,24 @@ fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
 
 /// Returns whether the key fits the question, and the number of elements in the key.
 fn match_key(question: &Question, key: &Key) -> (bool, usize) {
-    use protocol::Rays;
-
     match (key, question) {
-        (Key::Rays { directions, .. }, Question::Camera { .. }) => (true, directions.len()),
-        (
-            Key::Hits { hits, .. },
-            Question::Shapes { .. } | Question::Traverse { .. } | Question::BuildAndTraverse { .. },
-        ) => (true, hits.len()),
-        (
-            Key::FirstHits { hits, alternatives },
-            Question::Shapes { rays, .. }
-            | Question::Traverse { rays, .. }
-            | Question::BuildAndTraverse { rays, .. },
-        ) => {
+        (Key::Table { judged, rows }, question) => {
+            let fits = question
+                .table()
+                .is_some_and(|table| judged_quantities(table, judged, rows).is_some());
+            (fits, rows.count())
+        }
+        (Key::FirstHits { hits, alternatives }, Question::Hit(table)) => {
             let inside = alternatives
                 .iter()
                 .all(|(index, _)| (*index as usize) < hits.len());
-            (matches!(rays, Rays::View(_)) && inside, hits.len())
+            (table.rows.view().is_some() && inside, hits.len())
         }
-        (Key::Spans { spans }, Question::BBox { .. }) => (true, spans.len()),
         (Key::Tree { .. }, Question::Build { .. }) => (true, 1),
         (Key::Radiance { pixels, .. }, Question::Radiance { film, .. }) => {
             let all = film.x as usize * film.y as usize;
             (pixels.len() == all, 1)
         }
-        (
-            Key::Rays { .. }
-            | Key::Hits { .. }
-            | Key::FirstHits { .. }
-            | Key::Spans { .. }
-            | Key::Tree { .. }
-            | Key::Radiance { .. },
-            _,
-        ) => (false, 0),
+        (Key::FirstHits { .. } | Key::Tree { .. } | Key::Radiance { .. }, _) => (false, 0),
     }
 }

@@ -11,6 +11,7 @@
 //! | analysis of answers | [`picture`], [`recognise`], [`observe`] |
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
+//! | types of fields | [`types`] |
 //! | exam files | [`exam_file`] |
 //! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`section`]; [`content_hash`], [`sanitize`] |
 
@@ -27,6 +28,7 @@ pub mod recognise;
 pub mod sanitize;
 pub mod section;
 pub mod signatures;
+mod types;
 
 #[cfg(test)]
 mod tests;

@@ -23,10 +23,10 @@ mod triangle;
 mod uv;
 mod window;
 
-use protocol::{Answer, ElementOutcome, Question};
+use protocol::{Answer, Corners, ElementOutcome, Geometry, Query, Question};
 
 use judging::drawing_data::DrawingData;
-use judging::exam::{ExamQuestion, Key};
+use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use judging::judge::tree::TreeCriteria;
 
 use bbox::BoxQuery;
@@ -50,17 +50,58 @@ pub struct Drawing {
 /// nothing to the text.
 pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     match &question.question {
-        Question::Shapes { shapes, .. } => {
-            let comparison = HitComparison::new(question, element, answer)?;
-            shapes::draw(&comparison, shapes)
-        }
-        Question::BBox { min, max, queries } => {
-            let &(ray, times) = queries.get(element)?;
-            let Key::Spans { spans } = &question.key else {
+        Question::SampleRay(table) => {
+            let Key::Table {
+                rows: ExpectedRows::Rays(directions),
+                ..
+            } = &question.key
+            else {
                 return None;
             };
+            let query = CameraQuery {
+                camera: table.subject,
+                sample: table.rows.get(element)?,
+                wanted: directions.get(element)?.as_dvec3(),
+            };
+            camera::draw(&query, element, answer)
+        }
+        Question::Hit(table) => {
+            let comparison = HitComparison::new(question, element, answer)?;
+            match &table.subject {
+                Geometry::List { shapes } => shapes::draw(&comparison, shapes),
+                Geometry::Tree {
+                    shapes,
+                    nodes,
+                    root,
+                } => {
+                    let steps = match &question.drawing_data {
+                        DrawingData::Traversals(traversals) => traversals.get(element),
+                        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => None,
+                    };
+                    let recorded = RecordedTraversal {
+                        shapes,
+                        nodes,
+                        root: *root,
+                        steps: steps.map(Vec::as_slice).unwrap_or_default(),
+                    };
+                    let drawing = traversal::draw(&comparison, &recorded);
+                    Some(drawing.unwrap_or_else(|| along_ray::draw(&comparison)))
+                }
+                Geometry::BuiltTree { .. } => Some(along_ray::draw(&comparison)),
+            }
+        }
+        Question::BBoxHit(table) => {
+            let Key::Table {
+                rows: ExpectedRows::Spans(spans),
+                ..
+            } = &question.key
+            else {
+                return None;
+            };
+            let Corners { min, max } = table.subject;
+            let Query { ray, times } = table.rows.get(element)?;
             let query = BoxQuery {
-                corners: [*min, *max],
+                corners: [min, max],
                 ray,
                 times,
                 wanted: *spans.get(element)?,
@@ -70,17 +111,6 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
                 },
             };
             bbox::draw(&query, element, answer)
-        }
-        Question::Camera { camera, samples } => {
-            let Key::Rays { directions, .. } = &question.key else {
-                return None;
-            };
-            let query = CameraQuery {
-                camera: *camera,
-                sample: *samples.to_vec(camera.film).get(element)?,
-                wanted: directions.get(element)?.as_dvec3(),
-            };
-            camera::draw(&query, element, answer)
         }
         Question::Build {
             shapes,
@@ -100,30 +130,7 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             };
             build::draw(&case, answer)
         }
-        Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            ..
-        } => {
-            let comparison = HitComparison::new(question, element, answer)?;
-            let steps = match &question.drawing_data {
-                DrawingData::Traversals(traversals) => traversals.get(element).map(Vec::as_slice),
-                DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => None,
-            };
-            let recorded = RecordedTraversal {
-                shapes,
-                nodes,
-                root: *root,
-                steps: steps.unwrap_or_default(),
-            };
-            let drawing = traversal::draw(&comparison, &recorded);
-            Some(drawing.unwrap_or_else(|| along_ray::draw(&comparison)))
-        }
-        Question::BuildAndTraverse { .. } => Some(along_ray::draw(&HitComparison::new(
-            question, element, answer,
-        )?)),
-        Question::Radiance { .. } | Question::Done => None,
+        Question::Radiance { .. } => None,
     }
 }
 

@@ -112,10 +112,9 @@ impl Probe {
         if let Some(fault) = &self.not_started {
             return Err(fault.clone());
         }
-        // The last question only marks the end, so that answers that belong to no question are
-        // detected.
-        let questions: Vec<&Question> = questions.into_iter().chain([&Question::Done]).collect();
-        let nonces = nonces(questions.len());
+        let questions: Vec<&Question> = questions.into_iter().collect();
+        let mut nonces = nonces(questions.len() + 1);
+        let end = nonces.pop().expect("there is one more than questions");
         let mut batch = Batch::default();
         for (nonce, question) in nonces.iter().zip(questions) {
             let append = |frames| wire::append_question(frames, *nonce, question);
@@ -124,18 +123,20 @@ impl Probe {
                 self.program.send(mem::take(&mut batch));
             }
         }
+        batch.add(0, |frames| Ok(wire::append_end(frames, end)))?;
         self.program.send(batch);
 
         let mut stopwatch = Stopwatch::start(limits);
-        let answers = self.receive(nonces, &mut stopwatch);
+        let answers = self.receive(nonces, end, &mut stopwatch);
         self.used += stopwatch.used();
         answers
     }
 
-    /// Receives the answers with these nonces.
+    /// Receives the answers with these nonces, and the end with its own.
     fn receive(
         &mut self,
         nonces: Vec<u64>,
+        end: u64,
         stopwatch: &mut Stopwatch,
     ) -> Result<Vec<Answer>, Fault> {
         let printed_before = self.program.printed();
@@ -144,9 +145,11 @@ impl Probe {
             let frame = self.next_frame(stopwatch, printed_before)?;
             answers.push(answer_to(nonce, &frame)?);
         }
-        match answers.pop() {
-            Some(Answer::Done) => Ok(answers),
-            _ => Err(Fault::Protocol("an answer of the wrong kind".to_owned())),
+        let frame = self.next_frame(stopwatch, printed_before)?;
+        if frame.nonce == end && frame.is_end() {
+            Ok(answers)
+        } else {
+            Err(no_question())
         }
     }
 
@@ -205,11 +208,13 @@ fn nonces(count: usize) -> Vec<u64> {
 /// Returns the answer in a frame, which must be the one to the question with this nonce.
 fn answer_to(nonce: u64, frame: &Frame) -> Result<Answer, Fault> {
     if frame.nonce != nonce {
-        return Err(Fault::Protocol(
-            "an answer that belongs to no question".to_owned(),
-        ));
+        return Err(no_question());
     }
     frame.answer().map_err(protocol_fault)
+}
+
+fn no_question() -> Fault {
+    Fault::Protocol("an answer that belongs to no question".to_owned())
 }
 
 fn protocol_fault(error: WireError) -> Fault {
@@ -232,12 +237,12 @@ mod tests {
         }
     }
 
-    /// Starts a program that answers the first question by echoing its length and nonce with the kind
-    /// `Done` (5), and then goes on with these commands.
+    /// Starts a program that echoes the first frame, which is the end of no questions, and then goes on
+    /// with these commands.
     fn start_script(commands: &str) -> (TempDir, Launcher, Probe) {
         let folder = TempDir::new().unwrap();
         let program = folder.path().join("program");
-        let script = format!("#!/bin/sh\nhead -c 12\nprintf '\\005'\n{commands}\n");
+        let script = format!("#!/bin/sh\nhead -c 12\n{commands}\n");
         std::fs::write(&program, script).unwrap();
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
         let launcher = launcher(program);

@@ -120,9 +120,7 @@ mod tests {
         for (item, points) in whole.items.iter_mut().zip([4, 2, 2, 2]) {
             item.points = points;
             item.questions = vec![boxes(3)];
-            item.questions[0].key = Key::Spans {
-                spans: vec![Some(Interval::AHEAD); 3],
-            };
+            item.questions[0].key = Key::spans(vec![Some(Interval::AHEAD); 3]);
         }
         let miss = ElementOutcome::Value(None);
         let hit = ElementOutcome::Value(Some(Interval::AHEAD));

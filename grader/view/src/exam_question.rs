@@ -12,7 +12,7 @@ use grader::question_ref::QuestionRef;
 use judging::describe;
 use judging::exam::ExamQuestion;
 use judging::judge::tree::bounds::Bounds;
-use protocol::{Interval, PinholeCamera, Question, Ray, Shape, Tree};
+use protocol::{Corners, Geometry, PinholeCamera, Query, Question, Ray, Shape, Tree};
 use view_probe::scene_data::{SceneData, TreeSource};
 
 use crate::error::ViewError;
@@ -70,35 +70,35 @@ fn subject(
     settings: PathSettings,
 ) -> Result<Subject, ViewError> {
     let (shapes, tree, leaf) = match &question.question {
-        Question::Shapes { shapes, .. } => (shapes.as_slice(), TreeSource::List, 1),
-        Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            ..
-        } => {
-            let tree = Tree {
-                nodes: nodes.clone(),
-                root: *root,
-                order: Vec::new(),
-            };
-            (shapes.as_slice(), TreeSource::Prebuilt(tree), 1)
-        }
-        Question::BuildAndTraverse {
-            shapes,
-            max_leaf_size,
-            ..
-        }
-        | Question::Build {
+        Question::Hit(table) => match &table.subject {
+            Geometry::List { shapes } => (shapes.as_slice(), TreeSource::List, 1),
+            Geometry::Tree {
+                shapes,
+                nodes,
+                root,
+            } => {
+                let tree = Tree {
+                    nodes: nodes.clone(),
+                    root: *root,
+                    order: Vec::new(),
+                };
+                (shapes.as_slice(), TreeSource::Prebuilt(tree), 1)
+            }
+            Geometry::BuiltTree {
+                shapes,
+                max_leaf_size,
+            } => (shapes.as_slice(), TreeSource::Build, *max_leaf_size),
+        },
+        Question::Build {
             shapes,
             max_leaf_size,
         } => (shapes.as_slice(), TreeSource::Build, *max_leaf_size),
-        Question::BBox { .. } => (&[][..], TreeSource::List, 1),
+        Question::BBoxHit(_) => (&[][..], TreeSource::List, 1),
         Question::Radiance { scene, .. } => {
             let scene = Scene::from_text(scene).map_err(ViewError::usage)?;
             return Ok(Subject::of_scene(name, &scene, settings));
         }
-        Question::Camera { .. } | Question::Done => {
+        Question::SampleRay(_) => {
             return Err(ViewError::Usage(format!(
                 "{name} is about the camera alone, so there is no scene to show: \
                  run `cargo grade --replay {name}`"
@@ -106,13 +106,15 @@ fn subject(
         }
     };
     let mut boxes = Vec::new();
-    let ray = if let Question::BBox { min, max, queries } = &question.question {
-        boxes.push([*min, *max]);
-        let within = |(ray, times): &(Ray, Interval)| ray.within(times.min, times.max);
-        queries.get(element).map(within)
-    } else {
-        let rays = question.question.rays();
-        rays.and_then(|rays| rays.to_vec().get(element).copied())
+    let ray = match &question.question {
+        Question::BBoxHit(table) => {
+            let Corners { min, max } = table.subject;
+            boxes.push([min, max]);
+            let query = table.rows.get(element);
+            query.map(|Query { ray, times }| ray.within(times.min, times.max))
+        }
+        Question::Hit(table) => table.rows.get(element),
+        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => None,
     };
     // The ray is left out, since it may begin far away.
     let boxes_seen = boxes.iter().map(|[min, max]| Bounds {

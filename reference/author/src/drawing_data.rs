@@ -3,7 +3,7 @@
 
 use judging::drawing_data::{DrawingData, TraversalStep};
 use judging::exam::Exam;
-use protocol::{Interval, Question, Ray, Rays};
+use protocol::{Interval, Question, Ray, Rows};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan, sweep};
@@ -27,14 +27,20 @@ pub fn with_drawing_data(mut exam: Exam) -> Exam {
 }
 
 fn drawing_data(question: &Question) -> DrawingData {
-    if let Some((tree, Rays::List(rays))) = Tree::in_question(question) {
+    if let Some((tree, Rows::List(rays))) = Tree::in_question(question) {
         let steps = rays.iter().map(|ray| traversal_steps(&tree, ray));
         return DrawingData::Traversals(steps.collect());
     }
     match question {
-        Question::BBox { min, max, queries } => {
-            let bounds = Bounds::new(*min, *max);
-            DrawingData::Slabs(queries.iter().map(|(ray, _)| slabs(&bounds, ray)).collect())
+        Question::BBoxHit(table) => {
+            let bounds = Bounds::new(table.subject.min, table.subject.max);
+            let queries = table.rows.to_vec();
+            DrawingData::Slabs(
+                queries
+                    .iter()
+                    .map(|query| slabs(&bounds, &query.ray))
+                    .collect(),
+            )
         }
         // An empty tree has no root area to divide costs by.
         Question::Build { shapes, .. } if shapes.is_empty() => DrawingData::None,
@@ -45,12 +51,7 @@ fn drawing_data(question: &Question) -> DrawingData {
             let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
             DrawingData::Sweep(sweep::upper_levels(&boxes, *max_leaf_size as usize))
         }
-        Question::Traverse { .. }
-        | Question::Camera { .. }
-        | Question::Shapes { .. }
-        | Question::BuildAndTraverse { .. }
-        | Question::Radiance { .. }
-        | Question::Done => DrawingData::None,
+        Question::SampleRay(_) | Question::Hit(_) | Question::Radiance { .. } => DrawingData::None,
     }
 }
 
@@ -123,7 +124,7 @@ mod tests {
     #[test]
     fn drawing_data_fits_its_questions() {
         let exam = Exam {
-            schema: 1,
+            schema: 2,
             assignment: RAYS.assignment.id.to_owned(),
             id: "small".to_owned(),
             mistakes: Vec::new(),

@@ -20,7 +20,7 @@ use crate::solutions::recording::Recorder;
 use crate::solutions::workbench::Workbench;
 
 /// The version of the exam file's format.
-const SCHEMA: u32 = 1;
+const SCHEMA: u32 = 2;
 
 /// The path of the practice exam, relative to the workspace root.
 const PRACTICE_FILE: &str = "grader/exams/practice.json";

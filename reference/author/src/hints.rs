@@ -7,7 +7,7 @@ use anyhow::Result;
 use judging::exam::{Exam, Item, Key};
 use judging::observe::{expected, observe};
 use judging::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
-use protocol::{Question, Samples};
+use protocol::{Geometry, Question};
 use rayon::prelude::*;
 
 use crate::solutions::Solutions;
@@ -61,12 +61,12 @@ fn is_table(item: &Item) -> bool {
     item.questions
         .iter()
         .all(|question| match (&question.key, &question.question) {
-            (Key::Rays { .. }, Question::Camera { samples, .. }) => {
-                matches!(samples, Samples::List(_))
+            (_, Question::Hit(table)) if matches!(table.subject, Geometry::BuiltTree { .. }) => {
+                false
             }
-            (_, Question::BuildAndTraverse { .. })
-            | (Key::Rays { .. } | Key::FirstHits { .. } | Key::Radiance { .. }, _) => false,
-            (Key::Hits { .. } | Key::Spans { .. } | Key::Tree { .. }, _) => true,
+            (Key::Table { .. }, asked) => asked.film().is_none(),
+            (Key::Tree { .. }, _) => true,
+            (Key::FirstHits { .. } | Key::Radiance { .. }, _) => false,
         })
 }
 

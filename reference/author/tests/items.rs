@@ -8,16 +8,17 @@ use author::items::shares_a_question;
 use author::seed::Seed;
 use glam::Vec3;
 use judging::assignment::RAYS;
-use judging::exam::{Item, Key};
-use protocol::{Question, Ray, Rays, Shape};
+use judging::exam::{ExpectedRows, Item, Key};
+use protocol::{Geometry, Question, Ray, Shape};
 
 use crate::exams::{SEEDS, exam_of, make_exam};
 
 fn rays(question: &Question) -> Vec<Ray> {
-    if let Question::BBox { queries, .. } = question {
-        return queries.iter().map(|(ray, _)| *ray).collect();
+    match question {
+        Question::Hit(table) => table.rows.to_vec().into_owned(),
+        Question::BBoxHit(table) => table.rows.to_vec().iter().map(|query| query.ray).collect(),
+        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => Vec::new(),
     }
-    question.rays().map(Rays::to_vec).unwrap_or_default()
 }
 
 #[test]
@@ -95,13 +96,16 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
 fn has_opposites(item: &Item) -> bool {
     let is_hit = |key: &Key| -> Vec<bool> {
         match key {
-            Key::Hits { hits, .. } => hits.iter().map(Option::is_some).collect(),
+            Key::Table { rows, .. } => match rows {
+                ExpectedRows::Rays(directions) => {
+                    let is_other = |dir: &Vec3| dir.distance(directions[0]) > 0.1;
+                    directions.iter().map(is_other).collect()
+                }
+                ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => {
+                    (0..rows.count()).map(|row| rows.is_present(row)).collect()
+                }
+            },
             Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
-            Key::Spans { spans } => spans.iter().map(Option::is_some).collect(),
-            Key::Rays { directions, .. } => {
-                let is_other = |dir: &Vec3| dir.distance(directions[0]) > 0.1;
-                directions.iter().map(is_other).collect()
-            }
             Key::Tree { .. } => vec![true, false],
             Key::Radiance { .. } => Vec::new(),
         }
@@ -126,8 +130,8 @@ fn pictures_show_no_pole() {
         for question in &item.questions {
             let of_spheres = matches!(
                 &question.question,
-                Question::Shapes { shapes, .. }
-                    if shapes.iter().any(|shape| matches!(shape, Shape::Sphere { .. }))
+                Question::Hit(table)
+                    if table.subject.shapes().iter().any(|shape| matches!(shape, Shape::Sphere { .. }))
             );
             if let (true, Key::FirstHits { hits, .. }) = (of_spheres, &question.key) {
                 let poles = hits
@@ -144,11 +148,15 @@ fn pictures_show_no_pole() {
 fn materials_are_distinct_in_trees() {
     for item in &exam_of(SEEDS[0]).items {
         for question in &item.questions {
-            let (Question::Build { shapes, .. }
-            | Question::BuildAndTraverse { shapes, .. }
-            | Question::Traverse { shapes, .. }) = &question.question
-            else {
-                continue;
+            let shapes = match &question.question {
+                Question::Build { shapes, .. } => shapes,
+                Question::Hit(table) => match &table.subject {
+                    Geometry::Tree { shapes, .. } | Geometry::BuiltTree { shapes, .. } => shapes,
+                    Geometry::List { .. } => continue,
+                },
+                Question::SampleRay(_) | Question::BBoxHit(_) | Question::Radiance { .. } => {
+                    continue;
+                }
             };
             let materials: BTreeSet<u32> = shapes.iter().map(Shape::material).collect();
             assert_eq!(materials.len(), shapes.len(), "{}", item.id);

@@ -21,9 +21,9 @@ use grader::score::Score;
 use grader::select_isolation::IsolationRequest;
 use judging::assignment::{Assignment, TaskClues, TaskInfo};
 use judging::drawing_data::DrawingData;
-use judging::exam::{Exam, ExamQuestion, ExpectedHit, HitCheck, Item, Key};
+use judging::exam::{Exam, ExamQuestion, ExpectedRows, Item, Key};
 use judging::signatures::MistakeSignatures;
-use protocol::{Interval, Question, Ray, Rays, Shape, TreeNode};
+use protocol::{Corners, Geometry, Interval, Query, Question, Ray, Shape, Trace, TreeNode};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -105,10 +105,10 @@ fn main() -> std::process::ExitCode {
 });
 
 /// Returns rays along the x axis: one that hits balls around it, and one that misses.
-fn rays() -> Rays {
+fn rays() -> Vec<Ray> {
     let hit = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
     let miss = Ray::new(Vec3::new(-5.0, 9.0, 0.0), Vec3::X);
-    Rays::List(vec![hit, miss])
+    vec![hit, miss]
 }
 
 fn ball(x: f32) -> Shape {
@@ -121,17 +121,18 @@ fn ball(x: f32) -> Shape {
 
 /// Returns the key of [`rays`] for a first hit at this x coordinate.
 fn hits_at(x: f32) -> Key {
-    let hit = ExpectedHit {
+    let hit = Trace {
         distance: x + 5.0,
         position: Vec3::new(x, 0.0, 0.0),
         normal: Vec3::NEG_X,
         uv: Vec2::ZERO,
+        origin: Vec3::new(-5.0, 0.0, 0.0),
         material: 0,
     };
-    Key::Hits {
-        checks: vec![HitCheck::Distance, HitCheck::Normal],
-        hits: vec![Some(hit), None],
-    }
+    Key::table(
+        &["distance", "normal"],
+        ExpectedRows::Hits(vec![Some(hit), None]),
+    )
 }
 
 fn item(id: &str, points: u32, needs: &[&str], question: Question, key: Key) -> Item {
@@ -158,43 +159,41 @@ fn exam_text() -> String {
         "ball.near_side",
         40,
         &[],
-        Question::Shapes {
-            shapes,
-            rays: rays(),
-        },
+        Question::hits(Geometry::List { shapes }, rays()),
         hits_at(-1.0),
     );
     let times = Interval::new(0.0, 100.0);
     let (inside, outside) = (Interval::new(4.0, 6.0), Interval::new(50.0, 60.0));
     let ray = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
+    let corners = Corners {
+        min: Vec3::NEG_ONE,
+        max: Vec3::ONE,
+    };
     let slab_item = item(
         "slab.clipped",
         20,
         &[],
-        Question::BBox {
-            min: Vec3::NEG_ONE,
-            max: Vec3::ONE,
-            queries: vec![(ray, times), (ray, outside)],
-        },
-        Key::Spans {
-            spans: vec![Some(inside), None],
-        },
+        Question::boxes(
+            corners,
+            [times, outside].map(|times| Query { ray, times }).to_vec(),
+        ),
+        Key::spans(vec![Some(inside), None]),
     );
     let leaf = TreeNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), 0, 2, 0, 0);
+    let tree = Geometry::Tree {
+        shapes: vec![ball(3.0), ball(-1.0)],
+        nodes: vec![leaf],
+        root: 0,
+    };
     let nearest_item = item(
         "nearest.of_two",
         40,
         &["ball.near_side"],
-        Question::Traverse {
-            shapes: vec![ball(3.0), ball(-1.0)],
-            nodes: vec![leaf],
-            root: 0,
-            rays: rays(),
-        },
+        Question::hits(tree, rays()),
         hits_at(-2.0),
     );
     let exam = Exam {
-        schema: 1,
+        schema: 2,
         assignment: TASKS.id.to_owned(),
         id: "practice".to_owned(),
         mistakes: Vec::new(),

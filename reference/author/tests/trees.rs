@@ -8,7 +8,7 @@ use author::oracle::{Ray64, scan};
 use author::tree::{Tree, decoy};
 use judging::assignment::RAYS;
 use judging::exam::Exam;
-use protocol::{Ray, Rays};
+use protocol::{Ray, Rows};
 
 use crate::exams::{SEEDS, exam_of};
 
@@ -20,7 +20,7 @@ fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
         questions.map(move |question| (&*item.id, question))
     });
     let with_tree = questions.filter_map(|(id, question)| {
-        let (tree, Rays::List(rays)) = Tree::in_question(&question.question)? else {
+        let (tree, Rows::List(rays)) = Tree::in_question(&question.question)? else {
             return None;
         };
         Some((id, tree, rays.clone()))

@@ -3,19 +3,21 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::function::{Output, Words};
 use crate::interval::Interval;
 use crate::ray::Ray;
 use crate::trace::Trace;
 use crate::tree::Tree;
+use crate::value::Record;
 
 /// The answer to one [`Question`](crate::Question), with one outcome per element.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answer {
-    /// The answer to `Camera`: a ray for each sample.
+    /// The answer to `SampleRay`: a ray for each sample.
     Rays(Vec<ElementOutcome<Ray>>),
-    /// The answer to `Shapes`, `Traverse` or `BuildAndTraverse`: the closest hit of each ray.
+    /// The answer to `Hit`: the closest hit of each ray.
     Hits(Vec<ElementOutcome<Option<Trace>>>),
-    /// The answer to `BBox`: for each query, the part of its `times` interval in which the ray is
+    /// The answer to `BBoxHit`: for each query, the part of its `times` interval in which the ray is
     /// inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
     /// The answer to `Build`: the tree.
@@ -23,8 +25,56 @@ pub enum Answer {
     /// The answer to `Radiance`: the pixels in linear red, green and blue, row by row from the
     /// bottom.
     Picture(ElementOutcome<Vec<Vec3>>),
-    /// The answer to `Done`.
-    Done,
+}
+
+/// What a function returned in one row: a record, or `None`.
+pub type Returned<'a> = ElementOutcome<Option<&'a dyn Record>>;
+
+impl Answer {
+    /// Returns the rows, if this is the answer to a table.
+    pub fn rows(&self) -> Option<Vec<Returned<'_>>> {
+        match self {
+            Answer::Rays(rows) => Some(returned(rows)),
+            Answer::Hits(rows) => Some(returned(rows)),
+            Answer::Spans(rows) => Some(returned(rows)),
+            Answer::Tree(_) | Answer::Picture(_) => None,
+        }
+    }
+
+    /// Returns the names of the fields in each row, if this is the answer to a table.
+    pub fn names(&self) -> Option<&'static [&'static str]> {
+        match self {
+            Answer::Rays(_) => Some(<Ray as Output>::NAMES),
+            Answer::Hits(_) => Some(<Option<Trace> as Output>::NAMES),
+            Answer::Spans(_) => Some(<Option<Interval> as Output>::NAMES),
+            Answer::Tree(_) | Answer::Picture(_) => None,
+        }
+    }
+
+    /// Returns how rows are printed, if this is the answer to a table.
+    pub fn words(&self) -> Option<Words> {
+        match self {
+            Answer::Rays(_) => Some(<Ray as Output>::WORDS),
+            Answer::Hits(_) => Some(<Option<Trace> as Output>::WORDS),
+            Answer::Spans(_) => Some(<Option<Interval> as Output>::WORDS),
+            Answer::Tree(_) | Answer::Picture(_) => None,
+        }
+    }
+
+    /// Returns the answer to one row of a table, or `None` if it is missing. Any other answer is
+    /// returned unchanged.
+    pub fn single(&self, row: usize) -> Option<Answer> {
+        Some(match self {
+            Answer::Rays(rows) => Answer::Rays(vec![rows.get(row)?.clone()]),
+            Answer::Hits(rows) => Answer::Hits(vec![rows.get(row)?.clone()]),
+            Answer::Spans(rows) => Answer::Spans(vec![rows.get(row)?.clone()]),
+            Answer::Tree(_) | Answer::Picture(_) => self.clone(),
+        })
+    }
+}
+
+fn returned<T: Output>(rows: &[ElementOutcome<T>]) -> Vec<Returned<'_>> {
+    rows.iter().map(|row| row.map(Output::record)).collect()
 }
 
 /// The outcome of one element of a question.
@@ -36,6 +86,25 @@ pub enum ElementOutcome<T> {
     Panicked(Panic),
     /// The element was not run, because [`Panic::MAX_PER_QUESTION`] earlier elements panicked.
     Skipped,
+}
+
+impl<T> ElementOutcome<T> {
+    /// Returns the value, or `None` if there is none.
+    pub fn value(&self) -> Option<&T> {
+        match self {
+            ElementOutcome::Value(value) => Some(value),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        }
+    }
+
+    /// Returns the outcome with another value.
+    pub fn map<'a, U>(&'a self, change: impl FnOnce(&'a T) -> U) -> ElementOutcome<U> {
+        match self {
+            ElementOutcome::Value(value) => ElementOutcome::Value(change(value)),
+            ElementOutcome::Panicked(panic) => ElementOutcome::Panicked(panic.clone()),
+            ElementOutcome::Skipped => ElementOutcome::Skipped,
+        }
+    }
 }
 
 /// The message and location of a panic, as sent to the grader.

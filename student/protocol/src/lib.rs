@@ -5,6 +5,7 @@
 //! receives an [`Answer`]; the module [`wire`] defines how they are encoded.
 
 pub mod answer;
+pub mod function;
 mod interval;
 pub mod packed;
 pub mod question;
@@ -12,16 +13,22 @@ mod ray;
 mod shape;
 mod trace;
 mod tree;
+pub mod value;
 mod vertex;
 mod view;
 pub mod wire;
 
-pub use answer::{Answer, ElementOutcome, Panic};
+pub use answer::{Answer, ElementOutcome, Panic, Returned};
+pub use function::{
+    AnyTable, BBoxHit, Corners, Function, Geometry, Hit, Output, Query, Rows, SampleRay, Table,
+    Words,
+};
 pub use interval::Interval;
 pub use question::Question;
 pub use ray::Ray;
 pub use shape::Shape;
 pub use trace::Trace;
 pub use tree::{Tree, TreeNode};
+pub use value::{Fields, Record, Value};
 pub use vertex::Vertex;
-pub use view::{ExamCamera, PIXEL_OFFSETS, PinholeCamera, Rays, Sample, Samples, every_pixel};
+pub use view::{ExamCamera, PIXEL_OFFSETS, PinholeCamera, Sample, every_pixel};

@@ -1,47 +1,25 @@
 //! Questions that the grader asks the probe.
 
-use glam::{UVec2, Vec3};
+use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::interval::Interval;
+use crate::function::{AnyTable, BBoxHit, Corners, Geometry, Hit, Query, SampleRay, Table};
 use crate::packed;
 use crate::ray::Ray;
 use crate::shape::Shape;
-use crate::tree::TreeNode;
-use crate::view::{PinholeCamera, Rays, Samples};
 
-/// A question about one subject, such as a camera, a list of shapes or a tree. It consists of
-/// elements (samples, rays, a tree to build) that are answered separately, so that a panic affects
-/// only its own element.
+/// A question. It consists of elements (the rows of a table, or a tree or a picture as a whole) that
+/// are answered separately, so that a panic affects only its own element.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Question {
-    /// Calls `Camera::sample_ray` once for each sample.
-    Camera {
-        /// The camera that generates the rays.
-        camera: PinholeCamera,
-        /// The positions on its film.
-        samples: Samples,
-    },
-    /// Calls `hit` of every shape for each ray, and takes the closest hit. No tree is involved.
-    Shapes {
-        /// The shapes, tested one after the other.
-        #[serde(with = "packed")]
-        shapes: Vec<Shape>,
-        /// The rays to intersect with the shapes.
-        rays: Rays,
-    },
-    /// Calls `BBox::hit` once for each ray and its times.
-    #[serde(rename = "bbox")]
-    BBox {
-        /// The corner of the box with the smallest coordinates.
-        min: Vec3,
-        /// The corner of the box with the largest coordinates.
-        max: Vec3,
-        /// The rays, each with the `times` to pass to `BBox::hit`.
-        #[serde(with = "packed")]
-        queries: Vec<(Ray, Interval)>,
-    },
+    /// Calls `Camera::sample_ray` once per row.
+    SampleRay(Table<SampleRay>),
+    /// Finds the closest hit of one ray per row, without or with a tree.
+    Hit(Table<Hit>),
+    /// Calls `BBox::hit` once per row.
+    #[serde(rename = "bbox_hit")]
+    BBoxHit(Table<BBoxHit>),
     /// Calls `Bvh::build` once. The answer is the whole tree.
     Build {
         /// The primitives, each with a different material.
@@ -49,29 +27,6 @@ pub enum Question {
         shapes: Vec<Shape>,
         /// The maximum number of primitives in a leaf.
         max_leaf_size: u32,
-    },
-    /// Calls `Bvh::hit` once for each ray, on the tree that the question contains.
-    Traverse {
-        /// The primitives, in the order that the leaves index them.
-        #[serde(with = "packed")]
-        shapes: Vec<Shape>,
-        /// The nodes, in any order.
-        #[serde(with = "packed")]
-        nodes: Vec<TreeNode>,
-        /// The index of the root in `nodes`.
-        root: u32,
-        /// The rays to intersect with the tree.
-        rays: Rays,
-    },
-    /// Calls `Bvh::hit` once for each ray, on the tree that the submission's `Bvh::build` returns.
-    BuildAndTraverse {
-        /// The primitives to build the tree over.
-        #[serde(with = "packed")]
-        shapes: Vec<Shape>,
-        /// The maximum number of primitives in a leaf.
-        max_leaf_size: u32,
-        /// The rays to intersect with the built tree.
-        rays: Rays,
     },
     /// Renders a path-traced picture. The framework draws every random number.
     Radiance {
@@ -86,36 +41,39 @@ pub enum Question {
         /// The seed of all random numbers.
         seed: u64,
     },
-    /// Marks the end of the questions and has no elements. The answer to it shows that all earlier
-    /// questions have been answered.
-    Done,
 }
 
 impl Question {
-    /// Returns the number of elements, which is also the number of outcomes in the answer.
-    pub fn count(&self) -> usize {
+    /// Returns the question that asks for the closest hits of these rays.
+    pub fn hits(subject: Geometry, rays: Vec<Ray>) -> Self {
+        Question::Hit(Table::of_list(subject, rays))
+    }
+
+    /// Returns the question that asks when rays are in the box between these corners.
+    pub fn boxes(corners: Corners, queries: Vec<Query>) -> Self {
+        Question::BBoxHit(Table::of_list(corners, queries))
+    }
+
+    /// Returns the table, if the question is one.
+    pub fn table(&self) -> Option<&dyn AnyTable> {
         match self {
-            Question::Camera { camera, samples } => samples.count(camera.film),
-            Question::Shapes { rays, .. }
-            | Question::Traverse { rays, .. }
-            | Question::BuildAndTraverse { rays, .. } => rays.count(),
-            Question::BBox { queries, .. } => queries.len(),
-            Question::Build { .. } | Question::Radiance { .. } => 1,
-            Question::Done => 0,
+            Question::SampleRay(table) => Some(table),
+            Question::Hit(table) => Some(table),
+            Question::BBoxHit(table) => Some(table),
+            Question::Build { .. } | Question::Radiance { .. } => None,
         }
     }
 
-    /// Returns the rays of a question that asks for the hits of rays.
-    pub fn rays(&self) -> Option<&Rays> {
+    /// Returns the number of elements, which is also the number of outcomes in the answer.
+    pub fn count(&self) -> usize {
+        self.table().map_or(1, AnyTable::count)
+    }
+
+    /// Returns the number of pixels, across and up, if the question asks for a picture.
+    pub fn film(&self) -> Option<UVec2> {
         match self {
-            Question::Shapes { rays, .. }
-            | Question::Traverse { rays, .. }
-            | Question::BuildAndTraverse { rays, .. } => Some(rays),
-            Question::Camera { .. }
-            | Question::BBox { .. }
-            | Question::Build { .. }
-            | Question::Radiance { .. }
-            | Question::Done => None,
+            Question::Radiance { film, .. } => Some(*film),
+            other => other.table()?.film(),
         }
     }
 
@@ -127,23 +85,22 @@ impl Question {
 
     /// Returns an upper bound on the size of a well-formed answer on the wire, in bytes.
     pub fn max_answer_bytes(&self) -> usize {
-        // A Trace is 12 floats and a varint; a Panic is bounded text.
-        const ELEMENT_BYTES: usize = 64;
         const PANIC_BYTES: usize = 16 * 1024;
-        let elements = match self {
-            Question::Camera { .. }
-            | Question::Shapes { .. }
-            | Question::Traverse { .. }
-            | Question::BuildAndTraverse { .. }
-            | Question::BBox { .. }
-            | Question::Done => self.count(),
-            Question::Build { shapes, .. } => {
-                Self::max_nodes(shapes.len()).saturating_add(shapes.len())
-            }
-            Question::Radiance { film, .. } => (film.x as usize).saturating_mul(film.y as usize),
+        // A node is six floats and four numbers of variable length.
+        const NODE_BYTES: usize = 64;
+        const PIXEL_BYTES: usize = 12;
+        let bytes = match self {
+            Question::Build { shapes, .. } => Self::max_nodes(shapes.len())
+                .saturating_add(shapes.len())
+                .saturating_mul(NODE_BYTES),
+            Question::Radiance { film, .. } => (film.x as usize)
+                .saturating_mul(film.y as usize)
+                .saturating_mul(PIXEL_BYTES),
+            other => other.table().map_or(0, |table| {
+                // Each outcome has a tag.
+                table.count().saturating_mul(1 + table.max_row_bytes())
+            }),
         };
-        elements
-            .saturating_mul(ELEMENT_BYTES)
-            .saturating_add(PANIC_BYTES)
+        bytes.saturating_add(PANIC_BYTES)
     }
 }

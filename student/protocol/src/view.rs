@@ -1,7 +1,6 @@
 use glam::{UVec2, Vec2, Vec3, vec2};
 use serde::{Deserialize, Serialize};
 
-use crate::packed;
 use crate::ray::Ray;
 
 /// The parameters from which a submission's `Camera` is created.
@@ -25,6 +24,18 @@ pub struct Sample {
     pub offset: Vec2,
 }
 
+impl Sample {
+    /// Returns the sample at this index among those of [`every_pixel`].
+    pub(crate) fn of_position(film: UVec2, index: usize) -> Self {
+        let (pixel, offset) = (index / PIXEL_OFFSETS.len(), index % PIXEL_OFFSETS.len());
+        let width = film.x as usize;
+        Sample {
+            pixel: UVec2::new((pixel % width) as u32, (pixel / width) as u32),
+            offset: PIXEL_OFFSETS[offset],
+        }
+    }
+}
+
 /// The five positions in every pixel at which deterministic pictures are compared.
 pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.5, 0.5),
@@ -33,37 +44,6 @@ pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.125, 0.625),
     vec2(0.625, 0.875),
 ];
-
-/// The positions on the film that a question asks about.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Samples {
-    /// The listed positions.
-    List(Vec<Sample>),
-    /// The five [`PIXEL_OFFSETS`] in every pixel, row by row from the bottom.
-    EveryPixel,
-}
-
-impl Samples {
-    /// Returns all positions on this film, in order.
-    pub fn to_vec(&self, film: UVec2) -> Vec<Sample> {
-        match self {
-            Samples::List(list) => list.clone(),
-            Samples::EveryPixel => every_pixel(film).collect(),
-        }
-    }
-
-    /// Returns the number of positions on this film.
-    pub fn count(&self, film: UVec2) -> usize {
-        match self {
-            Samples::List(list) => list.len(),
-            // Saturates if the film has more positions than a `usize` can count.
-            Samples::EveryPixel => (film.x as usize)
-                .saturating_mul(film.y as usize)
-                .saturating_mul(PIXEL_OFFSETS.len()),
-        }
-    }
-}
 
 /// Returns the [`PIXEL_OFFSETS`] in every pixel of a film, row by row from the bottom.
 pub fn every_pixel(film: UVec2) -> impl Iterator<Item = Sample> {
@@ -98,35 +78,5 @@ impl ExamCamera {
             self.eye,
             self.forward + self.right * position.x + self.up * position.y,
         )
-    }
-}
-
-/// The rays that a question asks about.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Rays {
-    /// The listed rays.
-    List(#[serde(with = "packed")] Vec<Ray>),
-    /// The rays of a picture, through the five [`PIXEL_OFFSETS`] in every pixel.
-    View(ExamCamera),
-}
-
-impl Rays {
-    /// Returns all rays, in order.
-    pub fn to_vec(&self) -> Vec<Ray> {
-        match self {
-            Rays::List(list) => list.clone(),
-            Rays::View(view) => every_pixel(view.film)
-                .map(|sample| view.ray(sample))
-                .collect(),
-        }
-    }
-
-    /// Returns the number of rays.
-    pub fn count(&self) -> usize {
-        match self {
-            Rays::List(list) => list.len(),
-            Rays::View(view) => Samples::EveryPixel.count(view.film),
-        }
     }
 }

@@ -4,7 +4,8 @@
 //!   length: u32 LE | nonce: u64 LE | body: `length` bytes, postcard
 //! ```
 //!
-//! An answer repeats the nonce of its question. The reader specifies the maximum length of a body.
+//! An answer repeats the nonce of its question. A frame without a body marks the end of the questions,
+//! and is sent back as it is: so answers that belong to no question are detected. The reader specifies the maximum length of a body.
 //! The length in the header is checked against this maximum *before* anything is allocated.
 //! Decoding fails if there are bytes after the value.
 
@@ -60,6 +61,11 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Returns whether the frame marks the end of the questions.
+    pub fn is_end(&self) -> bool {
+        self.body.is_empty()
+    }
+
     /// Decodes the answer in the frame. This method is not generic, so it is compiled as part of
     /// this crate, with this crate's optimisation level, whichever crate calls it.
     pub fn answer(&self) -> Result<Answer, WireError> {
@@ -110,6 +116,13 @@ pub fn append_question(
     question: &Question,
 ) -> Result<Vec<u8>, WireError> {
     append(bytes, nonce, question)
+}
+
+/// Appends the frame that marks the end of the questions.
+pub fn append_end(mut bytes: Vec<u8>, nonce: u64) -> Vec<u8> {
+    bytes.extend(0u32.to_le_bytes());
+    bytes.extend(nonce.to_le_bytes());
+    bytes
 }
 
 /// Writes one frame, without flushing.

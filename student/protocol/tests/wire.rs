@@ -5,8 +5,8 @@ use glam::{UVec2, Vec2, Vec3};
 use proptest::prelude::*;
 use protocol::wire::{self, WireError};
 use protocol::{
-    Answer, ElementOutcome, Interval, Panic, PinholeCamera, Question, Ray, Rays, Sample, Samples,
-    Shape, Trace, Tree, TreeNode,
+    Answer, ElementOutcome, Geometry, Interval, Panic, PinholeCamera, Question, Ray, Sample, Shape,
+    Table, Trace, Tree, TreeNode,
 };
 
 fn vec3() -> impl Strategy<Value = Vec3> {
@@ -71,25 +71,20 @@ fn question() -> impl Strategy<Value = Question> {
         any::<[u32; 2]>(),
         prop::collection::vec(sample, 0..9),
     )
-        .prop_map(
-            |((vertical_fov, aspect_ratio), film, samples)| Question::Camera {
-                camera: PinholeCamera {
-                    vertical_fov,
-                    aspect_ratio,
-                    film: UVec2::from_array(film),
-                },
-                samples: Samples::List(samples),
-            },
-        );
-    let shapes = (
+        .prop_map(|((vertical_fov, aspect_ratio), film, samples)| {
+            let camera = PinholeCamera {
+                vertical_fov,
+                aspect_ratio,
+                film: UVec2::from_array(film),
+            };
+            Question::SampleRay(Table::of_list(camera, samples))
+        });
+    let hits = (
         prop::collection::vec(shape(), 0..9),
         prop::collection::vec(ray(), 0..9),
     )
-        .prop_map(|(shapes, rays)| Question::Shapes {
-            shapes,
-            rays: Rays::List(rays),
-        });
-    prop_oneof![camera, shapes, Just(Question::Done)]
+        .prop_map(|(shapes, rays)| Question::hits(Geometry::List { shapes }, rays));
+    prop_oneof![camera, hits]
 }
 
 fn answer() -> impl Strategy<Value = Answer> {
@@ -157,7 +152,7 @@ proptest! {
         trace in trace(),
     ) {
         let answer = Answer::Hits(vec![ElementOutcome::Value(Some(trace)); rays.len()]);
-        let question = Question::Shapes { shapes: Vec::new(), rays: Rays::List(rays) };
+        let question = Question::hits(Geometry::List { shapes: Vec::new() }, rays);
         prop_assert!(bytes(&answer).len() <= question.max_answer_bytes());
     }
 }
@@ -219,15 +214,19 @@ fn rejects_an_oversized_frame_before_reading_its_body() {
 
 #[test]
 fn questions_are_sent_one_after_the_other_in_frames_of_any_allowed_length() {
+    let question = Question::hits(Geometry::List { shapes: Vec::new() }, Vec::new());
     let mut sent = Vec::new();
-    wire::write(&mut sent, 1, &Question::Done).unwrap();
-    let sent = wire::append_question(sent, 2, &Question::Done).unwrap();
-    let length = sent.len() / 2 - 12;
+    wire::write(&mut sent, 1, &question).unwrap();
+    let length = sent.len() - 12;
+    let sent = wire::append_question(sent, 2, &question).unwrap();
+    let sent = wire::append_end(sent, 3);
     let mut from = sent.as_slice();
     for nonce in [1, 2] {
         let frame = wire::read(&mut from, length).unwrap();
-        assert_eq!(frame.nonce, nonce);
-        assert_eq!(frame.decode::<Question>().unwrap(), Question::Done);
+        assert_eq!((frame.nonce, frame.is_end()), (nonce, false));
+        assert_eq!(frame.decode::<Question>().unwrap(), question);
     }
+    let end = wire::read(&mut from, 0).unwrap();
+    assert_eq!((end.nonce, end.is_end()), (3, true));
     assert!(from.is_empty());
 }

@@ -1,9 +1,9 @@
 //! Formats one element of a submitted or an expected answer in full.
 
-use protocol::{Answer, ElementOutcome, Tree};
+use protocol::{Answer, AnyTable, ElementOutcome, Record, Tree, Words};
 
-use crate::describe::{number, point, ray, span, trace, uv};
-use crate::exam::{ExamQuestion, ExpectedHit, Key, Surface};
+use crate::describe::{fill, number, point, uv};
+use crate::exam::{ExamQuestion, Key, Surface};
 use crate::sanitize::sanitize;
 
 /// Maximum length of a panic message, in characters.
@@ -15,15 +15,34 @@ const MAX_NODES: usize = 40;
 /// Formats a submission's answer to one element of a question.
 pub fn got(answer: &Answer, element: usize) -> String {
     match answer {
-        Answer::Rays(rays) => outcome(rays.get(element), ray),
-        Answer::Hits(hits) => outcome(hits.get(element), |hit| trace(hit.as_ref())),
-        Answer::Spans(spans) => outcome(spans.get(element), |times| span(*times)),
         Answer::Tree(built) => outcome(Some(built), tree),
         Answer::Picture(picture) => outcome(Some(picture), |pixels| match pixels.get(element) {
             Some(pixel) => point(*pixel),
             None => format!("{} pixels", pixels.len()),
         }),
-        Answer::Done => "no answer".to_owned(),
+        Answer::Rays(_) | Answer::Hits(_) | Answer::Spans(_) => {
+            let rows = answer.rows().unwrap_or_default();
+            outcome(rows.get(element), |record| {
+                returned(answer.words(), *record)
+            })
+        }
+    }
+}
+
+/// Formats what a function returned in one row of a table.
+fn returned(words: Option<Words>, record: Option<&dyn Record>) -> String {
+    match (words, record) {
+        (Some(words), Some(record)) => fill(words.record, &[record]),
+        (Some(words), None) => words.absent.to_owned(),
+        (None, _) => String::new(),
+    }
+}
+
+/// Formats whether a function returned something in one row of a table.
+pub(crate) fn presence(table: &dyn AnyTable, record: Option<&dyn Record>) -> String {
+    match record {
+        Some(record) => fill(table.words().present, &[record]),
+        None => table.words().absent.to_owned(),
     }
 }
 
@@ -31,12 +50,9 @@ pub fn got(answer: &Answer, element: usize) -> String {
 /// several.
 pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
     match &question.key {
-        Key::Rays { directions, .. } => {
-            let toward = point(directions[element]);
-            vec![format!("ray from (0, 0, 0) toward {toward}")]
-        }
-        Key::Hits { hits, .. } => {
-            vec![hits[element].as_ref().map_or("no hit".to_owned(), hit)]
+        Key::Table { rows, .. } => {
+            let words = question.question.table().map(AnyTable::words);
+            vec![returned(words, rows.record(element).as_deref())]
         }
         Key::FirstHits { hits, alternatives } => {
             let alternatives = alternatives
@@ -46,7 +62,6 @@ pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
             all.map(|answer| answer.as_ref().map_or("no hit".to_owned(), surface))
                 .collect()
         }
-        Key::Spans { spans } => vec![span(spans[element])],
         Key::Tree { checks, sweep_cost } => {
             let cost = sweep_cost.map(|cost| format!("its SAH cost is about {cost:.2}"));
             let checks = checks.iter().map(|check| check.requirement().to_owned());
@@ -89,17 +104,6 @@ fn tree(tree: &Tree) -> String {
         rest => format!("\n  … and {rest} more nodes"),
     };
     format!("root {}{nodes}{rest}", tree.root)
-}
-
-fn hit(hit: &ExpectedHit) -> String {
-    format!(
-        "distance {}, position {}, normal {}, uv {}, material {}",
-        number(hit.distance),
-        point(hit.position),
-        point(hit.normal),
-        uv(hit.uv),
-        hit.material
-    )
 }
 
 fn surface(surface: &Surface) -> String {

@@ -1,35 +1,23 @@
 //! Answer keys: the data that [`judge`](mod@crate::judge) compares answers with.
 
 use glam::Vec3;
-use protocol::{Interval, Ray, Trace, packed};
+use protocol::{
+    Answer, ElementOutcome, Fields, Interval, Output, Ray, Record, Trace, Value, packed,
+};
 use serde::{Deserialize, Serialize};
 
 /// The correct answers to one question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Key {
-    /// Key of a `Camera` question: one ray per sample.
-    Rays {
-        /// Parts of each ray that are compared.
-        checks: Vec<RayCheck>,
-        /// The expected directions. Every ray starts at the origin, with range `[0, ∞)`.
-        #[serde(with = "packed")]
-        directions: Vec<Vec3>,
-    },
-    /// Key of a `Shapes`, `Traverse` or `BuildAndTraverse` question with a list of rays. Every
-    /// answer must be correct.
-    Hits {
-        /// Parts of each hit that are compared, in addition to whether there is a hit.
-        checks: Vec<HitCheck>,
-        /// The expected hit of each ray.
-        #[serde(with = "packed")]
-        hits: Vec<Option<ExpectedHit>>,
-    },
-    /// Key of a `BBox` question: for each query, the interval in which the ray is inside the box.
-    Spans {
-        /// The expected interval of each query.
-        #[serde(with = "packed")]
-        spans: Vec<Option<Interval>>,
+    /// Key of a table. Every row must be right, or, in a picture, most of them.
+    Table {
+        /// The names of the quantities that are compared, in addition to whether the function
+        /// returns anything: fields of what it returns, or `unit_` and the name of a direction, for
+        /// its length.
+        judged: Vec<String>,
+        /// The expected row of each call.
+        rows: ExpectedRows,
     },
     /// Key of a `Build` question: properties of the tree, and optionally its cost.
     Tree {
@@ -41,8 +29,7 @@ pub enum Key {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sweep_cost: Option<f64>,
     },
-    /// Key of a `Shapes`, `Traverse` or `BuildAndTraverse` question with a view. Partial credit
-    /// depends on the number of correct positions.
+    /// Key of a picture of first hits. Partial credit depends on the number of correct positions.
     FirstHits {
         /// The expected first hit at each position.
         #[serde(with = "packed")]
@@ -62,38 +49,120 @@ pub enum Key {
     },
 }
 
-/// A check on a camera ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RayCheck {
-    /// The ray starts at (0, 0, 0).
-    Origin,
-    /// The direction is correct, regardless of its length.
-    Direction,
-    /// The direction has length one.
-    UnitLength,
-    /// The range is `[0, ∞)`.
-    Range,
+impl Key {
+    /// Returns the key of a table in which these quantities are judged.
+    pub fn table(judged: &[&str], rows: ExpectedRows) -> Key {
+        Key::Table {
+            judged: judged.iter().map(|name| (*name).to_owned()).collect(),
+            rows,
+        }
+    }
+
+    /// Returns the key of intervals in which rays are inside a box.
+    pub fn spans(spans: Vec<Option<Interval>>) -> Key {
+        Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
+    }
 }
 
-/// A check on a hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+/// What a function is expected to return in each row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum HitCheck {
-    /// `Trace::distance` is correct.
-    Distance,
-    /// `Trace::position` is correct.
-    Position,
-    /// `Trace::normal` is correct after normalisation.
-    Normal,
-    /// `Trace::normal` has length one.
-    UnitNormal,
-    /// `Trace::uv` is correct, with u modulo 1.
-    Uv,
-    /// `Trace::origin` is correct.
-    Origin,
-    /// `Trace::material` is correct.
-    Material,
+pub enum ExpectedRows {
+    /// The directions of camera rays. Every ray starts at the origin, with range `[0, ∞)`.
+    Rays(#[serde(with = "packed")] Vec<Vec3>),
+    /// The hits of rays.
+    Hits(#[serde(with = "packed")] Vec<Option<Trace>>),
+    /// The intervals in which rays are inside a box.
+    Spans(#[serde(with = "packed")] Vec<Option<Interval>>),
+}
+
+impl ExpectedRows {
+    /// Returns the number of rows.
+    pub fn count(&self) -> usize {
+        match self {
+            ExpectedRows::Rays(rows) => rows.len(),
+            ExpectedRows::Hits(rows) => rows.len(),
+            ExpectedRows::Spans(rows) => rows.len(),
+        }
+    }
+
+    /// Returns the names of the fields in each row.
+    pub fn names(&self) -> &'static [&'static str] {
+        match self {
+            ExpectedRows::Rays(_) => <Ray as Output>::NAMES,
+            ExpectedRows::Hits(_) => <Option<Trace> as Output>::NAMES,
+            ExpectedRows::Spans(_) => <Option<Interval> as Output>::NAMES,
+        }
+    }
+
+    /// Returns whether the function returns something in a row.
+    pub fn is_present(&self, row: usize) -> bool {
+        match self {
+            ExpectedRows::Rays(rows) => row < rows.len(),
+            ExpectedRows::Hits(rows) => rows.get(row).is_some_and(Option::is_some),
+            ExpectedRows::Spans(rows) => rows.get(row).is_some_and(Option::is_some),
+        }
+    }
+
+    /// Returns the expected record of a row, or `None` if the function returns none, or if there is no
+    /// such row.
+    pub fn record(&self, row: usize) -> Option<Box<dyn Record>> {
+        Some(match self {
+            ExpectedRows::Rays(rows) => Box::new(camera_ray(*rows.get(row)?)),
+            ExpectedRows::Hits(rows) => Box::new((*rows.get(row)?)?),
+            ExpectedRows::Spans(rows) => Box::new((*rows.get(row)?)?),
+        })
+    }
+
+    /// Returns the correct answer to a table with these rows.
+    pub fn answer(&self) -> Answer {
+        fn values<T>(rows: impl Iterator<Item = T>) -> Vec<ElementOutcome<T>> {
+            rows.map(ElementOutcome::Value).collect()
+        }
+        match self {
+            ExpectedRows::Rays(rows) => {
+                Answer::Rays(values(rows.iter().map(|dir| camera_ray(*dir))))
+            }
+            ExpectedRows::Hits(rows) => Answer::Hits(values(rows.iter().copied())),
+            ExpectedRows::Spans(rows) => Answer::Spans(values(rows.iter().copied())),
+        }
+    }
+
+    /// Returns one of the rows.
+    pub(super) fn single(&self, row: usize) -> ExpectedRows {
+        match self {
+            ExpectedRows::Rays(rows) => ExpectedRows::Rays(vec![rows[row]]),
+            ExpectedRows::Hits(rows) => ExpectedRows::Hits(vec![rows[row]]),
+            ExpectedRows::Spans(rows) => ExpectedRows::Spans(vec![rows[row]]),
+        }
+    }
+
+    /// Returns the rows in which `change` replaces every field.
+    pub fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> ExpectedRows {
+        fn each<R: Record + Copy>(
+            rows: &[Option<R>],
+            change: impl Fn(&mut dyn Record),
+        ) -> Vec<Option<R>> {
+            let mut rows = rows.to_vec();
+            rows.iter_mut().flatten().for_each(|row| change(row));
+            rows
+        }
+        let change = |record: &mut dyn Record| record.change(change);
+        match self {
+            ExpectedRows::Rays(_) => self.clone(),
+            ExpectedRows::Hits(rows) => ExpectedRows::Hits(each(rows, change)),
+            ExpectedRows::Spans(rows) => ExpectedRows::Spans(each(rows, change)),
+        }
+    }
+}
+
+/// Returns the camera ray with this direction.
+fn camera_ray(dir: Vec3) -> Ray {
+    Ray {
+        origin: Vec3::ZERO,
+        dir,
+        range: Interval::AHEAD,
+    }
 }
 
 /// A check on a tree. The checks are independent of each other: where a check needs correct boxes,
@@ -125,36 +194,6 @@ impl TreeCheck {
             TreeCheck::Split => "no leaf holds half of the primitives",
             TreeCheck::LeafSize => "no leaf holds more than `max_leaf_size` primitives",
             TreeCheck::Stops => "nodes with at most `max_leaf_size` primitives are leaves",
-        }
-    }
-}
-
-/// The correct hit of one ray of a `Hits` key.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ExpectedHit {
-    /// Distance along the ray.
-    pub distance: f32,
-    /// Position of the hit.
-    pub position: Vec3,
-    /// Unit surface normal at the hit.
-    pub normal: Vec3,
-    /// Texture coordinates at the hit.
-    pub uv: glam::Vec2,
-    /// Material of the primitive that was hit.
-    pub material: u32,
-}
-
-impl ExpectedHit {
-    /// Returns the trace with which a correct submission answers to this ray.
-    pub fn to_trace(&self, ray: &Ray) -> Trace {
-        Trace {
-            distance: self.distance,
-            position: self.position,
-            normal: self.normal,
-            uv: self.uv,
-            origin: ray.origin,
-            material: self.material,
         }
     }
 }

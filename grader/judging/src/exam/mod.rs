@@ -14,8 +14,8 @@ use crate::drawing_data::DrawingData;
 use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
 
-pub use key::{ExpectedHit, HitCheck, Key, RayCheck, Surface, TreeCheck};
-pub use subset::{question_subset, single_answer};
+pub use key::{ExpectedRows, Key, Surface, TreeCheck};
+pub use subset::question_subset;
 
 /// An exam, worth 100 points in total.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use protocol::ElementOutcome;
 
 use super::Threshold;
-use super::measure::in_units_of;
+use crate::types::multiple::in_units_of;
 
 /// The error of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]

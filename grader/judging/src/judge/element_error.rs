@@ -3,7 +3,7 @@
 use protocol::Answer;
 
 use super::{Deviation, FailureKind, Measurement, judge, measure, mismatches};
-use crate::exam::{ExamQuestion, single_answer};
+use crate::exam::ExamQuestion;
 
 /// Returns what is wrong with the answer to one element, and by how much, such as "distance; the
 /// error is 12 times the tolerance". Returns `None` if it is correct.
@@ -12,7 +12,7 @@ use crate::exam::{ExamQuestion, single_answer};
 ///
 /// If the question has no such element.
 pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -> Option<String> {
-    let Some(answer) = single_answer(answer, element) else {
+    let Some(answer) = answer.single(element) else {
         return Some("there is no answer".to_owned());
     };
     let question = question.single(element);
@@ -56,43 +56,40 @@ fn with_size(what: &str, deviation: f64) -> String {
 #[cfg(test)]
 mod tests {
     use glam::{Vec2, Vec3};
-    use protocol::{ElementOutcome, Question, Ray, Rays, Trace};
+    use protocol::{ElementOutcome, Geometry, Question, Ray, Trace};
 
     use super::*;
-    use crate::exam::{ExpectedHit, HitCheck, Key, Surface};
+    use crate::exam::{ExpectedRows, Key, Surface};
     use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
-    use crate::tests::{EXPECTED, HIT, sphere};
+    use crate::tests::{HIT, sphere};
 
     fn question(key: Key) -> ExamQuestion {
         let ray = |x| Ray::new(Vec3::new(x, 0.0, 0.0), Vec3::NEG_Z);
         let shapes = vec![sphere(Vec3::NEG_Z * 3.0, 1.0)];
-        let rays = Rays::List(vec![ray(5.0), ray(0.0)]);
-        ExamQuestion::new(Question::Shapes { shapes, rays }, key)
+        let question = Question::hits(Geometry::List { shapes }, vec![ray(5.0), ray(0.0)]);
+        ExamQuestion::new(question, key)
+    }
+
+    fn hit(distance: f32) -> Trace {
+        Trace {
+            distance,
+            normal: Vec3::Z,
+            ..HIT
+        }
     }
 
     /// A miss, and a hit at this distance.
     fn answer(distance: f32) -> Answer {
-        let hit = Trace {
-            distance,
-            normal: Vec3::Z,
-            ..HIT
-        };
         Answer::Hits(vec![
             ElementOutcome::Value(None),
-            ElementOutcome::Value(Some(hit)),
+            ElementOutcome::Value(Some(hit(distance))),
         ])
     }
 
     #[test]
     fn names_the_quantity_and_the_size_of_the_error_in_a_table() {
-        let expected = ExpectedHit {
-            distance: 2.0,
-            ..EXPECTED
-        };
-        let question = question(Key::Hits {
-            checks: vec![HitCheck::Distance],
-            hits: vec![None, Some(expected)],
-        });
+        let hits = ExpectedRows::Hits(vec![None, Some(hit(2.0))]);
+        let question = question(Key::table(&["distance"], hits));
         assert_eq!(element_error(&question, &answer(2.0), 1), None);
         let error = element_error(&question, &answer(2.002), 1).expect("this is wrong");
         assert!(error.starts_with("distance; the error is "), "{error}");

@@ -4,28 +4,24 @@ mod credit;
 mod deviation;
 mod element_error;
 mod first_hits;
-mod hits;
-pub(crate) mod measure;
 mod mismatch;
 pub(crate) mod quantity;
 mod radiance;
-pub(crate) mod rays;
-pub(crate) mod scale;
-mod spans;
+mod scale;
+pub(crate) mod table;
 mod threshold;
 pub mod tree;
 
-use protocol::{Answer, ElementOutcome, Panic, Samples};
+use protocol::{Answer, Panic, Question};
 
 use crate::exam::{ExamQuestion, Key};
 
 use first_hits::FirstHits;
-use hits::Hits;
 use radiance::Radiance;
-use rays::{CameraRays, RayPicture};
-use spans::Spans;
+use table::TableAnswer;
 use tree::{TreeAnswer, TreeCriteria};
 
+pub use crate::types::Tolerance;
 pub use credit::Credit;
 pub use deviation::{Deviation, Measurement};
 pub use element_error::element_error;
@@ -136,57 +132,20 @@ fn comparison<'a>(
     question: &'a ExamQuestion,
     answer: &'a Answer,
 ) -> Option<Box<dyn Comparison + 'a>> {
-    use protocol::Question as Q;
-
     Some(match (&question.key, answer, &question.question) {
-        (Key::Rays { checks, directions }, Answer::Rays(rays), Q::Camera { samples, .. }) => {
-            let rays = CameraRays {
-                checks,
-                directions,
-                rays,
-            };
-            match samples {
-                Samples::EveryPixel => Box::new(RayPicture(rays)),
-                Samples::List(_) => Box::new(rays),
-            }
-        }
-        (
-            Key::Hits { checks, hits },
-            Answer::Hits(answers),
-            Q::Shapes { rays, .. } | Q::Traverse { rays, .. } | Q::BuildAndTraverse { rays, .. },
-        ) => Box::new(Hits {
-            checks,
-            shapes: scale::shapes(&question.question),
-            rays: rays.to_vec(),
-            hits,
-            answers,
-        }),
-        (
-            Key::FirstHits { hits, alternatives },
-            Answer::Hits(answers),
-            Q::Shapes { shapes, rays }
-            | Q::Traverse { shapes, rays, .. }
-            | Q::BuildAndTraverse { shapes, rays, .. },
-        ) => Box::new(FirstHits {
-            scale: scale::of_picture(shapes, rays),
-            hits,
-            alternatives,
-            answers,
-        }),
-        (Key::Spans { spans }, Answer::Spans(answers), Q::BBox { min, max, queries }) => {
-            Box::new(Spans {
-                scales: queries
-                    .iter()
-                    .map(|(ray, _)| scale::of_box(*min, *max, ray))
-                    .collect(),
-                spans,
+        (Key::Table { .. }, ..) => Box::new(TableAnswer::new(question, answer)?),
+        (Key::FirstHits { hits, alternatives }, Answer::Hits(answers), Question::Hit(table)) => {
+            Box::new(FirstHits {
+                scale: scale::of_picture(table),
+                hits,
+                alternatives,
                 answers,
             })
         }
         (
             Key::Tree { checks, sweep_cost },
             Answer::Tree(answer),
-            Q::Build {
+            Question::Build {
                 shapes,
                 max_leaf_size,
             },
@@ -212,76 +171,6 @@ fn comparison<'a>(
             answer,
         }),
         // An exam whose key does not fit its question is rejected when it is loaded.
-        (
-            Key::Rays { .. }
-            | Key::Hits { .. }
-            | Key::FirstHits { .. }
-            | Key::Spans { .. }
-            | Key::Tree { .. }
-            | Key::Radiance { .. },
-            _,
-            _,
-        ) => return None,
+        (Key::FirstHits { .. } | Key::Tree { .. } | Key::Radiance { .. }, ..) => return None,
     })
-}
-
-/// A table: an answer with several elements, each of which must be correct.
-trait Table {
-    /// The value of an element.
-    type Value;
-
-    /// Returns the submitted elements.
-    fn outcomes(&self) -> &[ElementOutcome<Self::Value>];
-
-    /// Returns the number of elements in the key.
-    fn count(&self) -> usize;
-
-    /// Returns the deviations of all checks on an element.
-    fn deviations(&self, element: usize, value: &Self::Value) -> Vec<Deviation>;
-
-    /// Returns the error of an element whose deviation with this index is the first wrong one.
-    fn failure(&self, element: usize, value: &Self::Value, check: usize) -> FailureKind;
-}
-
-impl<T: Table> Comparison for T {
-    fn judge(&self) -> Judgement {
-        let wanted = self.count();
-        if self.outcomes().len() != wanted {
-            return Judgement::protocol(
-                "the number of answers differs from the number of questions",
-            );
-        }
-        let outcomes = self.outcomes().iter().enumerate();
-        let mut failures = outcomes.filter_map(|(element, outcome)| {
-            let kind = match outcome {
-                ElementOutcome::Value(value) => {
-                    let deviations = self.deviations(element, value);
-                    let wrong = deviations.iter().position(|check| !check.is_right());
-                    wrong.map(|check| self.failure(element, value, check))
-                }
-                ElementOutcome::Panicked(panic) => Some(FailureKind::Panicked(panic.clone())),
-                // Elements are skipped only after panics, so this is never the first failure.
-                ElementOutcome::Skipped => Some(FailureKind::Protocol("skipped".to_owned())),
-            };
-            Some((element, kind?))
-        });
-        match failures.next() {
-            None => Judgement::RIGHT,
-            Some((element, kind)) => Judgement::wrong(Failure {
-                element,
-                kind,
-                count: Some((1 + failures.count(), wanted)),
-            }),
-        }
-    }
-
-    fn measure(&self) -> Vec<Measurement> {
-        if self.outcomes().len() != self.count() {
-            return deviation::worst_by_threshold([Deviation::WRONG]);
-        }
-        let elements = self.outcomes().iter().enumerate();
-        deviation::worst_by_threshold(elements.flat_map(|(element, outcome)| {
-            deviation::outcome_deviations(outcome, |value| self.deviations(element, value))
-        }))
-    }
 }

@@ -6,11 +6,11 @@ use glam::Vec3;
 use protocol::ElementOutcome;
 
 use crate::describe;
-use crate::judge::measure::in_units_of;
 use crate::judge::{
     Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
     Threshold, deviation,
 };
+use crate::types::multiple::in_units_of;
 
 /// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
 /// expected pixel.

@@ -1,93 +1,103 @@
 //! The scale of a question: how large the numbers are with which an answer is computed. Rounding
 //! errors grow with them, so lengths are compared relative to the scale, never absolutely.
 
-use glam::Vec3;
-use protocol::{Question, Ray, Rays, Shape};
+use protocol::{AnyTable, Record, Value};
 
-/// Returns the scale of hits with these shapes: the largest of the ray's distance to the expected
-/// hit, if there is one, and the coordinates of its origin and of all shapes.
-pub(crate) fn of_hit(shapes: &[Shape], ray: &Ray, distance: Option<f32>) -> f32 {
-    let shapes = shapes.iter().map(of_shape);
-    let scale = shapes.fold(of_point(ray.origin), f32::max);
-    distance.map_or(scale, |distance| scale.max(distance.abs()))
+use crate::types;
+
+/// The scale where nothing has a position in space: the length of directions.
+const UNIT: f32 = 1.0;
+
+/// The scales of a table's rows.
+pub(crate) struct Scales<'a> {
+    table: &'a dyn AnyTable,
+    /// The largest coordinate of the subject.
+    subject: Option<f32>,
 }
 
-/// Returns the scale of a picture of these shapes: the largest coordinate of the eye and of all
-/// shapes.
-pub(crate) fn of_picture(shapes: &[Shape], rays: &Rays) -> f32 {
-    let eye = match rays {
-        Rays::List(list) => list.first().map_or(Vec3::ZERO, |ray| ray.origin),
-        Rays::View(view) => view.eye,
-    };
-    shapes.iter().map(of_shape).fold(of_point(eye), f32::max)
-}
+impl<'a> Scales<'a> {
+    pub(crate) fn new(table: &'a dyn AnyTable) -> Self {
+        Scales {
+            table,
+            subject: largest_coordinate(table.subject()),
+        }
+    }
 
-/// Returns the scale of the times at which a ray enters and leaves a box: its largest coordinate.
-pub(crate) fn of_box(min: Vec3, max: Vec3, ray: &Ray) -> f32 {
-    let corners = of_point(min).max(of_point(max));
-    corners.max(of_point(ray.origin))
-}
-
-/// Returns the shapes that a question with rays is about.
-pub(crate) fn shapes(question: &Question) -> &[Shape] {
-    match question {
-        Question::Shapes { shapes, .. }
-        | Question::Traverse { shapes, .. }
-        | Question::BuildAndTraverse { shapes, .. }
-        | Question::Build { shapes, .. } => shapes,
-        Question::Camera { .. }
-        | Question::BBox { .. }
-        | Question::Radiance { .. }
-        | Question::Done => &[],
+    /// Returns the scale of a row: the largest of the distance that is expected there, and the coordinates
+    /// of the arguments and of the subject.
+    pub(crate) fn of_row(&self, row: usize, expected: Option<&dyn Record>) -> f32 {
+        let input = self.table.input(row);
+        let input = input.as_deref().and_then(largest_coordinate);
+        let largest = self.subject.into_iter().chain(input).reduce(f32::max);
+        let lengths = expected.into_iter().flat_map(|record| record.values());
+        let lengths = lengths.filter_map(|value| {
+            let Value::Length(length) = value else {
+                return None;
+            };
+            Some(length.abs())
+        });
+        largest.map_or(UNIT, |largest| lengths.fold(largest, f32::max))
     }
 }
 
-fn of_shape(shape: &Shape) -> f32 {
-    match shape {
-        Shape::Triangle { vertices, .. } => {
-            let corners = vertices.iter().map(|vertex| of_point(vertex.position));
-            corners.fold(0.0, f32::max)
-        }
-        Shape::FlatTriangle { corners, .. } => {
-            corners.map(of_point).into_iter().fold(0.0, f32::max)
-        }
-        Shape::Sphere { center, radius, .. } => of_point(*center) + radius,
-    }
+/// Returns the scale of a picture: the largest coordinate of the eye and of the subject.
+pub(crate) fn of_picture(table: &dyn AnyTable) -> f32 {
+    Scales::new(table).of_row(0, None)
 }
 
-fn of_point(point: Vec3) -> f32 {
-    point.abs().max_element()
+fn largest_coordinate(record: &dyn Record) -> Option<f32> {
+    let coordinates = record.values();
+    let coordinates = coordinates.filter_map(|value| types::of(&value).largest_coordinate());
+    coordinates.reduce(f32::max)
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::vec3;
-    use protocol::Interval;
+    use glam::{Vec3, vec3};
+    use protocol::{Corners, Geometry, Interval, Query, Ray, Shape, Table, Trace};
 
     use super::*;
+
+    fn scale(table: &dyn AnyTable, distance: Option<f32>) -> f32 {
+        let trace = distance.map(|distance| Trace {
+            distance,
+            position: Vec3::ZERO,
+            normal: Vec3::Z,
+            uv: glam::Vec2::ZERO,
+            origin: Vec3::ZERO,
+            material: 0,
+        });
+        let trace = trace.as_ref().map(|trace| trace as &dyn Record);
+        Scales::new(table).of_row(0, trace)
+    }
 
     #[test]
     fn the_largest_number_is_the_scale() {
         let sphere = crate::tests::sphere(vec3(0.0, -4.0, 1.0), 0.5);
         let ray = Ray::new(vec3(3.0, 0.0, 0.0), Vec3::X);
-        assert_eq!(of_hit(&[], &ray, None), 3.0);
-        assert_eq!(of_hit(&[sphere], &ray, None), 4.5);
-        assert_eq!(of_hit(&[sphere], &ray, Some(7.0)), 7.0);
-        assert_eq!(of_hit(&[sphere], &ray, Some(-7.0)), 7.0);
-        assert_eq!(of_box(Vec3::splat(-8.0), Vec3::ONE, &ray), 8.0);
-        assert_eq!(of_box(Vec3::ONE, Vec3::splat(8.0), &ray), 8.0);
+        let hits =
+            |shapes, ray| Table::<protocol::Hit>::of_list(Geometry::List { shapes }, vec![ray]);
+        assert_eq!(scale(&hits(vec![], ray), None), 3.0);
+        assert_eq!(scale(&hits(vec![sphere], ray), None), 4.5);
+        assert_eq!(scale(&hits(vec![sphere], ray), Some(7.0)), 7.0);
+        assert_eq!(scale(&hits(vec![sphere], ray), Some(-7.0)), 7.0);
         let far = Ray {
             origin: Vec3::splat(-20.0),
             range: Interval::AHEAD,
             ..ray
         };
-        assert_eq!(of_box(Vec3::ZERO, Vec3::ONE, &far), 20.0);
-        let spheres = vec![sphere];
-        for (eye, expected) in [(ray, 4.5), (far, 20.0)] {
-            let rays = Rays::List(vec![eye]);
-            assert_eq!(of_picture(&spheres, &rays), expected);
-            let shapes = spheres.clone();
-            assert_eq!(super::shapes(&Question::Shapes { shapes, rays }), spheres);
+        assert_eq!(of_picture(&hits(vec![sphere], far)), 20.0);
+        let times = Interval::new(0.0, 1e9);
+        for (min, max, ray, expected) in [
+            (Vec3::splat(-8.0), Vec3::ONE, ray, 8.0),
+            (Vec3::ONE, Vec3::splat(8.0), ray, 8.0),
+            (Vec3::ZERO, Vec3::ONE, far, 20.0),
+        ] {
+            let table = Table::<protocol::BBoxHit>::of_list(
+                Corners { min, max },
+                vec![Query { ray, times }],
+            );
+            assert_eq!(scale(&table, None), expected);
         }
     }
 }

@@ -1,31 +1,22 @@
 //! All thresholds between correct and wrong answers.
 
+use glam::{Vec2, Vec3};
+use protocol::{Interval, Ray, Record, Trace};
+
 use super::credit::TOLERATED_POSITIONS;
 use super::first_hits::{DEPTH, NORMAL};
-use super::measure::{DIRECTION, LENGTH, UV};
 use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
+use crate::types::{self, Tolerance, direction, length, uv};
 
 /// A threshold between correct and wrong. The steps of partial credit are not included, because
 /// they separate wrong answers from other wrong answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
-    /// Distance of a hit along its ray, in a table.
-    Distance,
-    /// Position of a hit in a table.
-    Position,
-    /// Interval in which a ray is in a box, or start of a ray's range.
-    Times,
-    /// Origin of a ray.
-    Origin,
-    /// Direction of a camera ray.
-    Direction,
-    /// Normal of a hit in a table.
-    Normal,
-    /// Length of a unit direction or normal.
+    /// The field of this name in a table.
+    Field(&'static str, Tolerance),
+    /// Length of a direction in a table.
     UnitLength,
-    /// Texture coordinates of a hit in a table.
-    Uv,
     /// Depth at one position of a picture.
     PictureDepth,
     /// Normal at one position of a picture.
@@ -46,39 +37,53 @@ pub enum Threshold {
     BoxTooSmall,
 }
 
+/// The thresholds that do not belong to a single field.
+const OTHER: [Threshold; 10] = [
+    Threshold::UnitLength,
+    Threshold::PictureDepth,
+    Threshold::PictureNormal,
+    Threshold::PictureUv,
+    Threshold::PicturePositions,
+    Threshold::Radiance,
+    Threshold::RadiancePixels,
+    Threshold::SahCost,
+    Threshold::BoxTooLarge,
+    Threshold::BoxTooSmall,
+];
+
 impl Threshold {
-    /// All thresholds: those of tables, then of pictures, then of trees.
-    pub const ALL: [Threshold; 17] = [
-        Threshold::Distance,
-        Threshold::Position,
-        Threshold::Times,
-        Threshold::Origin,
-        Threshold::Direction,
-        Threshold::Normal,
-        Threshold::UnitLength,
-        Threshold::Uv,
-        Threshold::PictureDepth,
-        Threshold::PictureNormal,
-        Threshold::PictureUv,
-        Threshold::PicturePositions,
-        Threshold::Radiance,
-        Threshold::RadiancePixels,
-        Threshold::SahCost,
-        Threshold::BoxTooLarge,
-        Threshold::BoxTooSmall,
-    ];
+    /// Returns all thresholds: those of fields in tables, then those of pictures, then of trees.
+    pub fn all() -> Vec<Threshold> {
+        let trace = Trace {
+            distance: 0.0,
+            position: Vec3::ZERO,
+            normal: Vec3::ZERO,
+            uv: Vec2::ZERO,
+            origin: Vec3::ZERO,
+            material: 0,
+        };
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        let records: [&dyn Record; 3] = [&trace, &ray, &Interval::AHEAD];
+        let fields = records.into_iter().flat_map(|record| {
+            let named = record.names().iter().zip(record.values());
+            named.filter_map(|(name, value)| {
+                Some(Threshold::Field(name, types::of(&value).tolerance()?))
+            })
+        });
+        let mut all: Vec<Threshold> = Vec::new();
+        for threshold in fields.chain(OTHER) {
+            if !all.contains(&threshold) {
+                all.push(threshold);
+            }
+        }
+        all
+    }
 
     /// Returns a human-readable title.
     pub fn title(self) -> &'static str {
         match self {
-            Threshold::Distance => "distance of a hit",
-            Threshold::Position => "position of a hit",
-            Threshold::Times => "interval in a box, start of a range",
-            Threshold::Origin => "origin of a ray",
-            Threshold::Direction => "direction of a camera ray",
-            Threshold::Normal => "normal of a hit",
+            Threshold::Field(name, _) => name,
             Threshold::UnitLength => "length of a unit vector",
-            Threshold::Uv => "uv of a hit",
             Threshold::PictureDepth => "depth in a picture",
             Threshold::PictureNormal => "normal in a picture",
             Threshold::PictureUv => "uv in a picture",
@@ -94,13 +99,15 @@ impl Threshold {
     /// Returns the value of the threshold, which corresponds to a deviation of 1.
     pub fn limit(self) -> String {
         match self {
-            Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {
-                format!("{LENGTH:e} of the scale")
+            Threshold::Field(_, Tolerance::Length) => {
+                format!("{:e} of the scale", length::TOLERANCE)
             }
-            Threshold::Direction | Threshold::Normal | Threshold::UnitLength => {
-                format!("{DIRECTION:e}")
+            Threshold::Field(_, Tolerance::Direction) | Threshold::UnitLength => {
+                format!("{:e}", direction::TOLERANCE)
             }
-            Threshold::Uv | Threshold::PictureUv => format!("{UV:e}"),
+            Threshold::Field(_, Tolerance::Uv) | Threshold::PictureUv => {
+                format!("{:e}", uv::TOLERANCE)
+            }
             Threshold::PictureDepth => format!("{DEPTH:e} of the scale"),
             Threshold::PictureNormal => format!("{NORMAL:e}"),
             Threshold::PicturePositions => format!("{TOLERATED_POSITIONS}, or 1e-4 of all"),
@@ -113,24 +120,22 @@ impl Threshold {
     }
 
     /// Returns the file and constant that define the threshold, relative to
-    /// `grader/judging/src/judge`, or the field of an exam's key.
+    /// `grader/judging/src`, or the field of an exam's key.
     pub fn location(self) -> &'static str {
         match self {
-            Threshold::Distance | Threshold::Position | Threshold::Times | Threshold::Origin => {
-                "measure.rs: LENGTH"
+            Threshold::Field(_, Tolerance::Length) => "types/length.rs: TOLERANCE",
+            Threshold::Field(_, Tolerance::Direction) | Threshold::UnitLength => {
+                "types/direction.rs: TOLERANCE"
             }
-            Threshold::Direction | Threshold::Normal | Threshold::UnitLength => {
-                "measure.rs: DIRECTION"
-            }
-            Threshold::Uv | Threshold::PictureUv => "measure.rs: UV",
-            Threshold::PictureDepth => "first_hits/mod.rs: DEPTH",
-            Threshold::PictureNormal => "first_hits/mod.rs: NORMAL",
-            Threshold::PicturePositions => "credit.rs: TOLERATED_POSITIONS",
-            Threshold::Radiance => "radiance.rs: RELATIVE_TOLERANCE",
+            Threshold::Field(_, Tolerance::Uv) | Threshold::PictureUv => "types/uv.rs: TOLERANCE",
+            Threshold::PictureDepth => "judge/first_hits/mod.rs: DEPTH",
+            Threshold::PictureNormal => "judge/first_hits/mod.rs: NORMAL",
+            Threshold::PicturePositions => "judge/credit.rs: TOLERATED_POSITIONS",
+            Threshold::Radiance => "judge/radiance.rs: RELATIVE_TOLERANCE",
             Threshold::RadiancePixels => "the exam's key: max_wrong_pixels",
-            Threshold::SahCost => "tree/mod.rs: FULL_MARKS_RATIO",
-            Threshold::BoxTooLarge => "tree/mod.rs: TIGHT_TOLERANCE",
-            Threshold::BoxTooSmall => "tree/mod.rs: CONTAIN_TOLERANCE",
+            Threshold::SahCost => "judge/tree/mod.rs: FULL_MARKS_RATIO",
+            Threshold::BoxTooLarge => "judge/tree/mod.rs: TIGHT_TOLERANCE",
+            Threshold::BoxTooSmall => "judge/tree/mod.rs: CONTAIN_TOLERANCE",
         }
     }
 }
@@ -145,10 +150,9 @@ mod tests {
 
     #[test]
     fn each_threshold_has_its_own_title_and_a_limit() {
-        let titles: BTreeSet<&str> = Threshold::ALL.iter().map(|one| one.title()).collect();
-        assert_eq!(titles.len(), Threshold::ALL.len());
-        assert_eq!(Threshold::Normal.title(), "normal of a hit");
-        for threshold in Threshold::ALL {
+        let titles: BTreeSet<&str> = Threshold::all().into_iter().map(Threshold::title).collect();
+        assert_eq!(titles.len(), Threshold::all().len());
+        for threshold in Threshold::all() {
             let limit = threshold.limit();
             let is_number = limit.starts_with(|first: char| first.is_ascii_digit());
             assert!(is_number || limit == "set by the key", "{limit}");
@@ -157,8 +161,8 @@ mod tests {
 
     #[test]
     fn each_threshold_is_where_it_says() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/judge");
-        for threshold in Threshold::ALL {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        for threshold in Threshold::all() {
             let (place, name) = threshold.location().split_once(": ").unwrap();
             if place == "the exam's key" {
                 continue;

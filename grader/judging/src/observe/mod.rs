@@ -5,12 +5,11 @@
 
 mod tree;
 
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays, Trace, Tree};
+use protocol::{Answer, ElementOutcome, Question, Record, Tree};
 
-use crate::exam::{ExamQuestion, HitCheck, Item, Key, RayCheck};
-use crate::judge::quantity::{Quantity, lengths_in_tolerances};
-use crate::judge::rays::expected_ray;
-use crate::judge::scale;
+use crate::exam::{ExamQuestion, Item, Key};
+use crate::judge::quantity::Quantity;
+use crate::judge::table::{ExpectedTable, Row, TableAnswer};
 use crate::judge::tree::TreeCriteria;
 use crate::signatures::{NoAnswerReason, ObservedAnswer};
 
@@ -29,23 +28,12 @@ pub fn expected(item: &Item) -> Vec<ObservedAnswer> {
 
 fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
     match &question.key {
-        Key::Rays { checks, directions } => {
-            let rays = directions.iter().map(|dir| expected_ray(*dir));
-            rays.map(|ray| observe_ray(checks, &ray)).collect()
-        }
-        Key::Hits { checks, .. } => {
-            let traces = expected_traces(question);
-            let scaled = traces.iter().zip(scales(question));
-            scaled
-                .map(|(trace, scale)| observe_checked(checks, trace.as_ref(), scale))
-                .collect()
-        }
-        Key::Spans { spans } => {
-            let spans = spans.iter().zip(scales(question));
-            spans
-                .map(|(span, scale)| observe_span(*span, scale))
-                .collect()
-        }
+        Key::Table { .. } => ExpectedTable::new(question).map_or(Vec::new(), |table| {
+            let observe = |(record, scale): &(Option<Box<dyn Record>>, f32)| {
+                observe_record(&table.judged, record.as_deref(), *scale)
+            };
+            table.rows.iter().map(observe).collect()
+        }),
         Key::Tree { .. } => vec![ObservedAnswer::Tree(None)],
         Key::FirstHits { .. } | Key::Radiance { .. } => Vec::new(),
     }
@@ -53,36 +41,17 @@ fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
 
 fn observe_question(question: &ExamQuestion, answer: &Answer) -> Vec<ObservedAnswer> {
     match (&question.key, answer) {
-        (Key::Rays { checks, .. }, Answer::Rays(rays)) => {
-            observe_each(rays, |_, ray| observe_ray(checks, ray))
-        }
-        (Key::Hits { checks, .. }, Answer::Hits(hits)) => {
-            let (scales, traces) = (scales(question), expected_traces(question));
-            observe_each(hits, |element, hit| {
-                let scale = scales.get(element).copied().unwrap_or(1.0);
-                let expected = traces.get(element).and_then(Option::as_ref);
-                observe_hit(checks, hit.as_ref(), expected, scale)
+        (Key::Table { .. }, _) => TableAnswer::new(question, answer).map_or(Vec::new(), |table| {
+            observe_each(table.rows(), |index, got| {
+                observe_row(table.judged(), &table.row(index, *got))
             })
-        }
-        (Key::Spans { .. }, Answer::Spans(spans)) => {
-            let scales = scales(question);
-            let scale = |element: usize| scales.get(element).copied().unwrap_or(1.0);
-            observe_each(spans, |element, span| observe_span(*span, scale(element)))
-        }
+        }),
         (Key::Tree { .. }, Answer::Tree(tree)) => {
             observe_each(std::slice::from_ref(tree), |_, tree| {
                 observe_tree(question, tree)
             })
         }
-        (
-            Key::Rays { .. }
-            | Key::Hits { .. }
-            | Key::Spans { .. }
-            | Key::Tree { .. }
-            | Key::FirstHits { .. }
-            | Key::Radiance { .. },
-            _,
-        ) => Vec::new(),
+        (Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. }, _) => Vec::new(),
     }
 }
 
@@ -105,86 +74,25 @@ fn observe_each<T>(
     observed.collect()
 }
 
-/// Returns the scale of each element.
-fn scales(question: &ExamQuestion) -> Vec<f32> {
-    match (&question.key, &question.question) {
-        (Key::Hits { hits, .. }, asked) => {
-            let hits = hits
-                .iter()
-                .zip(asked.rays().into_iter().flat_map(Rays::to_vec));
-            hits.map(|(hit, ray)| {
-                let distance = hit.as_ref().map(|hit| hit.distance);
-                scale::of_hit(scale::shapes(asked), &ray, distance)
-            })
-            .collect()
-        }
-        (Key::Spans { .. }, Question::BBox { min, max, queries }) => {
-            let queries = queries.iter();
-            queries
-                .map(|(ray, _)| scale::of_box(*min, *max, ray))
-                .collect()
-        }
-        (
-            Key::Rays { .. }
-            | Key::Spans { .. }
-            | Key::Tree { .. }
-            | Key::FirstHits { .. }
-            | Key::Radiance { .. },
-            _,
-        ) => Vec::new(),
-    }
-}
-
-fn observe_ray(checks: &[RayCheck], ray: &Ray) -> ObservedAnswer {
-    let numbers = |check: &RayCheck| Quantity::of_ray(*check, ray).in_tolerances(1.0);
-    ObservedAnswer::Numbers(checks.iter().flat_map(numbers).collect())
-}
-
-/// Returns the correct hit of each ray.
-fn expected_traces(question: &ExamQuestion) -> Vec<Option<Trace>> {
-    let Key::Hits { hits, .. } = &question.key else {
-        return Vec::new();
-    };
-    let rays = question.question.rays().into_iter().flat_map(Rays::to_vec);
-    let hits = hits.iter().zip(rays);
-    hits.map(|(hit, ray)| Some(hit.as_ref()?.to_trace(&ray)))
-        .collect()
-}
-
-/// Observes a hit. From a wrong distance, correct code computes a wrong position, normal and uv in one
+/// Observes a row. From a wrong distance, correct code computes a wrong position, normal and uv in one
 /// way or another: a normal may still be of length one, or not. So only the distance is observed then.
-fn observe_hit(
-    checks: &[HitCheck],
-    trace: Option<&Trace>,
-    expected: Option<&Trace>,
-    scale: f32,
-) -> ObservedAnswer {
-    let observe = |checks: &[HitCheck], trace| observe_checked(checks, trace, scale);
-    let is_correct = |checks| observe(checks, trace).matches(&observe(checks, expected));
-    let distance = [HitCheck::Distance];
-    let follows_from_distance = !is_correct(checks) && !is_correct(&distance);
-    observe(
-        if follows_from_distance {
-            &distance
-        } else {
-            checks
-        },
-        trace,
-    )
+fn observe_row(judged: &[Quantity], row: &Row) -> ObservedAnswer {
+    let observe = |judged: &[Quantity], record| observe_record(judged, record, row.scale);
+    let is_correct = |judged: &[Quantity]| {
+        observe(judged, row.got).matches(&observe(judged, row.wanted.as_deref()))
+    };
+    let distance = row.got.and_then(Quantity::first_length);
+    let distance = distance.as_ref().map(std::slice::from_ref);
+    let wrong_distance = distance.filter(|distance| !is_correct(judged) && !is_correct(distance));
+    observe(wrong_distance.unwrap_or(judged), row.got)
 }
 
-fn observe_checked(checks: &[HitCheck], trace: Option<&Trace>, scale: f32) -> ObservedAnswer {
-    let Some(trace) = trace else {
+fn observe_record(judged: &[Quantity], record: Option<&dyn Record>, scale: f32) -> ObservedAnswer {
+    let Some(record) = record else {
         return ObservedAnswer::NoHit;
     };
-    let numbers = |check: &HitCheck| Quantity::of_hit(*check, trace).in_tolerances(scale);
-    ObservedAnswer::Numbers(checks.iter().flat_map(numbers).collect())
-}
-
-fn observe_span(span: Option<Interval>, scale: f32) -> ObservedAnswer {
-    span.map_or(ObservedAnswer::NoHit, |span| {
-        ObservedAnswer::Numbers(lengths_in_tolerances(&[span.min, span.max], scale))
-    })
+    let numbers = |quantity: &Quantity| quantity.in_tolerances(record, scale);
+    ObservedAnswer::Numbers(judged.iter().flat_map(numbers).collect())
 }
 
 /// Returns the defect that the judge finds in a tree.

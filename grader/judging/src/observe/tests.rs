@@ -1,11 +1,14 @@
 //! Tests of observed numbers: they are multiples of the tolerances of their own question.
 
 use glam::{Vec2, Vec3};
+use protocol::{Corners, Fields, Geometry, Interval, Query, Ray, Trace};
 
 use super::*;
-use crate::exam::ExpectedHit;
-use crate::judge::measure::{DIRECTION, LENGTH, UV};
-use crate::tests::{EXPECTED, HIT, sphere};
+use crate::exam::ExpectedRows;
+use crate::tests::{HIT, sphere};
+use crate::types::direction::TOLERANCE as DIRECTION;
+use crate::types::length::TOLERANCE as LENGTH;
+use crate::types::uv::TOLERANCE as UV;
 
 /// Returns the observed numbers of each element of one question.
 fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
@@ -40,46 +43,41 @@ fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
 fn distances_are_multiples_of_the_tolerance_of_their_ray() {
     let ray = |x: f32| Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X);
     let (near, far) = (8.0, 800.0);
-    let hit = |distance: f32| ExpectedHit {
-        distance,
-        ..EXPECTED
+    let traces = |tolerances: f32| {
+        [near, far].map(|from| {
+            Some(Trace {
+                distance: from - 1.0 + tolerances * LENGTH * from,
+                origin: Vec3::X * from,
+                ..HIT
+            })
+        })
     };
+    let shapes = vec![sphere(Vec3::ZERO, 1.0)];
+    let hits = ExpectedRows::Hits(traces(0.0).to_vec());
     let question = ExamQuestion::new(
-        Question::Shapes {
-            shapes: vec![sphere(Vec3::ZERO, 1.0)],
-            rays: Rays::List(vec![ray(near), ray(far)]),
-        },
-        Key::Hits {
-            checks: vec![HitCheck::Distance],
-            hits: vec![Some(hit(near - 1.0)), Some(hit(far - 1.0))],
-        },
+        Question::hits(Geometry::List { shapes }, vec![ray(near), ray(far)]),
+        Key::table(&["distance"], hits),
     );
-    let answer = |tolerances: f32| {
-        let trace = |from: f32| Trace {
-            distance: from - 1.0 + tolerances * LENGTH * from,
-            origin: Vec3::X * from,
-            ..HIT
-        };
-        let traces = [near, far].map(|from| ElementOutcome::Value(Some(trace(from))));
-        Answer::Hits(traces.to_vec())
-    };
+    let answer =
+        |tolerances: f32| Answer::Hits(traces(tolerances).map(ElementOutcome::Value).to_vec());
     assert_six_apart(&question, &answer(6.0), &answer(0.0));
 }
 
 #[test]
 fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
     let (near, far) = (8.0, 800.0);
-    let query = |x: f32| (Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X), Interval::AHEAD);
+    let query = |x: f32| Query {
+        ray: Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X),
+        times: Interval::AHEAD,
+    };
+    let corners = Corners {
+        min: -Vec3::ONE,
+        max: Vec3::ONE,
+    };
     let span = |from: f32, error: f32| Interval::new(from - 1.0 + error, from + 1.0 + error);
     let question = ExamQuestion::new(
-        Question::BBox {
-            min: -Vec3::ONE,
-            max: Vec3::ONE,
-            queries: vec![query(near), query(far)],
-        },
-        Key::Spans {
-            spans: vec![Some(span(near, 0.0)), Some(span(far, 0.0))],
-        },
+        Question::boxes(corners, vec![query(near), query(far)]),
+        Key::spans(vec![Some(span(near, 0.0)), Some(span(far, 0.0))]),
     );
     let answer = |tolerances: f32| {
         let spans = [near, far].map(|from| Some(span(from, tolerances * LENGTH * from)));
@@ -88,12 +86,16 @@ fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
     assert_six_apart(&question, &answer(6.0), &answer(0.0));
 }
 
+/// Observes one quantity of a record, in a question of scale 1.
+fn observe_one(quantity: &str, record: &(impl Fields + Copy)) -> ObservedAnswer {
+    let names = record.names();
+    let quantity = Quantity::named(quantity, names).expect("the record has this field");
+    observe_record(&[quantity], Some(record), 1.0)
+}
+
 #[test]
 fn each_material_is_far_from_the_others() {
-    let of = |material| {
-        let trace = Trace { material, ..HIT };
-        observe_checked(&[HitCheck::Material], Some(&trace), 1.0)
-    };
+    let of = |material| observe_one("material", &Trace { material, ..HIT });
     assert!(of(1).matches(&of(1)));
     assert!(!of(1).matches(&of(2)));
 }
@@ -101,9 +103,10 @@ fn each_material_is_far_from_the_others() {
 #[test]
 fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
     let uv = Vec2::new(3.0 * UV, 0.5);
-    let uv = observe_checked(&[HitCheck::Uv], Some(&Trace { uv, ..HIT }), 1.0);
+    let uv = observe_one("uv", &Trace { uv, ..HIT });
     assert_eq!(uv, ObservedAnswer::Numbers(vec![3.0, 0.5 / UV]));
-    let direction = |dir| observe_ray(&[RayCheck::Direction], &expected_ray(dir));
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    let direction = |dir| observe_one("direction", &Ray { dir, ..ray });
     let unit = ObservedAnswer::Numbers(vec![0.0, 0.0, 1.0 / DIRECTION]);
     assert_eq!(direction(Vec3::Z), unit);
     assert_eq!(direction(4.0 * Vec3::Z), unit);
@@ -113,9 +116,17 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
 /// usual. Which distance it belongs to is the same in both.
 #[test]
 fn what_follows_from_a_wrong_distance_is_not_observed() {
-    let checks = [HitCheck::Normal, HitCheck::UnitNormal];
     let expected = HIT;
-    let of = |trace: &Trace, expected| observe_hit(&checks, Some(trace), expected, 1.0);
+    let judged = ["normal", "unit_normal"];
+    let judged = judged.map(|name| Quantity::named(name, expected.names()).unwrap());
+    let of = |trace: &Trace, expected: Option<&Trace>| {
+        let row = Row {
+            got: Some(trace),
+            wanted: expected.map(|trace| Box::new(*trace) as Box<dyn Record>),
+            scale: 1.0,
+        };
+        observe_row(&judged, &row)
+    };
     let farther = |normal| Trace {
         distance: 1.5,
         normal,
@@ -141,9 +152,4 @@ fn what_follows_from_a_wrong_distance_is_not_observed() {
     let at_right_distance = |normal| Trace { normal, ..expected };
     let [one, other] = [Vec3::Y * 1.5, Vec3::Y].map(at_right_distance);
     assert!(!of(&one, Some(&expected)).matches(&of(&other, Some(&expected))));
-}
-
-#[test]
-fn a_question_whose_numbers_are_all_0_has_a_tolerance() {
-    assert_eq!(lengths_in_tolerances(&[0.0, -0.0], 0.0), [0.0, 0.0]);
 }

@@ -9,7 +9,7 @@ mod worst_pixels;
 use std::collections::BTreeMap;
 
 use glam::UVec2;
-use protocol::{Answer, PIXEL_OFFSETS, Question, Rays, Samples};
+use protocol::{Answer, PIXEL_OFFSETS, Question};
 
 use crate::exam::ExamQuestion;
 use crate::judge::{Aspect, Mismatch, mismatches};
@@ -108,20 +108,14 @@ fn mask_pixel(all_mismatches: &[Option<Mismatch>], surfaces: &[bool]) -> MaskPix
 
 /// Returns the film, and the number of positions per pixel.
 fn grid(question: &Question) -> Option<(UVec2, usize)> {
-    match question {
-        Question::Camera { camera, samples } => match samples {
-            Samples::EveryPixel => Some((camera.film, PIXEL_OFFSETS.len())),
-            Samples::List(_) => None,
-        },
-        Question::Shapes { rays, .. }
-        | Question::Traverse { rays, .. }
-        | Question::BuildAndTraverse { rays, .. } => match rays {
-            Rays::View(view) => Some((view.film, PIXEL_OFFSETS.len())),
-            Rays::List(_) => None,
-        },
-        Question::Radiance { film, .. } => Some((*film, 1)),
-        Question::BBox { .. } | Question::Build { .. } | Question::Done => None,
-    }
+    let per_pixel = match question {
+        Question::Radiance { .. } => 1,
+        Question::SampleRay(_)
+        | Question::Hit(_)
+        | Question::BBoxHit(_)
+        | Question::Build { .. } => PIXEL_OFFSETS.len(),
+    };
+    Some((question.film()?, per_pixel))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use protocol::{Answer, ElementOutcome, Ray, Trace};
 
-use crate::exam::{ExamQuestion, Key, Surface};
+use crate::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 use crate::judge::{Aspect, Mismatch};
 
 /// An sRGB colour.
@@ -62,7 +62,13 @@ pub(super) fn compare_layers(
 ) -> Option<Vec<LayerComparison>> {
     let mut layers = match (&question.key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => first_hits(hits, got),
-        (Key::Rays { directions, .. }, Answer::Rays(rays)) => vec![LayerSamples {
+        (
+            Key::Table {
+                rows: ExpectedRows::Rays(directions),
+                ..
+            },
+            Answer::Rays(rays),
+        ) => vec![LayerSamples {
             name: "direction",
             wanted: directions.iter().map(|dir| signed_colour(*dir)).collect(),
             got: rays
@@ -78,12 +84,7 @@ pub(super) fn compare_layers(
             }]
         }
         (
-            Key::Rays { .. }
-            | Key::Hits { .. }
-            | Key::Spans { .. }
-            | Key::Tree { .. }
-            | Key::FirstHits { .. }
-            | Key::Radiance { .. },
+            Key::Table { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. },
             _,
         ) => return None,
     };
@@ -117,7 +118,7 @@ pub(super) fn submitted_layers(
                 Layer::new("uv", paint(&|hit| uv_colour(hit.uv))),
             ]
         }
-        (Key::Rays { .. }, Answer::Rays(rays)) => {
+        (Key::Table { .. }, Answer::Rays(rays)) => {
             let direction =
                 |ray: &ElementOutcome<Ray>| paint_outcome(ray, |ray| signed_colour(ray.dir));
             vec![Layer::new("direction", means(rays, per_pixel, direction))]
@@ -129,12 +130,7 @@ pub(super) fn submitted_layers(
             )]
         }
         (
-            Key::Rays { .. }
-            | Key::Hits { .. }
-            | Key::Spans { .. }
-            | Key::Tree { .. }
-            | Key::FirstHits { .. }
-            | Key::Radiance { .. },
+            Key::Table { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. },
             _,
         ) => return None,
     })
@@ -144,9 +140,9 @@ pub(super) fn submitted_layers(
 pub(super) fn has_surface(question: &ExamQuestion) -> Vec<bool> {
     match &question.key {
         Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
-        Key::Rays { directions, .. } => vec![true; directions.len()],
+        Key::Table { rows, .. } => (0..rows.count()).map(|row| rows.is_present(row)).collect(),
         Key::Radiance { pixels, .. } => vec![true; pixels.len()],
-        Key::Hits { .. } | Key::Spans { .. } | Key::Tree { .. } => Vec::new(),
+        Key::Tree { .. } => Vec::new(),
     }
 }
 

@@ -101,23 +101,17 @@ impl Observations {
 /// count: it needs other tasks too, and may lack an answer because of them.
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
-        Key::Hits { hits, .. } => hits.iter().any(Option::is_some),
-        Key::Spans { spans } => spans.iter().any(Option::is_some),
-        Key::Rays { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. } => false,
+        Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
+        Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. } => false,
     })
 }
 
-/// Returns whether any ray has another answer than that it misses.
+/// Returns whether a row of a table has another answer than that nothing is hit.
 fn has_other_than_miss(answer: &Answer) -> bool {
-    match answer {
-        Answer::Hits(hits) => !hits.iter().all(is_miss),
-        Answer::Spans(spans) => !spans.iter().all(is_miss),
-        Answer::Rays(_) | Answer::Tree(_) | Answer::Picture(_) | Answer::Done => false,
-    }
-}
-
-fn is_miss<T>(outcome: &ElementOutcome<Option<T>>) -> bool {
-    matches!(outcome, ElementOutcome::Value(None))
+    let rows = answer.rows().unwrap_or_default();
+    !rows
+        .iter()
+        .all(|row| matches!(row, ElementOutcome::Value(None)))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use protocol::{Answer, ElementOutcome, Interval, Panic, Ray, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Panic, Trace};
 
 use super::{EXAM, HIT};
 use crate::exam::{ExamQuestion, Key, Surface};
@@ -24,23 +24,7 @@ fn values<T>(all: impl IntoIterator<Item = T>) -> Vec<ElementOutcome<T>> {
 /// Returns the answer that the key describes.
 pub fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
     Some(match &question.key {
-        Key::Rays { directions, .. } => {
-            let ray = |&dir: &Vec3| Ray {
-                origin: Vec3::ZERO,
-                dir,
-                range: Interval::AHEAD,
-            };
-            Answer::Rays(values(directions.iter().map(ray)))
-        }
-        Key::Hits { hits, .. } => {
-            let rays = question.question.rays();
-            let rays = rays
-                .expect("the key is that of a question with rays")
-                .to_vec();
-            let hits = hits.iter().zip(&rays);
-            let traces = hits.map(|(hit, ray)| Some(hit.as_ref()?.to_trace(ray)));
-            Answer::Hits(values(traces))
-        }
+        Key::Table { rows, .. } => rows.answer(),
         Key::FirstHits { hits, .. } => {
             let trace = |surface: &Surface| Trace {
                 distance: surface.depth,
@@ -50,7 +34,6 @@ pub fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
             };
             Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
         }
-        Key::Spans { spans } => Answer::Spans(values(spans.iter().copied())),
         Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
         Key::Tree { .. } => return None,
     })
@@ -116,7 +99,7 @@ impl Error {
             Answer::Picture(outcome) => self.spoil(outcome, |pixels| {
                 pixels[index] = self.vector(pixels[index] + 1.0) - 1.0;
             }),
-            Answer::Tree(_) | Answer::Done => unreachable!("these have no elements"),
+            Answer::Tree(_) => unreachable!("a tree has no elements"),
         }
     }
 }
@@ -127,7 +110,7 @@ pub fn count(answer: &Answer) -> usize {
         Answer::Hits(hits) => hits.len(),
         Answer::Spans(spans) => spans.len(),
         Answer::Picture(ElementOutcome::Value(pixels)) => pixels.len(),
-        Answer::Picture(_) | Answer::Tree(_) | Answer::Done => {
+        Answer::Picture(_) | Answer::Tree(_) => {
             unreachable!("this is not the key's answer to anything")
         }
     }

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::assignment::{RAYS, Task};
-use crate::exam::{Exam, ExamQuestion, Key};
+use crate::exam::{Exam, ExamQuestion, ExpectedRows, Key};
 use crate::exam_file;
 use crate::judge::{Failure, judge};
 use crate::recognise::Observations;
 use crate::signatures::{MistakeSignatures, ObservedAnswer};
 use glam::Vec3;
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rays};
+use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Rows};
 use serde_json::{Value, json};
 
 use super::{EXAM, PART};
@@ -27,7 +27,11 @@ fn index_of(exam: &Exam, id: &str) -> usize {
 
 /// Returns the answer of a camera to a question about rays with these directions.
 fn camera_answer(question: &ExamQuestion, change: impl Fn(usize, Vec3) -> Vec3) -> Answer {
-    let Key::Rays { directions, .. } = &question.key else {
+    let Key::Table {
+        rows: ExpectedRows::Rays(directions),
+        ..
+    } = &question.key
+    else {
         panic!("the camera is asked for rays, not for {:?}", question.key);
     };
     let rays = directions.iter().enumerate().map(|(index, &dir)| Ray {
@@ -118,10 +122,10 @@ fn an_exam_is_read_as_it_was_written() {
 #[test]
 fn an_exam_in_another_format_is_refused_for_its_format_and_not_for_its_fields() {
     let problem = |schema| parse(&format!(r#"{{"schema": {schema}, "ideas": []}}"#)).unwrap_err();
-    let other = problem("2");
-    assert!(other.contains("its format is version 2, but"), "{other}");
+    let other = problem("3");
+    assert!(other.contains("its format is version 3, but"), "{other}");
     assert!(other.ends_with("`cargo author exam --seed S` writes a valid one"));
-    assert!(problem("1").contains("unknown field `ideas`"));
+    assert!(problem("2").contains("unknown field `ideas`"));
 }
 
 #[test]
@@ -163,12 +167,12 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
             "another item has the same id",
         ),
         (
-            format!("/items/{picture}/questions/0/question/camera/camera/film"),
+            format!("/items/{picture}/questions/0/question/sample_ray/rows/picture"),
             json!([100_000, 2]),
             "asks for 100000 x 2 pixels",
         ),
         (
-            format!("/items/{picture}/questions/0/question/camera/camera/film"),
+            format!("/items/{picture}/questions/0/question/sample_ray/rows/picture"),
             json!([4097, 1]),
             "asks for 4097 x 1 pixels; the maximum is 4096",
         ),
@@ -196,7 +200,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
         assert!(error.contains(problem), "{path}: {error}");
     }
     let mut largest = exam;
-    largest["items"][picture]["questions"][0]["question"]["camera"]["camera"]["film"] =
+    largest["items"][picture]["questions"][0]["question"]["sample_ray"]["rows"]["picture"] =
         json!([4096, 1]);
     parse(&largest.to_string()).map(drop).unwrap();
 }
@@ -246,11 +250,8 @@ fn a_key_of_first_hits_fits_only_the_rays_of_a_view() {
     for change in [
         |question: &mut ExamQuestion| add_alternative(question, 1),
         |question: &mut ExamQuestion| {
-            if let Question::Shapes { rays, .. }
-            | Question::Traverse { rays, .. }
-            | Question::BuildAndTraverse { rays, .. } = &mut question.question
-            {
-                *rays = Rays::List(rays.to_vec());
+            if let Question::Hit(table) = &mut question.question {
+                table.rows = Rows::List(table.rows.to_vec().into_owned());
             }
         },
     ] {

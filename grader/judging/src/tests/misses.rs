@@ -14,7 +14,9 @@ use crate::signatures::NoAnswerReason;
 /// Returns an item's correct answers. A tree has none, and does not matter here.
 fn right(item: &Item) -> Vec<Answer> {
     let answers = item.questions.iter().map(keys_answer);
-    answers.map(|own| own.unwrap_or(Answer::Done)).collect()
+    answers
+        .map(|own| own.unwrap_or(Answer::Tree(ElementOutcome::Skipped)))
+        .collect()
 }
 
 /// Returns the answers of code that hits nothing.
@@ -22,16 +24,9 @@ fn missed(item: &Item) -> Vec<Answer> {
     let miss = |(question, right): (&ExamQuestion, Answer)| {
         let count = question.question.count();
         match question.question {
-            Question::BBox { .. } => Answer::Spans(vec![ElementOutcome::Value(None); count]),
-            Question::Shapes { .. }
-            | Question::Traverse { .. }
-            | Question::BuildAndTraverse { .. } => {
-                Answer::Hits(vec![ElementOutcome::Value(None); count])
-            }
-            Question::Camera { .. }
-            | Question::Build { .. }
-            | Question::Radiance { .. }
-            | Question::Done => right,
+            Question::BBoxHit(_) => Answer::Spans(vec![ElementOutcome::Value(None); count]),
+            Question::Hit(_) => Answer::Hits(vec![ElementOutcome::Value(None); count]),
+            Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => right,
         }
     };
     item.questions.iter().zip(right(item)).map(miss).collect()

@@ -9,10 +9,10 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use glam::{UVec2, Vec2, Vec3};
-use protocol::{Question, Samples, Shape, Trace};
+use protocol::{Question, Rows, Shape, Trace};
 
 use crate::assignment::RAYS;
-use crate::exam::{Exam, ExamQuestion, ExpectedHit, Key};
+use crate::exam::{Exam, ExamQuestion, ExpectedRows, Key};
 use crate::exam_file;
 
 /// Any hit.
@@ -23,15 +23,6 @@ pub const HIT: Trace = Trace {
     uv: Vec2::ZERO,
     origin: Vec3::ZERO,
     material: 0,
-};
-
-/// The key to [`HIT`].
-pub const EXPECTED: ExpectedHit = ExpectedHit {
-    distance: HIT.distance,
-    position: HIT.position,
-    normal: HIT.normal,
-    uv: HIT.uv,
-    material: HIT.material,
 };
 
 pub fn sphere(center: Vec3, radius: f32) -> Shape {
@@ -77,14 +68,16 @@ pub static PART: LazyLock<Exam> = LazyLock::new(|| {
 /// Reduces a picture of camera rays to a few pixels: its thousands of rays are half of the exam's text.
 fn make_picture_of_rays_small(question: &mut ExamQuestion) {
     if let (
-        Question::Camera {
-            camera,
-            samples: samples @ Samples::EveryPixel,
+        Question::SampleRay(table),
+        Key::Table {
+            rows: ExpectedRows::Rays(directions),
+            ..
         },
-        Key::Rays { directions, .. },
     ) = (&mut question.question, &mut question.key)
+        && let Rows::Picture(film) = &mut table.rows
     {
-        camera.film = UVec2::splat(4);
-        directions.truncate(samples.count(camera.film));
+        *film = UVec2::splat(4);
+        table.subject.film = *film;
+        directions.truncate(table.rows.count());
     }
 }

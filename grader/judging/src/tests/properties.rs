@@ -4,11 +4,11 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use protocol::{Answer, ElementOutcome, Interval, Question, Ray, Samples};
+use protocol::{Answer, ElementOutcome, Interval, Ray};
 
 use super::EXAM;
 use super::answers::{Error, QUESTIONS, count, keys_answer};
-use crate::exam::{ExamQuestion, Key, RayCheck};
+use crate::exam::{ExamQuestion, ExpectedRows, Key};
 use crate::judge::{Credit, judge, measure, mismatches};
 use crate::observe::{expected, observe};
 
@@ -120,11 +120,12 @@ fn each_end_of_an_interval_and_each_component_of_a_direction_counts_alone() {
     let mut spoiled = [0; 5];
     for (question, own) in QUESTIONS.iter() {
         let checks_directions = match &question.key {
-            Key::Rays { checks, .. } => checks.contains(&RayCheck::Direction),
-            Key::Spans { .. } => true,
-            Key::Hits { .. } | Key::FirstHits { .. } | Key::Radiance { .. } | Key::Tree { .. } => {
-                false
-            }
+            Key::Table { judged, rows } => match rows {
+                ExpectedRows::Rays(_) => judged.iter().any(|name| name == "direction"),
+                ExpectedRows::Spans(_) => true,
+                ExpectedRows::Hits(_) => false,
+            },
+            Key::FirstHits { .. } | Key::Radiance { .. } | Key::Tree { .. } => false,
         };
         let is_table = checks_directions && count(own) < 1000;
         for (spoil, done) in spoil.iter().zip(&mut spoiled) {
@@ -145,10 +146,10 @@ fn each_end_of_an_interval_and_each_component_of_a_direction_counts_alone() {
 fn a_range_counts_at_both_ends() {
     let mut asked = 0;
     for (question, own) in QUESTIONS.iter() {
-        let Key::Rays { checks, .. } = &question.key else {
+        let Key::Table { judged, .. } = &question.key else {
             continue;
         };
-        if checks.contains(&RayCheck::Range) {
+        if judged.iter().any(|name| name == "range") {
             for range in [Interval::new(1.0, f32::INFINITY), Interval::new(0.0, 1e6)] {
                 let mut answer = own.clone();
                 with_ray(&mut answer, 0, |ray| ray.range = range);
@@ -229,7 +230,7 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
             Answer::Rays(rays) => drop(rays.pop()),
             Answer::Hits(hits) => drop(hits.pop()),
             Answer::Picture(ElementOutcome::Value(pixels)) => drop(pixels.pop()),
-            Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {}
+            Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) => {}
         }
         assert_eq!(judge(question, &short).credit, Credit::NONE);
         assert!(!is_tolerated(question, &short));
@@ -247,9 +248,7 @@ fn is_tolerated(question: &ExamQuestion, answer: &Answer) -> bool {
 }
 
 fn is_picture(question: &ExamQuestion) -> bool {
-    let of_every_pixel = |question: &Question| matches!(question, Question::Camera { samples, .. } if *samples == Samples::EveryPixel);
-    matches!(question.key, Key::FirstHits { .. } | Key::Radiance { .. })
-        || of_every_pixel(&question.question)
+    question.question.film().is_some()
 }
 
 fn kind_of_table(answer: &Answer) -> &'static str {
@@ -257,7 +256,7 @@ fn kind_of_table(answer: &Answer) -> &'static str {
         Answer::Rays(_) => "rays",
         Answer::Hits(_) => "hits",
         Answer::Spans(_) => "spans",
-        Answer::Picture(_) | Answer::Tree(_) | Answer::Done => {
+        Answer::Picture(_) | Answer::Tree(_) => {
             panic!("this is no table: {answer:?}")
         }
     }
@@ -268,7 +267,7 @@ fn kind_of_picture(answer: &Answer) -> &'static str {
         Answer::Rays(_) => "rays",
         Answer::Hits(_) => "first hits",
         Answer::Picture(ElementOutcome::Value(_)) => "radiance",
-        Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) | Answer::Done => {
+        Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) => {
             panic!("this is no picture: {answer:?}")
         }
     }

@@ -3,9 +3,9 @@
 mod caption;
 
 use glam::{DVec2, DVec3};
-use protocol::{Answer, Interval, Ray, Trace};
+use protocol::{Answer, Interval, Question, Ray, Trace};
 
-use judging::exam::{ExamQuestion, HitCheck, Key, Surface};
+use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
 
@@ -74,30 +74,34 @@ impl HitComparison {
         element: usize,
         answer: Option<&Answer>,
     ) -> Option<HitComparison> {
-        let ray = *question.question.rays()?.to_vec().get(element)?;
+        let Question::Hit(table) = &question.question else {
+            return None;
+        };
+        let ray = table.rows.get(element)?;
         let has_direction = ray.dir.is_finite() && ray.dir.length() > 0.0;
         if !(ray.origin.is_finite() && has_direction) {
             return None;
         }
-        let (checks, wanted) = match &question.key {
-            Key::Hits { checks, hits } => {
-                let trace = hits.get(element)?.as_ref().map(|hit| hit.to_trace(&ray));
-                (checks.clone(), trace.as_ref().map(DrawnHit::from_trace))
+        let (judged, wanted): (Vec<&str>, _) = match &question.key {
+            Key::Table {
+                judged,
+                rows: ExpectedRows::Hits(hits),
+            } => {
+                let hit = hits.get(element)?.as_ref();
+                let judged = judged.iter().map(String::as_str);
+                (judged.collect(), hit.map(DrawnHit::from_trace))
             }
             Key::FirstHits { hits, .. } => {
                 let surface = hits.get(element)?.as_ref();
-                let checks = vec![HitCheck::Distance, HitCheck::Normal, HitCheck::Uv];
                 (
-                    checks,
+                    vec!["distance", "normal", "uv"],
                     surface.map(|surface| DrawnHit::from_surface(surface, &ray)),
                 )
             }
-            Key::Rays { .. } | Key::Spans { .. } | Key::Tree { .. } | Key::Radiance { .. } => {
-                return None;
-            }
+            Key::Table { .. } | Key::Tree { .. } | Key::Radiance { .. } => return None,
         };
         let got = hit_answer(element, answer);
-        let focus = choose_focus(&checks, wanted.as_ref(), &got);
+        let focus = choose_focus(&judged, wanted.as_ref(), &got);
         Some(HitComparison {
             ray,
             wanted,
@@ -143,27 +147,26 @@ fn hit_answer(element: usize, answer: Option<&Answer>) -> HitAnswer {
     }
 }
 
-fn choose_focus(checks: &[HitCheck], wanted: Option<&DrawnHit>, got: &HitAnswer) -> Focus {
+fn choose_focus(judged: &[&str], wanted: Option<&DrawnHit>, got: &HitAnswer) -> Focus {
     let (Some(wanted), HitAnswer::Hit(got)) = (wanted, got) else {
         return Focus::Distance;
     };
-    let is_wrong = |check: &&HitCheck| match check {
-        HitCheck::Distance => numbers_differ(got.distance, wanted.distance),
-        HitCheck::Position => vectors_differ(got.position, wanted.position),
-        HitCheck::Normal => vectors_differ(got.normal.normalize(), wanted.normal),
-        HitCheck::UnitNormal => numbers_differ(got.normal.length(), 1.0),
-        HitCheck::Uv => vectors_differ(got.uv.extend(0.0), wanted.uv.extend(0.0)),
-        HitCheck::Origin => vectors_differ(got.origin, wanted.origin),
-        HitCheck::Material => got.material != wanted.material,
+    let is_wrong = |quantity: &&&str| match **quantity {
+        "position" => vectors_differ(got.position, wanted.position),
+        "normal" => vectors_differ(got.normal.normalize(), wanted.normal),
+        "unit_normal" => numbers_differ(got.normal.length(), 1.0),
+        "uv" => vectors_differ(got.uv.extend(0.0), wanted.uv.extend(0.0)),
+        "origin" => vectors_differ(got.origin, wanted.origin),
+        "material" => got.material != wanted.material,
+        _ => numbers_differ(got.distance, wanted.distance),
     };
-    let check = checks.iter().find(is_wrong).or(checks.first());
-    match check {
-        Some(HitCheck::Distance) | None => Focus::Distance,
-        Some(HitCheck::Position) => Focus::Position,
-        Some(HitCheck::Normal | HitCheck::UnitNormal) => Focus::Normal,
-        Some(HitCheck::Uv) => Focus::Uv,
-        Some(HitCheck::Origin) => Focus::Origin,
-        Some(HitCheck::Material) => Focus::Material,
+    match judged.iter().find(is_wrong).or(judged.first()) {
+        Some(&"position") => Focus::Position,
+        Some(&("normal" | "unit_normal")) => Focus::Normal,
+        Some(&"uv") => Focus::Uv,
+        Some(&"origin") => Focus::Origin,
+        Some(&"material") => Focus::Material,
+        Some(_) | None => Focus::Distance,
     }
 }
 

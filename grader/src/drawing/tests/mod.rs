@@ -14,6 +14,9 @@ use super::{Drawing, draw};
 use crate::handed_out::RAYS;
 use crate::inputs::exam_source::ExamSource;
 
+/// The answer to no question with a drawing.
+const NO_PICTURE: Answer = Answer::Picture(ElementOutcome::Skipped);
+
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
 
@@ -112,13 +115,11 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
             let question = &QUESTIONS[index].question;
             let count = question.count();
             let answer = match question {
-                Question::Camera { .. } => Answer::Rays(vec![ray; count]),
-                Question::Shapes { .. }
-                | Question::Traverse { .. }
-                | Question::BuildAndTraverse { .. } => Answer::Hits(vec![hit; count]),
-                Question::BBox { .. } => Answer::Spans(vec![span; count]),
+                Question::SampleRay(_) => Answer::Rays(vec![ray; count]),
+                Question::Hit(_) => Answer::Hits(vec![hit; count]),
+                Question::BBoxHit(_) => Answer::Spans(vec![span; count]),
                 Question::Build { .. } => Answer::Tree(tree),
-                Question::Radiance { .. } | Question::Done => Answer::Done,
+                Question::Radiance { .. } => NO_PICTURE,
             };
             (index, element.index(count.max(1)), answer)
         },
@@ -173,12 +174,8 @@ fn draws_the_expected_result_without_an_answer() {
         let drawing = draw(question, 0, None);
         drawing.iter().for_each(assert_well_formed);
         let is_expected = match question.question {
-            Question::Camera { .. }
-            | Question::Shapes { .. }
-            | Question::BBox { .. }
-            | Question::Traverse { .. }
-            | Question::BuildAndTraverse { .. } => true,
-            Question::Build { .. } | Question::Radiance { .. } | Question::Done => false,
+            Question::SampleRay(_) | Question::Hit(_) | Question::BBoxHit(_) => true,
+            Question::Build { .. } | Question::Radiance { .. } => false,
         };
         assert_eq!(drawing.is_some(), is_expected, "{:?}", question.key);
     }
@@ -187,8 +184,8 @@ fn draws_the_expected_result_without_an_answer() {
 #[test]
 fn ignores_missing_elements_and_answers_of_another_kind() {
     for question in QUESTIONS.iter() {
-        assert_eq!(draw(question, usize::MAX, Some(&Answer::Done)), None);
-        if let Some(drawing) = draw(question, 0, Some(&Answer::Done)) {
+        assert_eq!(draw(question, usize::MAX, Some(&NO_PICTURE)), None);
+        if let Some(drawing) = draw(question, 0, Some(&NO_PICTURE)) {
             assert_well_formed(&drawing);
         }
     }

@@ -6,7 +6,7 @@ use judging::exam::{Exam, ExamQuestion, Item, Key};
 use judging::exam_file::ExamName;
 use judging::section::Section;
 use judging::signatures::MistakeSignatures;
-use protocol::{Interval, Question, Ray};
+use protocol::{Corners, Interval, Query, Question, Ray};
 
 use crate::handed_out::RAYS;
 use crate::score::Score;
@@ -14,19 +14,15 @@ use crate::verdict::pending_score;
 
 /// Returns a question about a box with this many rays.
 pub fn boxes(rays: u8) -> ExamQuestion {
-    let query = |x| {
-        let ray = Ray::new(Vec3::new(f32::from(x), 0.0, 0.0), Vec3::X);
-        (ray, Interval::AHEAD)
+    let query = |x| Query {
+        ray: Ray::new(Vec3::new(f32::from(x), 0.0, 0.0), Vec3::X),
+        times: Interval::AHEAD,
     };
+    let (min, max) = (Vec3::ZERO, Vec3::ONE);
+    let queries = (0..rays).map(query).collect();
     ExamQuestion::new(
-        Question::BBox {
-            min: Vec3::ZERO,
-            max: Vec3::ONE,
-            queries: (0..rays).map(query).collect(),
-        },
-        Key::Spans {
-            spans: (0..rays).map(|_| None).collect(),
-        },
+        Question::boxes(Corners { min, max }, queries),
+        Key::spans((0..rays).map(|_| None).collect()),
     )
 }
 
@@ -49,7 +45,7 @@ pub fn item(id: &str, questions: Vec<ExamQuestion>) -> Item {
 pub fn exam(ids: &[&str]) -> Exam {
     let items = ids.iter().map(|id| item(id, vec![boxes(1)]));
     Exam {
-        schema: 1,
+        schema: 2,
         assignment: RAYS.assignment.id.to_owned(),
         id: "small".to_owned(),
         mistakes: Vec::new(),

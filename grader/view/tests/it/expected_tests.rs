@@ -8,7 +8,7 @@ use framework::submission::Submission as _;
 use glam::{UVec2, Vec2};
 use grader::exam_source::ExamSource;
 use grader::handed_out::RAYS;
-use protocol::{Question, Ray, Shape, Tree, TreeNode};
+use protocol::{Geometry, Question, Ray, Shape, Table, Tree, TreeNode};
 use reference::world::Student;
 
 use crate::harness::workspace;
@@ -49,12 +49,15 @@ impl Expected {
         let exam = ExamSource::Practice.load(&RAYS).unwrap().exam;
         let item = exam.items.iter().find(|known| known.id == item).unwrap();
         let (question, element) = item.element(number).unwrap();
-        let Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            rays,
-        } = &item.questions[question].question
+        let Question::Hit(Table {
+            subject:
+                Geometry::Tree {
+                    shapes,
+                    nodes,
+                    root,
+                },
+            rows,
+        }) = &item.questions[question].question
         else {
             panic!("{} is not about traversal", item.id);
         };
@@ -66,7 +69,7 @@ impl Expected {
                 order: (0..).take(shapes.len()).collect(),
             },
             scene: None,
-            ray: Some(rays.to_vec()[element]),
+            ray: rows.get(element),
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
-use protocol::{Question, Ray, Rays, Shape};
+use protocol::{Geometry, Question, Ray, Shape};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
@@ -54,44 +54,46 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
     let mut add = |cell: Cell, times: usize| *counts.entry(cell).or_default() += times;
     let calls = asked.question.count();
     match &asked.question {
-        Question::Camera { camera, samples } => {
-            let film = camera.film;
+        Question::SampleRay(table) => {
+            let film = table.subject.film;
             let is_large = film.max_element() >= 1000;
             add("film: wide", calls * usize::from(film.x > film.y));
             add("film: high", calls * usize::from(film.y > film.x));
             add("film: large", calls * usize::from(is_large));
-            for sample in samples.to_vec(film) {
+            for sample in table.rows.to_vec().iter() {
                 let (right, up) = (2 * sample.pixel.x >= film.x, 2 * sample.pixel.y >= film.y);
                 add(QUADRANT[usize::from(right) + 2 * usize::from(up)], 1);
             }
         }
-        Question::Shapes { shapes, rays } => {
-            place(&bounds(shapes), calls, &mut add);
-            for ray in rays.to_vec() {
-                add(start_at_shapes(shapes, &ray), 1);
+        Question::Hit(table) => {
+            let shapes = table.subject.shapes();
+            let bounds = bounds(shapes);
+            place(&bounds, calls, &mut add);
+            let is_list = matches!(table.subject, Geometry::List { .. });
+            if !is_list {
+                add(size(shapes.len()), calls);
+            }
+            for ray in table.rows.to_vec().iter() {
+                let start = if is_list {
+                    start_at_shapes(shapes, ray)
+                } else {
+                    start_at_box(&bounds, ray)
+                };
+                add(start, 1);
             }
         }
-        Question::BBox { min, max, queries } => {
-            let bounds = Bounds::new(*min, *max);
+        Question::BBoxHit(table) => {
+            let bounds = Bounds::new(table.subject.min, table.subject.max);
             place(&bounds, calls, &mut add);
-            for (ray, _) in queries {
-                add(start_at_box(&bounds, ray), 1);
+            for query in table.rows.to_vec().iter() {
+                add(start_at_box(&bounds, &query.ray), 1);
             }
         }
         Question::Build { shapes, .. } => {
             place(&bounds(shapes), 1, &mut add);
             add(size(shapes.len()), 1);
         }
-        Question::Traverse { shapes, rays, .. }
-        | Question::BuildAndTraverse { shapes, rays, .. } => {
-            let bounds = bounds(shapes);
-            place(&bounds, calls, &mut add);
-            add(size(shapes.len()), calls);
-            for ray in rays.to_vec() {
-                add(start_at_box(&bounds, &ray), 1);
-            }
-        }
-        Question::Radiance { .. } | Question::Done => {}
+        Question::Radiance { .. } => {}
     }
     for ray in asked_rays(&asked.question) {
         add(OCTANT[ray.dir.is_negative_bitmask() as usize], 1);
@@ -168,10 +170,11 @@ fn start_at_box(bounds: &Bounds, ray: &Ray) -> Cell {
 
 /// Returns the rays of a question, except those of a camera.
 fn asked_rays(question: &Question) -> Vec<Ray> {
-    if let Question::BBox { queries, .. } = question {
-        return queries.iter().map(|(ray, _)| *ray).collect();
+    match question {
+        Question::Hit(table) => table.rows.to_vec().into_owned(),
+        Question::BBoxHit(table) => table.rows.to_vec().iter().map(|query| query.ray).collect(),
+        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => Vec::new(),
     }
-    question.rays().map(Rays::to_vec).unwrap_or_default()
 }
 
 /// Returns how often a cell is asked. A cell that stands for several is asked as often as the one of

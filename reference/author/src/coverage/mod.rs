@@ -196,7 +196,7 @@ mod tests {
 
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
         let exam = Exam {
-            schema: 1,
+            schema: 2,
             assignment: RAYS.assignment.id.to_owned(),
             id: "test".to_owned(),
             mistakes: Vec::new(),

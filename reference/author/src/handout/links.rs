@@ -102,7 +102,7 @@ mod tests {
         items[1].section = Some(Section::new("boxes.md#flat-boxes"));
         items[2].section = None;
         let exam = Exam {
-            schema: 1,
+            schema: 2,
             assignment: RAYS.assignment.id.to_owned(),
             id: String::new(),
             mistakes: Vec::new(),

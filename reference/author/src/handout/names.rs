@@ -164,7 +164,7 @@ mod tests {
         }];
         let files = BTreeSet::from(["student/src/bvh.rs".to_owned()]);
         let exam = Exam {
-            schema: 1,
+            schema: 2,
             assignment: "rays".to_owned(),
             id: String::new(),
             mistakes: Vec::new(),

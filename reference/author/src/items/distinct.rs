@@ -4,9 +4,9 @@
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use judging::exam::{ExamQuestion, Item, Key};
+use judging::exam::{ExamQuestion, Item, Key, Surface};
 use judging::judge::{Credit, judge};
-use protocol::{Answer, ElementOutcome, Interval, Ray, Rays, Trace};
+use protocol::{Answer, ElementOutcome, Trace};
 
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
@@ -46,8 +46,8 @@ fn draw_distinct(seed: Seed, item: &Declaration) -> DeclaredItem {
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers: Vec<Answer> = other.questions.iter().filter_map(correct_answer).collect();
     let is_drawn = |question: &&ExamQuestion| match &question.key {
-        Key::Hits { hits, .. } => hits.iter().any(Option::is_some),
-        Key::Rays { .. } | Key::FirstHits { .. } | Key::Spans { .. } | Key::Radiance { .. } => true,
+        Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
+        Key::FirstHits { .. } | Key::Radiance { .. } => true,
         Key::Tree { .. } => false,
     };
     let mut drawn = item.questions.iter().filter(is_drawn);
@@ -60,47 +60,22 @@ pub fn shares_a_question(item: &Item, other: &Item) -> bool {
 /// Returns a correct answer to a question, or `None` if the answer is a tree.
 fn correct_answer(question: &ExamQuestion) -> Option<Answer> {
     Some(match &question.key {
-        Key::Rays { directions, .. } => Answer::Rays(values(directions.iter().map(|&dir| Ray {
-            origin: Vec3::ZERO,
-            dir,
-            range: Interval::AHEAD,
-        }))),
-        Key::Hits { hits, .. } => {
-            let origins = question
-                .question
-                .rays()
-                .into_iter()
-                .flat_map(Rays::to_vec)
-                .map(|ray| ray.origin);
-            Answer::Hits(values(hits.iter().zip(origins).map(|(hit, origin)| {
-                hit.map(|hit| Trace {
-                    distance: hit.distance,
-                    position: hit.position,
-                    normal: hit.normal,
-                    uv: hit.uv,
-                    origin,
-                    material: hit.material,
-                })
-            })))
-        }
-        Key::FirstHits { hits, .. } => Answer::Hits(values(hits.iter().map(|surface| {
-            surface.map(|surface| Trace {
+        Key::Table { rows, .. } => rows.answer(),
+        Key::FirstHits { hits, .. } => {
+            let trace = |surface: &Surface| Trace {
                 distance: surface.depth,
                 position: Vec3::ZERO,
                 normal: surface.normal,
                 uv: surface.uv,
                 origin: Vec3::ZERO,
                 material: 0,
-            })
-        }))),
-        Key::Spans { spans } => Answer::Spans(values(spans.iter().copied())),
+            };
+            let hits = hits.iter().map(|surface| surface.as_ref().map(trace));
+            Answer::Hits(hits.map(ElementOutcome::Value).collect())
+        }
         Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
         Key::Tree { .. } => return None,
     })
-}
-
-fn values<T>(values: impl Iterator<Item = T>) -> Vec<ElementOutcome<T>> {
-    values.map(ElementOutcome::Value).collect()
 }
 
 #[cfg(test)]

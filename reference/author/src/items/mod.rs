@@ -17,8 +17,8 @@ pub mod traverse;
 pub mod triangle;
 
 use glam::DVec3;
-use judging::exam::{ExamQuestion, HitCheck, Item, Key};
-use protocol::{Question, Ray, Rays, Shape};
+use judging::exam::{ExamQuestion, ExpectedRows, Item, Key};
+use protocol::{Geometry, Question, Ray, Shape};
 
 use crate::items::traverse::RecordedPicture;
 use crate::oracle::{Intersection, Ray64, scan};
@@ -66,25 +66,20 @@ fn reversed_if(is_reversed: bool, ray: Ray) -> Ray {
 
 /// Creates a question that asks for the hit of each ray with a shape, without a tree.
 fn shape_question(
-    checks: &[HitCheck],
+    judged: &[&str],
     shape: Shape,
     rays: impl IntoIterator<Item = Ray>,
 ) -> ExamQuestion {
     let rays: Vec<Ray> = rays.into_iter().collect();
-    let key = hits_key(checks, &rays, |ray64| scan::intersect(ray64, &shape));
-    let (shapes, rays) = (vec![shape], Rays::List(rays));
-    ExamQuestion::new(Question::Shapes { shapes, rays }, key)
+    let key = hits_key(judged, &rays, |ray64| scan::intersect(ray64, &shape));
+    let shapes = Geometry::List {
+        shapes: vec![shape],
+    };
+    ExamQuestion::new(Question::hits(shapes, rays), key)
 }
 
 /// Returns the key for a list of rays, where `answer` computes the correct answer for each ray.
-fn hits_key(
-    checks: &[HitCheck],
-    rays: &[Ray],
-    answer: impl Fn(&Ray64) -> Option<Intersection>,
-) -> Key {
-    let key = |ray: &Ray| answer(&Ray64::from(ray)).map(|intersection| intersection.to_hit());
-    Key::Hits {
-        checks: checks.to_vec(),
-        hits: rays.iter().map(key).collect(),
-    }
+fn hits_key(judged: &[&str], rays: &[Ray], answer: impl Fn(&Ray64) -> Option<Intersection>) -> Key {
+    let hit = |ray: &Ray| Some(answer(&Ray64::from(ray))?.to_trace(ray));
+    Key::table(judged, ExpectedRows::Hits(rays.iter().map(hit).collect()))
 }

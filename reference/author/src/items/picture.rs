@@ -8,7 +8,7 @@
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};
-use protocol::{ExamCamera, Question, Rays, Sample, Shape, every_pixel};
+use protocol::{ExamCamera, Geometry, Question, Rows, Sample, Shape, Table, every_pixel};
 
 use crate::oracle::scan::Scan;
 use crate::oracle::{Intersection, Ray64};
@@ -45,8 +45,11 @@ pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCa
 pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
     let scan = Scan::new(&shapes);
     let key = first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
-    let rays = Rays::View(camera);
-    ExamQuestion::new(Question::Shapes { shapes, rays }, key)
+    let table = Table {
+        subject: Geometry::List { shapes },
+        rows: Rows::Picture(camera),
+    };
+    ExamQuestion::new(Question::Hit(table), key)
 }
 
 /// Returns the key of a picture. `sees` returns the first intersection of a ray.

@@ -3,7 +3,7 @@
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
-use protocol::{Interval, Question, Ray, Rays, Shape, TreeNode};
+use protocol::{Geometry, Interval, Question, Ray, Shape, TreeNode, Value};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
@@ -114,14 +114,6 @@ impl Place {
         rays.iter().map(|ray| self.ray(ray)).collect()
     }
 
-    /// Moves a list of rays here; returns `None` for the rays of a picture.
-    fn list(self, rays: &Rays) -> Option<Rays> {
-        match rays {
-            Rays::List(rays) => Some(Rays::List(self.rays(rays))),
-            Rays::View(_) => None,
-        }
-    }
-
     /// Moves a query of a box here.
     pub(super) fn query(self, (ray, times): &(Ray, Interval)) -> (Ray, Interval) {
         (self.ray(ray), self.interval(*times))
@@ -162,15 +154,39 @@ impl Place {
         }
         TreeNode { min, max, ..*node }
     }
+
+    /// Moves the value of a field here. What has no place and no size stays as it is.
+    fn value(self, value: Value<'_>) -> Value<'static> {
+        match value {
+            Value::Length(length) => Value::Length(self.length(length)),
+            Value::Point(point) => Value::Point(self.point(point)),
+            Value::Interval(times) => Value::Interval(self.interval(times)),
+            Value::Range(range) => Value::Range(self.interval(range)),
+            Value::Shapes(shapes) => Value::Shapes(self.shapes(&shapes).into()),
+            Value::Nodes(nodes) => {
+                let nodes: Vec<TreeNode> = nodes.iter().map(|node| self.node(node)).collect();
+                Value::Nodes(nodes.into())
+            }
+            Value::Direction(direction) => Value::Direction(direction),
+            Value::Uv(uv) => Value::Uv(uv),
+            Value::Index(index) => Value::Index(index),
+            Value::Count(count) => Value::Count(count),
+            Value::Angle(angle) => Value::Angle(angle),
+            Value::Ratio(ratio) => Value::Ratio(ratio),
+            Value::Film(film) => Value::Film(film),
+            Value::Pixel(pixel) => Value::Pixel(pixel),
+            Value::Offset(offset) => Value::Offset(offset),
+        }
+    }
 }
 
 /// Returns the same question about dust.
 ///
 /// # Panics
 ///
-/// If the question is not about shapes, boxes or trees with a list of rays.
+/// If the question is about a picture.
 pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
-    moved(Place::dust(), asked).expect("the question has a list of rays")
+    moved(Place::dust(), &asked).expect("the question has a list of rows")
 }
 
 /// Returns the same question about things that are as large and as far from the origin as those of
@@ -178,16 +194,17 @@ pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
 /// about nothing.
 pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let bounds = match &asked.question {
-        Question::Shapes { shapes, .. } | Question::Traverse { shapes, .. } => shapes
-            .iter()
-            .map(scan::bounds)
-            .reduce(|all, next| all.union(&next))?,
-        Question::BBox { min, max, .. } => Bounds::new(*min, *max),
-        Question::Camera { .. }
-        | Question::Build { .. }
-        | Question::BuildAndTraverse { .. }
-        | Question::Radiance { .. }
-        | Question::Done => return None,
+        Question::Hit(table) => match &table.subject {
+            Geometry::List { shapes } | Geometry::Tree { shapes, .. } => shapes
+                .iter()
+                .map(scan::bounds)
+                .reduce(|all, next| all.union(&next))?,
+            Geometry::BuiltTree { .. } => return None,
+        },
+        Question::BBoxHit(table) => Bounds::new(table.subject.min, table.subject.max),
+        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => {
+            return None;
+        }
     };
     if bounds.diagonal() <= 0.0 {
         return None;
@@ -195,7 +212,7 @@ pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuest
     // Far from the origin, rounding moves everything a little, and what was only just fair need not be.
     rng.retry(|rng| {
         let place = Place::exact_room(rng, bounds.diagonal());
-        let moved = moved(place, asked.clone());
+        let moved = moved(place, asked);
         moved.as_ref().is_none_or(is_fair).then_some(moved)
     })
 }
@@ -206,58 +223,31 @@ fn is_fair(asked: &ExamQuestion) -> bool {
     tree.is_none_or(|(tree, rays)| decoy::is_fair(&tree, &rays.to_vec()))
 }
 
-/// Returns a question at another place, or `None` if it is not about a list of rays.
-fn moved(place: Place, asked: ExamQuestion) -> Option<ExamQuestion> {
-    let question = match asked.question {
-        Question::Shapes { shapes, rays } => Question::Shapes {
-            shapes: place.shapes(&shapes),
-            rays: place.list(&rays)?,
+/// Returns a question at another place, or `None` if it is about a picture.
+fn moved(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
+    let change = |value: Value<'_>| place.value(value);
+    let question = match (&asked.question, asked.question.table()) {
+        (_, Some(table)) => table.changed(&change)?,
+        (
+            Question::Build {
+                shapes,
+                max_leaf_size,
+            },
+            None,
+        ) => Question::Build {
+            shapes: place.shapes(shapes),
+            max_leaf_size: *max_leaf_size,
         },
-        Question::BBox { min, max, queries } => Question::BBox {
-            min: place.point(min),
-            max: place.point(max),
-            queries: queries.iter().map(|query| place.query(query)).collect(),
-        },
-        Question::Build {
-            shapes,
-            max_leaf_size,
-        } => Question::Build {
-            shapes: place.shapes(&shapes),
-            max_leaf_size,
-        },
-        Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            rays,
-        } => Question::Traverse {
-            shapes: place.shapes(&shapes),
-            nodes: nodes.iter().map(|node| place.node(node)).collect(),
-            root,
-            rays: place.list(&rays)?,
-        },
-        Question::Camera { .. }
-        | Question::BuildAndTraverse { .. }
-        | Question::Radiance { .. }
-        | Question::Done => return None,
+        (_, None) => return None,
     };
-    let key = match asked.key {
-        Key::Hits { checks, mut hits } => {
-            for hit in hits.iter_mut().flatten() {
-                hit.distance = place.length(hit.distance);
-                hit.position = place.point(hit.position);
-            }
-            Key::Hits { checks, hits }
-        }
-        Key::Spans { mut spans } => {
-            for span in spans.iter_mut().flatten() {
-                *span = place.interval(*span);
-            }
-            Key::Spans { spans }
-        }
+    let key = match &asked.key {
+        Key::Table { judged, rows } => Key::Table {
+            judged: judged.clone(),
+            rows: rows.changed(&change),
+        },
         // A tree's cost is a ratio of areas.
-        key @ Key::Tree { .. } => key,
-        Key::Rays { .. } | Key::FirstHits { .. } | Key::Radiance { .. } => return None,
+        Key::Tree { .. } => asked.key.clone(),
+        Key::FirstHits { .. } | Key::Radiance { .. } => return None,
     };
     Some(ExamQuestion::new(question, key))
 }

@@ -10,8 +10,8 @@ pub mod sweep;
 pub mod triangle;
 
 use glam::{DVec2, DVec3};
-use judging::exam::{ExpectedHit, Surface};
-use protocol::{Interval, Ray};
+use judging::exam::Surface;
+use protocol::{Interval, Ray, Trace};
 
 /// A question's ray, converted exactly to double precision.
 #[derive(Clone, Copy, Debug)]
@@ -79,13 +79,14 @@ pub struct Intersection {
 }
 
 impl Intersection {
-    /// Converts the intersection to the expected hit of a question with a list of rays.
-    pub fn to_hit(&self) -> ExpectedHit {
-        ExpectedHit {
+    /// Converts the intersection to the trace that is expected of a ray.
+    pub fn to_trace(&self, ray: &Ray) -> Trace {
+        Trace {
             distance: self.distance as f32,
             position: self.position.as_vec3(),
             normal: self.normal.as_vec3(),
             uv: self.uv.as_vec2(),
+            origin: ray.origin,
             material: self.material,
         }
     }

@@ -60,7 +60,7 @@ impl Catch {
                 Key::FirstHits { .. } | Key::Radiance { .. } => {
                     caught.picture = caught.picture.max(picture_multiple(question, answer));
                 }
-                Key::Rays { .. } | Key::Hits { .. } | Key::Spans { .. } => {
+                Key::Table { .. } => {
                     let count = judgement.failure.and_then(|failure| failure.count);
                     caught.answers.0 += count.map_or(0, |(wrong, _)| wrong);
                     caught.answers.1 += question.question.count();

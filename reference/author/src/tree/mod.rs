@@ -4,7 +4,7 @@ pub mod construction;
 pub mod decoy;
 pub mod traversal;
 
-use protocol::{Question, Ray, Rays, Shape, TreeNode};
+use protocol::{Geometry, Question, Ray, Rows, Shape, TreeNode};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
@@ -34,13 +34,15 @@ pub enum RootPosition {
 
 impl Tree {
     /// Returns the tree of a question about traversal, and its rays.
-    pub fn in_question(question: &Question) -> Option<(Tree, &Rays)> {
-        let Question::Traverse {
+    pub fn in_question(question: &Question) -> Option<(Tree, &Rows<Ray>)> {
+        let Question::Hit(table) = question else {
+            return None;
+        };
+        let Geometry::Tree {
             shapes,
             nodes,
             root,
-            rays,
-        } = question
+        } = &table.subject
         else {
             return None;
         };
@@ -49,7 +51,7 @@ impl Tree {
             nodes: nodes.clone(),
             root: *root as usize,
         };
-        Some((tree, rays))
+        Some((tree, &table.rows))
     }
 
     /// Returns the box of a node.
@@ -228,11 +230,15 @@ impl Tree {
 
     /// Returns the question that asks for the closest hits of these rays in this tree.
     pub fn question(&self, rays: Vec<Ray>) -> Question {
-        Question::Traverse {
+        Question::hits(self.geometry(), rays)
+    }
+
+    /// Returns the tree as the subject of a question.
+    pub fn geometry(&self) -> Geometry {
+        Geometry::Tree {
             shapes: self.shapes.clone(),
             nodes: self.nodes.clone(),
             root: self.root as u32,
-            rays: Rays::List(rays),
         }
     }
 }

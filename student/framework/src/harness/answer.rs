@@ -1,6 +1,7 @@
 //! Answers the grader's questions element by element, so that a panic affects only its own element.
 
-use protocol::{Answer, ElementOutcome, Question};
+use protocol::function::Input;
+use protocol::{Answer, Corners, ElementOutcome, Geometry, Output, Query, Question, Rows, Table};
 
 use crate::harness::attempt::{attempt, attempt_each};
 use crate::render::integrator::{RenderSettings, render};
@@ -10,21 +11,42 @@ use crate::submission::Submission;
 /// Returns a submission's answer to a question.
 pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answer {
     match question {
-        Question::Camera { camera, samples } => Answer::Rays(attempt_with(
-            || submission.camera(camera),
-            &samples.to_vec(camera.film),
+        Question::SampleRay(Table { subject, rows }) => call_each(
+            rows,
+            || submission.camera(subject),
             |camera, sample| camera.ray(sample.pixel, sample.offset),
-        )),
-        Question::Shapes { shapes, rays } => Answer::Hits(attempt_with(
-            || submission.primitive_list(shapes),
-            &rays.to_vec(),
-            |list, ray| list.closest_hit(ray),
-        )),
-        Question::BBox { min, max, queries } => {
-            Answer::Spans(attempt_each(queries, |(ray, times)| {
+        ),
+        Question::Hit(Table { subject, rows }) => match subject {
+            Geometry::List { shapes } => call_each(
+                rows,
+                || submission.primitive_list(shapes),
+                |list, ray| list.closest_hit(ray),
+            ),
+            Geometry::Tree {
+                shapes,
+                nodes,
+                root,
+            } => call_each(
+                rows,
+                || submission.prebuilt_tree(shapes, nodes, *root as usize),
+                |bvh, ray| bvh.closest_hit(ray),
+            ),
+            Geometry::BuiltTree {
+                shapes,
+                max_leaf_size,
+            } => call_each(
+                rows,
+                || submission.build(shapes, *max_leaf_size as usize),
+                |bvh, ray| bvh.closest_hit(ray),
+            ),
+        },
+        Question::BBoxHit(Table { subject, rows }) => call_each(
+            rows,
+            || *subject,
+            |Corners { min, max }, Query { ray, times }| {
                 submission.intersect_box(*min, *max, ray, *times)
-            }))
-        }
+            },
+        ),
         Question::Build {
             shapes,
             max_leaf_size,
@@ -39,25 +61,6 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
             );
             tree
         })),
-        Question::Traverse {
-            shapes,
-            nodes,
-            root,
-            rays,
-        } => Answer::Hits(attempt_with(
-            || submission.prebuilt_tree(shapes, nodes, *root as usize),
-            &rays.to_vec(),
-            |bvh, ray| bvh.closest_hit(ray),
-        )),
-        Question::BuildAndTraverse {
-            shapes,
-            max_leaf_size,
-            rays,
-        } => Answer::Hits(attempt_with(
-            || submission.build(shapes, *max_leaf_size as usize),
-            &rays.to_vec(),
-            |bvh, ray| bvh.closest_hit(ray),
-        )),
         Question::Radiance {
             scene,
             film,
@@ -81,19 +84,18 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
                 }
             })
         }
-        Question::Done => Answer::Done,
     }
 }
 
-/// Runs `answer` for each element with the subject that `make` creates. The subject is created for
-/// the first element, so that a panic in a constructor is reported like any other panic.
-fn attempt_with<S, Q, T>(
+/// Calls a function once per row, on the subject that `make` creates. The subject is created for the
+/// first row, so that a panic in a constructor is reported like any other panic.
+fn call_each<S, I: Input, O: Output>(
+    rows: &Rows<I>,
     make: impl Fn() -> S,
-    elements: &[Q],
-    answer: impl Fn(&S, &Q) -> T,
-) -> Vec<ElementOutcome<T>> {
+    call: impl Fn(&S, &I) -> O,
+) -> Answer {
     let mut subject = None;
-    attempt_each(elements, |element| {
-        answer(subject.get_or_insert_with(&make), element)
-    })
+    O::answer(attempt_each(&rows.to_vec(), |row| {
+        call(subject.get_or_insert_with(&make), row)
+    }))
 }

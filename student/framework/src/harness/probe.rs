@@ -76,6 +76,10 @@ fn serve(
             Err(WireError::EndOfStream) => return Ok(()),
             read => read?,
         };
+        if frame.is_end() {
+            answers.write_all(&wire::append_end(Vec::new(), frame.nonce))?;
+            continue;
+        }
         let answer = answer::answer_question(submission, &frame.decode()?);
         wire::write(&mut answers, frame.nonce, &answer)?;
     }

@@ -12,11 +12,11 @@ use protocol::{ElementOutcome, Trace};
 
 use crate::describe;
 use crate::exam::Surface;
-use crate::judge::measure::{direction_error, length_error, uv_error};
 use crate::judge::{
     Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
     Threshold, deviation,
 };
+use crate::types::{direction, length, uv};
 
 pub(super) const DEPTH: f32 = 2e-4;
 pub(super) const NORMAL: f32 = 5e-3;
@@ -211,13 +211,17 @@ fn position_deviations<'a>(
 
 /// Returns the deviations of a hit in depth, normal and uv.
 fn deviations(got: &Trace, wanted: &Surface, scale: f32) -> [Deviation; QUANTITIES.len() - 1] {
-    let depth = length_error(got.distance, wanted.depth, scale, DEPTH);
-    let normal = direction_error(got.normal, wanted.normal, NORMAL);
+    let depth = length::error(got.distance, wanted.depth, scale, DEPTH);
+    let normal = direction::error(got.normal, wanted.normal, NORMAL);
     [
         Deviation::new(Threshold::PictureDepth, depth),
         Deviation::new(Threshold::PictureNormal, normal),
-        Deviation::new(Threshold::PictureUv, uv_error(got.uv, wanted.uv)),
+        Deviation::new(Threshold::PictureUv, uv::error(got.uv, wanted.uv)),
     ]
+}
+
+fn hit_at(distance: f32) -> String {
+    format!("a hit at distance {}", describe::number(distance))
 }
 
 fn failure_kind(
@@ -235,7 +239,7 @@ fn failure_kind(
         (_, None) => "no hit".to_owned(),
         (Aspect::Normal, Some((_, normal, _))) => describe::point(normal),
         (Aspect::Uv, Some((_, _, uv))) => describe::uv(uv),
-        (_, Some((distance, ..))) => describe::hit_at(distance),
+        (_, Some((distance, ..))) => hit_at(distance),
     };
     FailureKind::Wrong {
         what: aspect.name().to_owned(),

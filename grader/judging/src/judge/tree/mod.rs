@@ -8,11 +8,11 @@ pub mod reached_nodes;
 use protocol::{ElementOutcome, Shape, Tree};
 
 use crate::exam::TreeCheck;
-use crate::judge::measure::in_units_of;
 use crate::judge::{
     Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Threshold,
     deviation,
 };
+use crate::types::multiple::in_units_of;
 
 use bounds::Bounds;
 use defect::{NodeBox, TreeDefect};

@@ -73,7 +73,7 @@ fn explain(correct: &str, mistakes: &[Mistake], answers: &str) -> String {
         section: None,
     });
     let exam = Exam {
-        schema: 1,
+        schema: 2,
         assignment: RAYS.id.to_owned(),
         id: "small".to_owned(),
         mistakes: known.collect(),

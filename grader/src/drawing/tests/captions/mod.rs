@@ -4,7 +4,7 @@ mod rays;
 mod trees;
 
 use glam::{Vec3, vec2, vec3};
-use judging::exam::{ExamQuestion, ExpectedHit};
+use judging::exam::ExamQuestion;
 use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 
 use crate::drawing::draw;
@@ -33,25 +33,14 @@ fn ahead(min: f32, max: f32) -> Ray {
     Ray::new(Vec3::ZERO, Vec3::NEG_Z).within(min, max)
 }
 
-fn hit(distance: f32) -> ExpectedHit {
-    ExpectedHit {
+fn trace(distance: f32) -> Trace {
+    Trace {
         distance,
         position: vec3(0.0, 0.0, -distance),
         normal: Vec3::Z,
         uv: vec2(0.25, 0.5),
-        material: 7,
-    }
-}
-
-fn trace(distance: f32) -> Trace {
-    let hit = hit(distance);
-    Trace {
-        distance,
-        position: hit.position,
-        normal: hit.normal,
-        uv: hit.uv,
         origin: Vec3::ZERO,
-        material: hit.material,
+        material: 7,
     }
 }
 

@@ -3,34 +3,28 @@
 use glam::{UVec2, Vec2, Vec3, vec2, vec3};
 use insta::assert_snapshot;
 use judging::drawing_data::DrawingData;
-use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, RayCheck};
+use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::{
-    Answer, ElementOutcome, Interval, PinholeCamera, Question, Ray, Rays, Sample, Samples, Trace,
+    Answer, Corners, ElementOutcome, Geometry, Interval, PinholeCamera, Query, Question, Ray,
+    Sample, Table, Trace,
 };
 
-use super::{ahead, ball, caption, captions, hit, hits, trace};
+use super::{ahead, ball, caption, captions, hits, trace};
 
-fn sphere(ray: Ray, check: HitCheck, hit: Option<ExpectedHit>) -> ExamQuestion {
-    let question = Question::Shapes {
-        shapes: vec![ball(0.0, 7)],
-        rays: Rays::List(vec![ray]),
-    };
-    let key = Key::Hits {
-        checks: vec![check],
-        hits: vec![hit],
-    };
-    ExamQuestion::new(question, key)
+fn sphere(ray: Ray, judged: &str, hit: Option<Trace>) -> ExamQuestion {
+    let shapes = vec![ball(0.0, 7)];
+    let question = Question::hits(Geometry::List { shapes }, vec![ray]);
+    ExamQuestion::new(
+        question,
+        Key::table(&[judged], ExpectedRows::Hits(vec![hit])),
+    )
 }
 
 #[test]
 fn captions_of_missing_or_misplaced_hits() {
-    let near = sphere(
-        ahead(0.0, f32::INFINITY),
-        HitCheck::Distance,
-        Some(hit(4.0)),
-    );
-    let far = sphere(ahead(4.5, 9.0), HitCheck::Distance, Some(hit(6.0)));
-    let none = sphere(ahead(0.0, 3.0), HitCheck::Distance, None);
+    let near = sphere(ahead(0.0, f32::INFINITY), "distance", Some(trace(4.0)));
+    let far = sphere(ahead(4.5, 9.0), "distance", Some(trace(6.0)));
+    let none = sphere(ahead(0.0, 3.0), "distance", None);
     let of_near = [
         None,
         Some(trace(6.0)),
@@ -54,55 +48,56 @@ fn captions_of_hits_with_another_wrong_field() {
         hits(Some(trace))
     };
     let ray = ahead(0.0, f32::INFINITY);
-    let exam_question = |check| sphere(ray, check, Some(hit(4.0)));
+    let exam_question = |check| sphere(ray, check, Some(trace(4.0)));
     let lines = [
         caption(
-            &exam_question(HitCheck::Position),
+            &exam_question("position"),
             with(|trace| trace.position.z = 4.0),
         ),
         caption(
-            &exam_question(HitCheck::Normal),
+            &exam_question("normal"),
             with(|trace| trace.normal = Vec3::NEG_Z),
         ),
         caption(
-            &exam_question(HitCheck::Normal),
+            &exam_question("normal"),
             with(|trace| trace.normal = vec3(0.0, 1.0, 1.0)),
         ),
         caption(
-            &exam_question(HitCheck::Normal),
+            &exam_question("normal"),
             with(|trace| trace.normal = Vec3::ZERO),
         ),
         caption(
-            &exam_question(HitCheck::UnitNormal),
+            &exam_question("unit_normal"),
             with(|trace| trace.normal *= 2.0),
         ),
         caption(
-            &exam_question(HitCheck::Uv),
+            &exam_question("uv"),
             with(|trace| trace.uv = vec2(0.5, 0.25)),
         ),
         caption(
-            &exam_question(HitCheck::Origin),
+            &exam_question("origin"),
             with(|trace| trace.origin = Vec3::ONE),
         ),
-        caption(
-            &exam_question(HitCheck::Material),
-            with(|trace| trace.material = 0),
-        ),
+        caption(&exam_question("material"), with(|trace| trace.material = 0)),
     ];
     assert_snapshot!(lines.join("\n"));
 }
 
 #[test]
 fn captions_of_box_intervals() {
-    let question = Question::BBox {
+    let corners = Corners {
         min: vec3(2.0, -1.0, -1.0),
         max: vec3(4.0, 1.0, 1.0),
-        queries: vec![(Ray::new(Vec3::ZERO, Vec3::X), Interval::AHEAD)],
     };
+    let query = Query {
+        ray: Ray::new(Vec3::ZERO, Vec3::X),
+        times: Interval::AHEAD,
+    };
+    let question = Question::boxes(corners, vec![query]);
     let always = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
     let exam_question = |span| ExamQuestion {
         question: question.clone(),
-        key: Key::Spans { spans: vec![span] },
+        key: Key::spans(vec![span]),
         drawing_data: DrawingData::Slabs(vec![[Interval::new(2.0, 4.0), always, always]]),
     };
     let span = |min, max| Some(Interval::new(min, max));
@@ -129,14 +124,11 @@ fn captions_of_camera_rays() {
         offset: Vec2::ZERO,
     };
     let exam_question = ExamQuestion::new(
-        Question::Camera {
-            camera,
-            samples: Samples::List(vec![sample]),
-        },
-        Key::Rays {
-            checks: vec![RayCheck::Direction, RayCheck::UnitLength],
-            directions: vec![Vec3::NEG_Z],
-        },
+        Question::SampleRay(Table::of_list(camera, vec![sample])),
+        Key::table(
+            &["direction", "unit_direction"],
+            ExpectedRows::Rays(vec![Vec3::NEG_Z]),
+        ),
     );
     let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
     let rays = [

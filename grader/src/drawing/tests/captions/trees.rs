@@ -3,10 +3,10 @@
 use glam::vec3;
 use insta::assert_snapshot;
 use judging::drawing_data::{DrawingData, TraversalStep};
-use judging::exam::{ExamQuestion, ExpectedHit, HitCheck, Key, TreeCheck};
-use protocol::{Answer, ElementOutcome, Interval, Question, Rays, Trace, Tree, TreeNode};
+use judging::exam::{ExamQuestion, ExpectedRows, Key, TreeCheck};
+use protocol::{Answer, ElementOutcome, Geometry, Interval, Question, Trace, Tree, TreeNode};
 
-use super::{ahead, ball, caption, captions, hit, hits, trace};
+use super::{ahead, ball, caption, captions, hits, trace};
 
 fn node(x: [f32; 2], leaf: Option<[u32; 2]>, [l, r]: [u32; 2]) -> TreeNode {
     let [start, size] = leaf.unwrap_or_default();
@@ -86,19 +86,21 @@ fn captions_of_traversals() {
             span,
         };
         ExamQuestion {
-            question: Question::Traverse {
-                shapes: (0..4).map(|i| ball(10.0 * i as f32, i)).collect(),
-                nodes: nodes.clone(),
-                root: 0,
-                rays: Rays::List(vec![ahead(0.0, f32::INFINITY)]),
-            },
-            key: Key::Hits {
-                checks: vec![HitCheck::Distance],
-                hits: vec![Some(ExpectedHit {
+            question: Question::hits(
+                Geometry::Tree {
+                    shapes: (0..4).map(|i| ball(10.0 * i as f32, i)).collect(),
+                    nodes: nodes.clone(),
+                    root: 0,
+                },
+                vec![ahead(0.0, f32::INFINITY)],
+            ),
+            key: Key::table(
+                &["distance"],
+                ExpectedRows::Hits(vec![Some(Trace {
                     material: 0,
-                    ..hit(4.0)
-                })],
-            },
+                    ..trace(4.0)
+                })]),
+            ),
             drawing_data: DrawingData::Traversals(vec![vec![
                 step(0, true, span(4.0, 6.0)),
                 step(1, true, span(4.0, 6.0)),

@@ -6,7 +6,7 @@ mod times;
 
 use glam::{DVec3, dvec3};
 use judging::exam::{ExamQuestion, Key};
-use protocol::{Interval, Question, Ray};
+use protocol::{Corners, Interval, Question, Ray};
 
 use crate::items::{DeclaredItem, draw_items};
 use crate::oracle::Ray64;
@@ -39,14 +39,15 @@ fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
         let span = bounds.span(&Ray64::from(ray).within(*times));
         span.map(|(enter, leave)| Interval::new(enter as f32, leave as f32))
     };
-    let key = Key::Spans {
-        spans: queries.iter().map(expected).collect(),
-    };
-    let question = Question::BBox {
+    let spans = queries.iter().map(expected).collect();
+    let key = Key::spans(spans);
+    let corners = Corners {
         min: bounds.min.as_vec3(),
         max: bounds.max.as_vec3(),
-        queries,
     };
+    let queries = queries.into_iter();
+    let rows = queries.map(|(ray, times)| protocol::Query { ray, times });
+    let question = Question::boxes(corners, rows.collect());
     ExamQuestion::new(question, key)
 }
 

@@ -11,8 +11,8 @@ mod sensor;
 pub(super) use sensor::CORNERS;
 
 use glam::{UVec2, Vec2, uvec2};
-use judging::exam::{ExamQuestion, Key, RayCheck};
-use protocol::{PinholeCamera, Question, Sample, Samples};
+use judging::exam::{ExamQuestion, ExpectedRows, Key};
+use protocol::{PinholeCamera, Question, Rows, Sample, SampleRay, Table};
 
 use crate::items::{DeclaredItem, draw_items};
 use crate::oracle;
@@ -37,22 +37,19 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     draw_items(seed, &all)
 }
 
-fn camera_question(checks: &[RayCheck], camera: PinholeCamera, samples: Samples) -> ExamQuestion {
-    let expected = |sample| oracle::camera::direction(&camera, sample).as_vec3();
-    let directions = samples
-        .to_vec(camera.film)
-        .into_iter()
-        .map(expected)
-        .collect();
-    let key = Key::Rays {
-        checks: checks.to_vec(),
-        directions,
+fn camera_question(judged: &[&str], camera: PinholeCamera, rows: Rows<Sample>) -> ExamQuestion {
+    let direction = |sample: &Sample| oracle::camera::direction(&camera, *sample).as_vec3();
+    let directions = rows.to_vec().iter().map(direction).collect();
+    let key = Key::table(judged, ExpectedRows::Rays(directions));
+    let table: Table<SampleRay> = Table {
+        subject: camera,
+        rows,
     };
-    ExamQuestion::new(Question::Camera { camera, samples }, key)
+    ExamQuestion::new(Question::SampleRay(table), key)
 }
 
 fn direction_question(camera: PinholeCamera, samples: Vec<Sample>) -> ExamQuestion {
-    camera_question(&[RayCheck::Direction], camera, Samples::List(samples))
+    camera_question(&["direction"], camera, Rows::List(samples))
 }
 
 fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {

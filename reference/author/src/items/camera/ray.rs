@@ -1,8 +1,8 @@
 //! Items about the offset within the pixel, and about the ray itself.
 
 use glam::{UVec2, uvec2, vec2};
-use judging::exam::{ExamQuestion, RayCheck};
-use protocol::{Sample, Samples};
+use judging::exam::ExamQuestion;
+use protocol::{Rows, Sample};
 
 use super::{camera, camera_question, direction_question, middle_of, random_below};
 use crate::items::{Declaration, Group};
@@ -93,11 +93,11 @@ fn large_film(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 /// Creates a question with very different directions, so that no constant answer passes an item
 /// about length, origin or range.
-fn spread_question(checks: &[RayCheck], rng: &mut Rng) -> ExamQuestion {
+fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
     let film = UVec2::splat(rng.integer(7, 19));
     let samples = (0..16).map(|_| middle_of(random_below(rng, film.x), random_below(rng, film.y)));
-    let samples = Samples::List(samples.collect());
-    camera_question(checks, camera(90.0, 1.0, film), samples)
+    let samples = Rows::List(samples.collect());
+    camera_question(judged, camera(90.0, 1.0, film), samples)
 }
 
 pub(super) const UNIT_LENGTH: Declaration = Declaration {
@@ -112,10 +112,7 @@ pub(super) const UNIT_LENGTH: Declaration = Declaration {
 };
 
 fn unit_length(rng: &mut Rng) -> Vec<ExamQuestion> {
-    vec![spread_question(
-        &[RayCheck::Direction, RayCheck::UnitLength],
-        rng,
-    )]
+    vec![spread_question(&["direction", "unit_direction"], rng)]
 }
 
 pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
@@ -129,8 +126,8 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
 };
 
 fn origin_and_range(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let checks = [RayCheck::Direction, RayCheck::Origin, RayCheck::Range];
-    vec![spread_question(&checks, rng)]
+    let judged = ["direction", "origin", "range"];
+    vec![spread_question(&judged, rng)]
 }
 
 pub(super) const PICTURE: Declaration = Declaration {
@@ -147,8 +144,8 @@ pub(super) const PICTURE: Declaration = Declaration {
 fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     let camera = camera(rng.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
     vec![camera_question(
-        &[RayCheck::Direction],
+        &["direction"],
         camera,
-        Samples::EveryPixel,
+        Rows::Picture(camera.film),
     )]
 }

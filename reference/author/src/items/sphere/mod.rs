@@ -3,7 +3,7 @@
 mod roots;
 mod surface;
 
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape};
 
 use crate::items::place::Place;
@@ -72,25 +72,25 @@ fn ray_from_inside(rng: &mut Rng, sphere: &Sphere) -> Ray {
 }
 
 fn sphere_question(
-    checks: &[HitCheck],
+    judged: &[&str],
     sphere: &Sphere,
     material: u32,
     rays: impl IntoIterator<Item = Ray>,
 ) -> ExamQuestion {
-    super::shape_question(checks, shape(sphere, material), rays)
+    super::shape_question(judged, shape(sphere, material), rays)
 }
 
 /// Creates one question per radius, with rays of one kind and some rays that miss.
 fn table_questions(
     rng: &mut Rng,
-    checks: &[HitCheck],
+    judged: &[&str],
     radii: &[f64],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
     let table = |&radius: &f64| {
         let sphere = random_sphere(rng, radius);
         let rays = hits_and_misses(rng, &sphere, [12, 5], &kind);
-        sphere_question(checks, &sphere, 0, rng.shuffled(rays))
+        sphere_question(judged, &sphere, 0, rng.shuffled(rays))
     };
     radii.iter().map(table).collect()
 }
@@ -99,7 +99,7 @@ fn table_questions(
 /// from the origin as things in the Cornell box, and about one with a radius of a hundredth.
 fn placed_questions(
     rng: &mut Rng,
-    checks: &[HitCheck],
+    judged: &[&str],
     kind: impl Fn(&mut Rng, &Sphere) -> Ray,
 ) -> Vec<ExamQuestion> {
     let places: [fn(&mut Rng) -> Place; 2] = [Place::room, Place::miniature];
@@ -108,7 +108,7 @@ fn placed_questions(
         let rays = hits_and_misses(rng, &sphere, [8, 4], &kind);
         let place = place(rng);
         let (shape, rays) = place.table(&(shape(&sphere, 0), rng.shuffled(rays)));
-        super::shape_question(checks, shape, rays)
+        super::shape_question(judged, shape, rays)
     };
     places.map(question).into()
 }

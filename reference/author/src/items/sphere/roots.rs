@@ -1,6 +1,6 @@
 //! Items about which of the two roots counts, if any.
 
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::Ray;
 
 use super::{
@@ -20,7 +20,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
            to end, and compare them with those in your code. From outside, the smaller root is the \
            distance; a negative discriminant is a miss.",
     section: "sphere.md#the-quadratic-equation",
-    questions: |rng| table_questions(rng, &[HitCheck::Distance], &[1.0, 1.0, 1.0], hitting_ray),
+    questions: |rng| table_questions(rng, &["distance"], &[1.0, 1.0, 1.0], hitting_ray),
     ..Declaration::in_group(Group::SphereHits)
 };
 
@@ -65,13 +65,13 @@ pub(super) const RADIUS: Declaration = Declaration {
 };
 
 fn radius(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let (checks, radii) = ([HitCheck::Distance], [0.3, 0.7, 2.0, 5.0]);
+    let (judged, radii) = (["distance"], [0.3, 0.7, 2.0, 5.0]);
     let [placed, tiny] =
         &mut ["sphere.radius.placed", "sphere.radius.tiny"].map(|it| rng.sequence(it));
-    let tiny = table_questions(tiny, &checks, &[1.0], hitting_ray);
+    let tiny = table_questions(tiny, &judged, &[1.0], hitting_ray);
     [
-        table_questions(rng, &checks, &radii, hitting_ray),
-        placed_questions(placed, &checks, hitting_ray),
+        table_questions(rng, &judged, &radii, hitting_ray),
+        placed_questions(placed, &judged, hitting_ray),
         tiny.into_iter().map(dust).collect(),
     ]
     .concat()
@@ -92,7 +92,7 @@ fn behind(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut table = |radius: f64| {
         let sphere = random_sphere(rng, radius);
         let rays = (0..16).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &sphere)));
-        sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
+        sphere_question(&["distance"], &sphere, 0, rays)
     };
     vec![table(1.0), table(1.5)]
 }
@@ -106,12 +106,9 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
            is in the range is its distance.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
-        let (checks, placed) = (
-            [HitCheck::Distance],
-            &mut rng.sequence("sphere.from_inside.placed"),
-        );
-        let near = table_questions(rng, &checks, &[1.0, 2.0], ray_from_inside);
-        [near, placed_questions(placed, &checks, ray_from_inside)].concat()
+        let (judged, placed) = (["distance"], &mut rng.sequence("sphere.from_inside.placed"));
+        let near = table_questions(rng, &judged, &[1.0, 2.0], ray_from_inside);
+        [near, placed_questions(placed, &judged, ray_from_inside)].concat()
     },
     ..Declaration::in_group(Group::SphereHits)
 };
@@ -135,7 +132,7 @@ fn range_questions(
                 ray.within(min as f32, max as f32)
             })
         });
-        sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
+        sphere_question(&["distance"], &sphere, 0, rays)
     };
     vec![table(1.0), table(2.0), dust(table(1.0))]
 }
@@ -152,7 +149,7 @@ fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
             .as_vec3();
         Ray { origin, ..ray }.within(0.05, f32::INFINITY)
     });
-    sphere_question(&[HitCheck::Distance], &sphere, 0, rays)
+    sphere_question(&["distance"], &sphere, 0, rays)
 }
 
 pub(super) const FAR_ROOT: Declaration = Declaration {

@@ -1,7 +1,7 @@
 //! Items about the quantities of a hit, and the item with a picture of spheres.
 
 use glam::{DVec3, Vec3, dvec3};
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape};
 
 use super::{
@@ -27,14 +27,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
-    questions: |rng| {
-        table_questions(
-            rng,
-            &[HitCheck::Position],
-            &[0.8, 2.0],
-            ray_from_either_side,
-        )
-    },
+    questions: |rng| table_questions(rng, &["position"], &[0.8, 2.0], ray_from_either_side),
     ..Declaration::ALONE
 };
 
@@ -50,12 +43,12 @@ pub(super) const NORMAL: Declaration = Declaration {
 };
 
 fn normal(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let checks = [HitCheck::Normal, HitCheck::UnitNormal];
-    let outside = table_questions(rng, &checks, &[0.5, 3.0], hitting_ray);
+    let judged = ["normal", "unit_normal"];
+    let outside = table_questions(rng, &judged, &[0.5, 3.0], hitting_ray);
     let inside = &mut rng.sequence("sphere.normal.inside");
-    let inside = table_questions(inside, &checks, &[2.0], ray_from_inside);
+    let inside = table_questions(inside, &judged, &[2.0], ray_from_inside);
     let placed = &mut rng.sequence("sphere.normal.placed");
-    let placed = placed_questions(placed, &checks, ray_from_either_side);
+    let placed = placed_questions(placed, &judged, ray_from_either_side);
     [outside, inside, placed].concat()
 }
 
@@ -67,7 +60,7 @@ pub(super) const UV: Declaration = Declaration {
            must be one. Check the vector that you pass: where does it start, which way does it \
            point, and how long is it?",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
-    questions: |rng| table_questions(rng, &[HitCheck::Uv], &[1.0, 1.0], hitting_ray),
+    questions: |rng| table_questions(rng, &["uv"], &[1.0, 1.0], hitting_ray),
     ..Declaration::ALONE
 };
 
@@ -79,11 +72,11 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     questions: |rng| {
-        let (checks, placed) = ([HitCheck::Uv], &mut rng.sequence("sphere.uv_radius.placed"));
-        let near = table_questions(rng, &checks, &[0.4, 2.5], ray_from_either_side);
+        let (judged, placed) = (["uv"], &mut rng.sequence("sphere.uv_radius.placed"));
+        let near = table_questions(rng, &judged, &[0.4, 2.5], ray_from_either_side);
         [
             near,
-            placed_questions(placed, &checks, ray_from_either_side),
+            placed_questions(placed, &judged, ray_from_either_side),
         ]
         .concat()
     },
@@ -107,8 +100,8 @@ fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
         let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
         rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
         rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
-        let checks = [HitCheck::Origin, HitCheck::Material];
-        sphere_question(&checks, &sphere, material, rays)
+        let judged = ["origin", "material"];
+        sphere_question(&judged, &sphere, material, rays)
     };
     vec![table(0), table(3), table(99)]
 }

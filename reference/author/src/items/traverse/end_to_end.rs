@@ -1,8 +1,8 @@
 //! Items that combine traversal with the other tasks.
 
 use glam::{DVec3, UVec2, Vec3};
-use judging::exam::{ExamQuestion, HitCheck, Key};
-use protocol::{Question, Rays};
+use judging::exam::{ExamQuestion, Key};
+use protocol::{Geometry, Question, Rows, Table};
 
 use super::{
     FIRST_UNREFERENCED, TRAVERSAL, question_without_decoys, ray_from_around, soup_tree,
@@ -34,14 +34,14 @@ pub(super) const OWN_TREE: Declaration = Declaration {
 fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
     let tree = soup_tree(rng, 400, 0.5, 4);
     let rays = unambiguous_rays(rng, &tree, [40, 16], ray_from_around);
-    let key = hits_key(&[HitCheck::Distance], &rays, |ray64| {
+    let key = hits_key(&["distance"], &rays, |ray64| {
         scan::closest_hit(ray64, &tree.shapes)
     });
-    let question = Question::BuildAndTraverse {
+    let built = Geometry::BuiltTree {
         shapes: tree.shapes,
         max_leaf_size: 4,
-        rays: Rays::List(rays),
     };
+    let question = Question::hits(built, rays);
     vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 
@@ -72,12 +72,10 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     let key = picture::first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
     tree.shapes
         .push(meshes::flat_triangle(curtain, FIRST_UNREFERENCED));
-    let question = Question::Traverse {
-        shapes: tree.shapes,
-        nodes: tree.nodes,
-        root: tree.root as u32,
-        rays: Rays::View(camera),
-    };
+    let question = Question::Hit(Table {
+        subject: tree.geometry(),
+        rows: Rows::Picture(camera),
+    });
     vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 

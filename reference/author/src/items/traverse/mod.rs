@@ -12,7 +12,7 @@ mod unusual_trees;
 mod with_decoys;
 mod without_decoys;
 
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::Ray;
 
 use super::meshes;
@@ -57,9 +57,7 @@ const FIRST_UNREFERENCED: u32 = 10_000;
 /// Creates a question that asks for the closest hits of the rays in the tree. Only distances are
 /// judged. This suffices, because no two primitives that a ray could hit are at the same distance.
 fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
-    let key = super::hits_key(&[HitCheck::Distance], &rays, |ray64| {
-        tree.expected_hit(ray64)
-    });
+    let key = super::hits_key(&["distance"], &rays, |ray64| tree.expected_hit(ray64));
     ExamQuestion::new(tree.question(rays), key)
 }
 

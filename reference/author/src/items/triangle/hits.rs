@@ -1,7 +1,7 @@
 //! Items about whether a ray hits, and at which distance.
 
 use glam::{Vec2, Vec3, vec3};
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, Vertex};
 
 use super::aim::{
@@ -22,7 +22,7 @@ pub(super) const INSIDE: Declaration = Declaration {
            code. It is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
            then t is the distance.",
     section: "triangle.md#three-equations-for-three-unknowns",
-    questions: |rng| table_questions(rng, &[HitCheck::Distance], Side::Front),
+    questions: |rng| table_questions(rng, &["distance"], Side::Front),
     ..Declaration::in_group(Group::TriangleHits)
 };
 
@@ -64,7 +64,7 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
     title: "a triangle is hit from behind as well",
     look: "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
-    questions: |rng| table_questions(rng, &[HitCheck::Distance], Side::Back),
+    questions: |rng| table_questions(rng, &["distance"], Side::Back),
     ..Declaration::in_group(Group::TriangleHits)
 };
 

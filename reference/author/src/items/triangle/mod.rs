@@ -6,7 +6,7 @@ mod scene;
 mod surface;
 
 use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::{Ray, Vertex};
 
 use crate::items::place::Place;
@@ -38,7 +38,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
 /// Creates one question for each of four triangles, with rays that hit the triangle from this side
 /// and some rays that miss. The last triangle is as large and as far from the origin as those of the
 /// Cornell box.
-fn table_questions(rng: &mut Rng, checks: &[HitCheck], side: Side) -> Vec<ExamQuestion> {
+fn table_questions(rng: &mut Rng, judged: &[&str], side: Side) -> Vec<ExamQuestion> {
     let mut table = || {
         let vertices = random_triangle(rng);
         let mut rays: Vec<Ray> = (0..8).map(|_| hitting_ray(rng, &vertices, side)).collect();
@@ -51,11 +51,11 @@ fn table_questions(rng: &mut Rng, checks: &[HitCheck], side: Side) -> Vec<ExamQu
     };
     let [first, second, third, last] = [table(), table(), table(), table()];
     let last = Place::room(rng).table(&last);
-    let question = |(shape, rays)| super::shape_question(checks, shape, rays);
+    let question = |(shape, rays)| super::shape_question(judged, shape, rays);
     [first, second, third, last].map(question).to_vec()
 }
 
 /// Creates a question about a triangle whose hits are compared by their distances.
 fn distance_question(vertices: &[Vertex; 3], rays: impl IntoIterator<Item = Ray>) -> ExamQuestion {
-    super::shape_question(&[HitCheck::Distance], shape(vertices, 0), rays)
+    super::shape_question(&["distance"], shape(vertices, 0), rays)
 }

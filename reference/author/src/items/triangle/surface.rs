@@ -1,6 +1,6 @@
 //! Items about the quantities of a hit.
 
-use judging::exam::{ExamQuestion, HitCheck};
+use judging::exam::ExamQuestion;
 use protocol::Ray;
 
 use super::aim::{
@@ -16,7 +16,7 @@ pub(super) const POSITION: Declaration = Declaration {
     title: "position is the point where the ray hits the triangle",
     look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
     section: "triangle.md#what-to-return",
-    questions: |rng| table_questions(rng, &[HitCheck::Position], Side::Front),
+    questions: |rng| table_questions(rng, &["position"], Side::Front),
     ..Declaration::in_group(Group::TriangleSurface)
 };
 
@@ -27,7 +27,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
            p2, and w = 1 − u − v. The normal of the flat face is not used.",
     section: "triangle.md#interpolate-the-given-normals",
-    questions: |rng| table_questions(rng, &[HitCheck::Normal], Side::Front),
+    questions: |rng| table_questions(rng, &["normal"], Side::Front),
     ..Declaration::in_group(Group::TriangleSurface)
 };
 
@@ -38,7 +38,7 @@ pub(super) const UV: Declaration = Declaration {
     look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and p2, \
            and w = 1 − u − v. The barycentric u and v are only its weights.",
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
-    questions: |rng| table_questions(rng, &[HitCheck::Uv], Side::Front),
+    questions: |rng| table_questions(rng, &["uv"], Side::Front),
     ..Declaration::in_group(Group::TriangleSurface)
 };
 
@@ -65,7 +65,7 @@ fn uv_corners(rng: &mut Rng) -> Vec<ExamQuestion> {
             }
             rays.push(missing_ray(rng, &vertices, Side::Front));
         }
-        shape_question(&[HitCheck::Uv], shape(&vertices, 0), rays)
+        shape_question(&["uv"], shape(&vertices, 0), rays)
     };
     vec![table(), table()]
 }
@@ -77,7 +77,7 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
     look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
            ray.",
     section: "triangle.md#do-not-flip-the-normal",
-    questions: |rng| table_questions(rng, &[HitCheck::Normal], Side::Either),
+    questions: |rng| table_questions(rng, &["normal"], Side::Either),
     ..Declaration::in_group(Group::TriangleSurface)
 };
 
@@ -98,8 +98,8 @@ fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
             .map(|_| hitting_ray(rng, &vertices, Side::Front))
             .collect();
         rays.extend((0..3).map(|_| missing_ray(rng, &vertices, Side::Front)));
-        let checks = [HitCheck::Origin, HitCheck::Material];
-        shape_question(&checks, shape(&vertices, material), rays)
+        let judged = ["origin", "material"];
+        shape_question(&judged, shape(&vertices, material), rays)
     };
     vec![table(0), table(7), table(42)]
 }

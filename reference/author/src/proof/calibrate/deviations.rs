@@ -48,21 +48,21 @@ mod tests {
     use grader::probe::{Crash, Fault};
     use judging::assignment::RAYS;
     use judging::exam::{ExamQuestion, Key};
+    use judging::judge::Tolerance;
     use judging::signatures::MistakeSignatures;
-    use protocol::{Answer, ElementOutcome, Interval, Question, Ray};
+    use protocol::{Answer, Corners, ElementOutcome, Interval, Query, Question, Ray};
 
     use super::*;
 
     /// Returns an item with boxes that the ray enters at 1 and leaves at 2.
     fn item(questions: usize) -> Item {
-        let question = Question::BBox {
-            min: Vec3::ZERO,
-            max: Vec3::ONE,
-            queries: vec![(Ray::new(Vec3::NEG_X, Vec3::X), Interval::AHEAD)],
+        let query = Query {
+            ray: Ray::new(Vec3::NEG_X, Vec3::X),
+            times: Interval::AHEAD,
         };
-        let key = Key::Spans {
-            spans: vec![Some(Interval::new(1.0, 2.0))],
-        };
+        let (min, max) = (Vec3::ZERO, Vec3::ONE);
+        let question = Question::boxes(Corners { min, max }, vec![query]);
+        let key = Key::spans(vec![Some(Interval::new(1.0, 2.0))]);
         let exam_question = ExamQuestion::new(question, key);
         Item {
             id: "bbox.through".to_owned(),
@@ -102,7 +102,10 @@ mod tests {
     fn lists_each_threshold_that_applies_to_a_correct_answer() {
         let found = of_correct(&item(1), &Ok(vec![entered(1.0)]), false);
         let times = Deviation {
-            threshold: Some(Threshold::Times),
+            threshold: Some(Threshold::Field(
+                "interval inside the box",
+                Tolerance::Length,
+            )),
             value: 0.0,
         };
         assert_eq!(found, [times]);

@@ -143,7 +143,7 @@ impl Margins {
 
     /// Returns the problems found, one line each.
     pub fn problems(&self) -> Vec<String> {
-        let near = Threshold::ALL.into_iter().filter_map(|threshold| {
+        let near = Threshold::all().into_iter().filter_map(|threshold| {
             let margin = self.margin(threshold);
             let worst = margin.worst_correct.as_ref()?;
             (margin.correct_margin() < MIN_MARGIN).then(|| too_near(threshold, worst))
@@ -216,19 +216,19 @@ mod tests {
         margins
     }
 
-    const UV: Option<Threshold> = Some(Threshold::Uv);
+    const UV: Option<Threshold> = Some(Threshold::PictureUv);
 
     #[test]
     fn the_nearest_value_on_each_side_sets_the_margin() {
         let both = |margin: &Margin| (margin.correct_margin(), margin.mistake_margin());
         let right = [0.1, 0.5, 0.2].map(|value| sample(UV, value, 1));
         let wrong = [9.0, 3.0, f64::INFINITY].map(|value| sample(UV, value, 2));
-        let margin = margins(&right, &wrong).margin(Threshold::Uv);
+        let margin = margins(&right, &wrong).margin(Threshold::PictureUv);
         assert_eq!(both(&margin), (2.0, 3.0));
         assert_eq!(margin.worst_correct, Some(right[1].clone()));
         assert_eq!(margin.mildest_mistake, Some(wrong[1].clone()));
         assert_eq!(margins(&right, &wrong).problems(), [""; 0]);
-        let without_near = margins(&[sample(UV, 0.0, 1)], &[]).margin(Threshold::Uv);
+        let without_near = margins(&[sample(UV, 0.0, 1)], &[]).margin(Threshold::PictureUv);
         assert_eq!(both(&without_near), (f64::INFINITY, f64::INFINITY));
     }
 
@@ -239,7 +239,10 @@ mod tests {
         let wrong = [2.0, 1.2].map(|value| sample(UV, value, 9));
         let halves = margins(&right[..1], &wrong[..1]).merge(margins(&right[1..], &wrong[1..]));
         let whole = margins(&right, &wrong);
-        assert_eq!(halves.margin(Threshold::Uv), whole.margin(Threshold::Uv));
+        assert_eq!(
+            halves.margin(Threshold::PictureUv),
+            whole.margin(Threshold::PictureUv)
+        );
         assert_eq!(halves.problems(), whole.problems());
     }
 
@@ -251,10 +254,10 @@ mod tests {
         let mut margins = Margins::default();
         margins.add_mistake_of_exam(vec![narrow.clone(), clear]);
         assert_eq!(margins.problems(), [""; 0]);
-        assert_eq!(margins.margin(Threshold::Uv).mistake_margin(), 7.0);
+        assert_eq!(margins.margin(Threshold::PictureUv).mistake_margin(), 7.0);
         margins.add_mistake_of_exam(vec![narrow]);
         assert_eq!(margins.problems().len(), 1);
-        assert_eq!(margins.margin(Threshold::Uv).mistake_margin(), 1.2);
+        assert_eq!(margins.margin(Threshold::PictureUv).mistake_margin(), 1.2);
     }
 
     #[test]

@@ -45,7 +45,9 @@ impl Calibration {
     /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
         let margin = |of: fn(&Margin) -> f64| {
-            let margins = Threshold::ALL.map(|threshold| of(&self.margins.margin(threshold)));
+            let margins = Threshold::all()
+                .into_iter()
+                .map(|threshold| of(&self.margins.margin(threshold)));
             margins.into_iter().fold(f64::INFINITY, f64::min)
         };
         format!(

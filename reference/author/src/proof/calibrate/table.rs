@@ -18,7 +18,7 @@ pub const PATH: &str = "reference/calibration.md";
 /// Builds the table.
 pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
     let mut text = header(calibration);
-    for threshold in Threshold::ALL {
+    for threshold in Threshold::all() {
         let margin = calibration.margins.margin(threshold);
         writeln!(text, "{}{}", row_start(threshold), row(&margin))
             .expect("writing to a String cannot fail");
@@ -44,7 +44,7 @@ fn outdated_thresholds(table: &str) -> Vec<&'static str> {
         let start = row_start(*threshold);
         table.lines().any(|line| line.starts_with(&start))
     };
-    let outdated = Threshold::ALL.into_iter().filter(|it| !is_current(it));
+    let outdated = Threshold::all().into_iter().filter(|it| !is_current(it));
     outdated.map(Threshold::title).collect()
 }
 
@@ -134,7 +134,7 @@ mod tests {
     fn calibration() -> Calibration {
         let sample = |of: &str, value| DeviationSample {
             deviation: Deviation {
-                threshold: Some(Threshold::Uv),
+                threshold: Some(Threshold::PictureUv),
                 value,
             },
             solution: of.to_owned(),

@@ -1,0 +1,235 @@
+//! Compares the rows of tables with the key: one comparison for all functions.
+
+use protocol::{Answer, AnyTable, ElementOutcome, Record, Returned};
+
+use super::deviation::{outcome_deviations, worst_by_threshold};
+use super::quantity::Quantity;
+use super::scale::Scales;
+use super::{
+    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
+    Threshold,
+};
+use crate::describe;
+use crate::exam::{ExamQuestion, ExpectedRows, Key};
+
+/// The rows of an answer and their key. Every row must be right. In a picture, some may be wrong.
+pub(crate) struct TableAnswer<'a> {
+    table: &'a dyn AnyTable,
+    scales: Scales<'a>,
+    judged: Vec<Quantity>,
+    expected: &'a ExpectedRows,
+    rows: Vec<Returned<'a>>,
+}
+
+/// One row: what the function returned, and what it should have.
+pub(crate) struct Row<'a> {
+    pub(crate) got: Option<&'a dyn Record>,
+    pub(crate) wanted: Option<Box<dyn Record>>,
+    pub(crate) scale: f32,
+}
+
+/// Returns the quantities that a key compares, or `None` if it is for another function.
+pub(crate) fn judged_quantities(
+    table: &dyn AnyTable,
+    judged: &[String],
+    rows: &ExpectedRows,
+) -> Option<Vec<Quantity>> {
+    let names = table.output_names();
+    if rows.names() != names {
+        return None;
+    }
+    judged
+        .iter()
+        .map(|name| Quantity::named(name, names))
+        .collect()
+}
+
+impl<'a> TableAnswer<'a> {
+    /// Returns an answer and its key, or `None` if one of them is not for this question, or if the
+    /// question is not a table.
+    pub(crate) fn new(question: &'a ExamQuestion, answer: &'a Answer) -> Option<Self> {
+        let (Some(table), Key::Table { judged, rows }) = (question.question.table(), &question.key)
+        else {
+            return None;
+        };
+        if answer.names()? != table.output_names() {
+            return None;
+        }
+        Some(TableAnswer {
+            table,
+            scales: Scales::new(table),
+            judged: judged_quantities(table, judged, rows)?,
+            expected: rows,
+            rows: answer.rows()?,
+        })
+    }
+
+    /// Returns the quantities that are compared.
+    pub(crate) fn judged(&self) -> &[Quantity] {
+        &self.judged
+    }
+
+    /// Returns the rows that the submission answered.
+    pub(crate) fn rows(&self) -> &[Returned<'a>] {
+        &self.rows
+    }
+
+    /// Returns a row in which the function returned `got`.
+    pub(crate) fn row<'b>(&self, index: usize, got: Option<&'b dyn Record>) -> Row<'b> {
+        let wanted = self.expected.record(index);
+        Row {
+            got,
+            scale: self.scales.of_row(index, wanted.as_deref()),
+            wanted,
+        }
+    }
+
+    /// Returns the deviations of all quantities in a row.
+    fn deviations(&self, row: &Row) -> Vec<Deviation> {
+        match (row.got, row.wanted.as_deref()) {
+            (None, None) => Vec::new(),
+            (Some(_), None) | (None, Some(_)) => vec![Deviation::WRONG],
+            (Some(got), Some(wanted)) => {
+                let judged = self.judged.iter();
+                judged
+                    .map(|quantity| quantity.deviation(got, wanted, row.scale))
+                    .collect()
+            }
+        }
+    }
+
+    /// Returns the error in a row, if there is one.
+    fn failure(&self, row: &Row) -> Option<FailureKind> {
+        let deviations = self.deviations(row);
+        let wrong = deviations.iter().position(|one| !one.is_right())?;
+        Some(match (row.got, row.wanted.as_deref()) {
+            (Some(got), Some(wanted)) => self.judged[wrong].failure(got, wanted),
+            (got, wanted) => FailureKind::Wrong {
+                what: "hit or miss".to_owned(),
+                got: describe::answer::presence(self.table, got),
+                wanted: describe::answer::presence(self.table, wanted),
+            },
+        })
+    }
+
+    fn is_whole(&self) -> bool {
+        self.rows.len() == self.expected.count()
+    }
+
+    fn is_picture(&self) -> bool {
+        self.table.film().is_some()
+    }
+
+    /// Returns the deviations in each row.
+    fn deviations_by_row(&self) -> impl Iterator<Item = Vec<Deviation>> {
+        let rows = self.rows.iter().enumerate();
+        rows.map(|(index, outcome)| {
+            outcome_deviations(outcome, |got| self.deviations(&self.row(index, *got)))
+        })
+    }
+
+    /// Returns the largest deviation in each row.
+    fn worst_by_row(&self) -> impl Iterator<Item = Deviation> {
+        self.deviations_by_row().map(|all| {
+            let worst = all.into_iter().max_by(|a, b| a.value.total_cmp(&b.value));
+            worst.unwrap_or(Deviation::RIGHT)
+        })
+    }
+}
+
+impl Comparison for TableAnswer<'_> {
+    fn judge(&self) -> Judgement {
+        if !self.is_whole() {
+            return Judgement::protocol(
+                "the number of answers differs from the number of questions",
+            );
+        }
+        let rows = self.rows.iter().enumerate();
+        let mut failures = rows.filter_map(|(index, outcome)| {
+            let kind = match outcome {
+                ElementOutcome::Value(got) => self.failure(&self.row(index, *got)),
+                ElementOutcome::Panicked(panic) => Some(FailureKind::Panicked(panic.clone())),
+                // Rows are skipped only after panics, so this is never the first failure.
+                ElementOutcome::Skipped => Some(FailureKind::Protocol("skipped".to_owned())),
+            };
+            Some((index, kind?))
+        });
+        let Some((element, kind)) = failures.next() else {
+            return Judgement::RIGHT;
+        };
+        let (wrong, all) = (1 + failures.count(), self.rows.len());
+        let credit = if self.is_picture() {
+            Credit::by_count(wrong, all)
+        } else {
+            Credit::NONE
+        };
+        if credit == Credit::FULL {
+            return Judgement::RIGHT;
+        }
+        Judgement {
+            credit,
+            failure: Some(Failure {
+                element,
+                kind,
+                count: Some((wrong, all)),
+            }),
+        }
+    }
+
+    fn measure(&self) -> Vec<Measurement> {
+        if !self.is_whole() {
+            return worst_by_threshold([Deviation::WRONG]);
+        }
+        if self.is_picture() {
+            let allowed = Credit::tolerated(self.rows.len());
+            let rows = self.worst_by_row().collect();
+            return vec![Measurement::of_positions(
+                rows,
+                allowed,
+                Threshold::PicturePositions,
+            )];
+        }
+        worst_by_threshold(self.deviations_by_row().flatten())
+    }
+
+    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
+        let mismatch = |(outcome, worst): (&Returned, Deviation)| match outcome {
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
+            ElementOutcome::Value(_) => (!worst.is_right()).then_some(Mismatch {
+                aspect: Aspect::Direction,
+                deviation: worst.value,
+            }),
+        };
+        let rows = self.rows.iter().zip(self.worst_by_row());
+        (self.is_whole() && self.is_picture()).then(|| rows.map(mismatch).collect())
+    }
+}
+
+/// The rows that are expected of a table.
+pub(crate) struct ExpectedTable {
+    /// The quantities that are compared.
+    pub(crate) judged: Vec<Quantity>,
+    /// The record in each row, if there is one, and the row's scale.
+    pub(crate) rows: Vec<(Option<Box<dyn Record>>, f32)>,
+}
+
+impl ExpectedTable {
+    /// Returns the rows that are expected, or `None` if the question is not a table or its key is not
+    /// for it.
+    pub(crate) fn new(question: &ExamQuestion) -> Option<Self> {
+        let (Some(table), Key::Table { judged, rows }) = (question.question.table(), &question.key)
+        else {
+            return None;
+        };
+        let scales = Scales::new(table);
+        let expected = (0..rows.count()).map(|index| {
+            let record = rows.record(index);
+            let scale = scales.of_row(index, record.as_deref());
+            (record, scale)
+        });
+        Some(ExpectedTable {
+            judged: judged_quantities(table, judged, rows)?,
+            rows: expected.collect(),
+        })
+    }
+}

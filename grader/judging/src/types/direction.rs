@@ -1,0 +1,66 @@
+//! Directions, compared regardless of their length.
+
+use glam::Vec3;
+use protocol::Value;
+
+use super::multiple::in_units_of;
+use super::{FieldType, Tolerance, point};
+
+/// Tolerance of unit vectors, as the length of their difference.
+pub(crate) const TOLERANCE: f32 = 1e-3;
+
+pub(super) struct Direction(pub(super) Vec3);
+
+impl FieldType for Direction {
+    fn text(&self) -> String {
+        point::text(self.0)
+    }
+
+    fn tolerance(&self) -> Option<Tolerance> {
+        Some(Tolerance::Direction)
+    }
+
+    fn error(&self, wanted: &Value, _: f32) -> f64 {
+        let Value::Direction(wanted) = wanted else {
+            return f64::INFINITY;
+        };
+        error(self.0, *wanted, TOLERANCE)
+    }
+
+    fn in_tolerances(&self, _: f32) -> Vec<f32> {
+        let unit = self.0 / self.0.length();
+        (unit / TOLERANCE).to_array().to_vec()
+    }
+}
+
+/// Returns the error of a direction, as a multiple of `tolerance`. The length of `got` does not
+/// matter.
+pub(crate) fn error(got: Vec3, wanted: Vec3, tolerance: f32) -> f64 {
+    // f64 prevents overflow and underflow for all finite f32 vectors.
+    let got = got.as_dvec3();
+    let unit = got / got.length();
+    in_units_of(tolerance.into(), (unit - wanted.as_dvec3()).length())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_length_of_a_direction_does_not_matter() {
+        let wanted = Vec3::new(2.0, -1.0, 2.0) / 3.0;
+        for length in [1e-40_f32, 1e-30, 1.0, 1e30, 1e38] {
+            let error = error(wanted * length, wanted, TOLERANCE);
+            assert!(error <= 1.0, "{length}: {error}");
+        }
+        assert!(error(-wanted * 1e38, wanted, TOLERANCE) > 1.0);
+    }
+
+    #[test]
+    fn vectors_without_a_direction_are_infinitely_far_off() {
+        let none = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0];
+        for bad in none.map(Vec3::splat) {
+            assert_eq!(error(bad, Vec3::X, TOLERANCE), f64::INFINITY);
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Numbers of shapes and nodes, which are equal or wrong.
+
+use protocol::Value;
+
+use super::{FieldType, direction};
+
+pub(super) struct Index(pub(super) u32);
+
+impl FieldType for Index {
+    fn text(&self) -> String {
+        self.0.to_string()
+    }
+
+    fn error(&self, wanted: &Value, _: f32) -> f64 {
+        if *wanted == Value::Index(self.0) {
+            0.0
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn in_tolerances(&self, _: f32) -> Vec<f32> {
+        // Each number is far from the others.
+        vec![self.0 as f32 / direction::TOLERANCE]
+    }
+}

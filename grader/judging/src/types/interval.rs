@@ -1,0 +1,40 @@
+//! Intervals: parts of a ray, of which both ends are compared as lengths.
+
+use protocol::{Interval, Value};
+
+use super::length;
+use super::{FieldType, Tolerance, number};
+
+pub(super) struct Times(pub(super) Interval);
+
+impl FieldType for Times {
+    fn text(&self) -> String {
+        text(self.0)
+    }
+
+    fn tolerance(&self) -> Option<Tolerance> {
+        Some(Tolerance::Length)
+    }
+
+    fn error(&self, wanted: &Value, scale: f32) -> f64 {
+        let Value::Interval(wanted) = wanted else {
+            return f64::INFINITY;
+        };
+        let error = |got, wanted| length::error(got, wanted, scale, length::TOLERANCE);
+        error(self.0.min, wanted.min).max(error(self.0.max, wanted.max))
+    }
+
+    fn in_tolerances(&self, scale: f32) -> Vec<f32> {
+        length::in_tolerances(&[self.0.min, self.0.max], scale)
+    }
+}
+
+/// Formats an interval, or `None`.
+pub fn optional_text(value: Option<Interval>) -> String {
+    value.map_or("None".to_owned(), text)
+}
+
+/// Formats an interval of distances along a ray.
+pub fn text(value: Interval) -> String {
+    format!("[{}, {}]", number(value.min), number(value.max))
+}

@@ -1,0 +1,124 @@
+//! `BBox::hit`: from a ray and an interval to the part of it that is inside a box.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::rows::NoView;
+use super::{Function, Input, Output, Table, View, Words};
+use crate::answer::{Answer, ElementOutcome};
+use crate::interval::Interval;
+use crate::question::Question;
+use crate::ray::Ray;
+use crate::value::{Fields, Record, Value, fields};
+use crate::view::Sample;
+
+/// Calls `BBox::hit` for rays, each with its times.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BBoxHit;
+
+/// The corners of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Corners {
+    /// The corner with the smallest coordinates.
+    pub min: Vec3,
+    /// The corner with the largest coordinates.
+    pub max: Vec3,
+}
+
+/// The arguments of `BBox::hit`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Query {
+    /// The ray. Its range does not matter.
+    pub ray: Ray,
+    /// The distances along the ray that are asked about.
+    pub times: Interval,
+}
+
+impl Function for BBoxHit {
+    type Subject = Corners;
+    type Input = Query;
+    type Output = Option<Interval>;
+
+    fn name(_: &Corners) -> &'static str {
+        "BBox::hit"
+    }
+
+    fn sentence(_: &Corners) -> &'static str {
+        "{ray}, times {times}; box {min} to {max}"
+    }
+
+    fn question(table: Table<Self>) -> Question {
+        Question::BBoxHit(table)
+    }
+}
+
+fields! {
+    Corners {
+        "min": Point = min,
+        "max": Point = max,
+    }
+}
+
+fields! {
+    Query {
+        "origin": Point = ray.origin,
+        "direction": Direction = ray.dir,
+        "range": Range = ray.range,
+        "times": Interval = times,
+    }
+}
+
+impl Input for Query {
+    type View = NoView;
+}
+
+impl View for NoView {
+    type Input = Query;
+
+    fn film(&self) -> glam::UVec2 {
+        match *self {}
+    }
+
+    fn input(&self, _: Sample) -> Query {
+        match *self {}
+    }
+}
+
+impl Fields for Interval {
+    const NAMES: &'static [&'static str] = &["interval inside the box"];
+}
+
+impl Record for Interval {
+    fn names(&self) -> &'static [&'static str] {
+        <Interval as Fields>::NAMES
+    }
+
+    fn value(&self, _: usize) -> Value<'_> {
+        Value::Interval(*self)
+    }
+
+    fn set(&mut self, _: usize, value: Value<'_>) {
+        if let Value::Interval(interval) = value {
+            *self = interval;
+        }
+    }
+}
+
+impl Output for Option<Interval> {
+    const NAMES: &'static [&'static str] = <Interval as Fields>::NAMES;
+    const WORDS: Words = Words {
+        record: "{interval inside the box}",
+        present: "{interval inside the box}",
+        absent: "None",
+    };
+    const MAX_BYTES: usize = 2 * size_of::<f32>() + 1;
+
+    fn record(&self) -> Option<&dyn Record> {
+        self.as_ref().map(|interval| interval as &dyn Record)
+    }
+
+    fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer {
+        Answer::Spans(rows)
+    }
+}

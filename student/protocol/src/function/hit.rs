@@ -1,0 +1,178 @@
+//! `hit` of triangles, spheres and trees: from a ray to its closest hit.
+
+use std::borrow::Cow;
+
+use glam::UVec2;
+use serde::{Deserialize, Serialize};
+
+use super::{Function, Input, Output, Table, View, Words};
+use crate::answer::{Answer, ElementOutcome};
+use crate::packed;
+use crate::question::Question;
+use crate::ray::Ray;
+use crate::shape::Shape;
+use crate::trace::Trace;
+use crate::tree::TreeNode;
+use crate::value::{Fields, Record, Value, fields};
+use crate::view::{ExamCamera, Sample};
+
+/// Finds the closest hits of rays.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hit;
+
+/// The things that rays hit, and how they are searched.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Geometry {
+    /// Calls `hit` of every shape, and takes the closest hit. No tree is involved.
+    List {
+        /// The shapes, tested one after the other.
+        #[serde(with = "packed")]
+        shapes: Vec<Shape>,
+    },
+    /// Calls `Bvh::hit` of a tree that the exam contains.
+    Tree {
+        /// The primitives, in the order that the leaves index them.
+        #[serde(with = "packed")]
+        shapes: Vec<Shape>,
+        /// The nodes, in any order.
+        #[serde(with = "packed")]
+        nodes: Vec<TreeNode>,
+        /// The index of the root in `nodes`.
+        root: u32,
+    },
+    /// Calls `Bvh::hit` of the tree that the submission's `Bvh::build` returns.
+    BuiltTree {
+        /// The primitives to build the tree over.
+        #[serde(with = "packed")]
+        shapes: Vec<Shape>,
+        /// The maximum number of primitives in a leaf.
+        max_leaf_size: u32,
+    },
+}
+
+impl Geometry {
+    /// Returns the shapes.
+    pub fn shapes(&self) -> &[Shape] {
+        match self {
+            Geometry::List { shapes }
+            | Geometry::Tree { shapes, .. }
+            | Geometry::BuiltTree { shapes, .. } => shapes,
+        }
+    }
+}
+
+impl Function for Hit {
+    type Subject = Geometry;
+    type Input = Ray;
+    type Output = Option<Trace>;
+
+    fn name(subject: &Geometry) -> &'static str {
+        match subject {
+            Geometry::Tree { .. } | Geometry::BuiltTree { .. } => "Bvh::hit",
+            Geometry::List { shapes } => match shapes.first() {
+                Some(Shape::Sphere { .. }) => "Sphere::hit",
+                Some(Shape::Triangle { .. } | Shape::FlatTriangle { .. }) | None => "Triangle::hit",
+            },
+        }
+    }
+
+    fn sentence(subject: &Geometry) -> &'static str {
+        match subject {
+            Geometry::List { .. } => "{ray}; {shapes}",
+            Geometry::Tree { .. } => {
+                "{ray}; a tree from the exam: {nodes} nodes, root {root}, over {shapes}"
+            }
+            Geometry::BuiltTree { .. } => {
+                "{ray}; your own tree over {shapes}, with at most {max_leaf_size} in each leaf"
+            }
+        }
+    }
+
+    fn question(table: Table<Self>) -> Question {
+        Question::Hit(table)
+    }
+}
+
+impl Record for Geometry {
+    fn names(&self) -> &'static [&'static str] {
+        match self {
+            Geometry::List { .. } => &["shapes"],
+            Geometry::Tree { .. } => &["shapes", "nodes", "root"],
+            Geometry::BuiltTree { .. } => &["shapes", "max_leaf_size"],
+        }
+    }
+
+    fn value(&self, index: usize) -> Value<'_> {
+        match (self, self.names()[index]) {
+            (Geometry::Tree { nodes, .. }, "nodes") => Value::Nodes(Cow::Borrowed(nodes)),
+            (Geometry::Tree { root, .. }, "root") => Value::Index(*root),
+            (Geometry::BuiltTree { max_leaf_size, .. }, "max_leaf_size") => {
+                Value::Count(*max_leaf_size)
+            }
+            _ => Value::Shapes(Cow::Borrowed(self.shapes())),
+        }
+    }
+
+    fn set(&mut self, _: usize, value: Value<'_>) {
+        match (self, value) {
+            (
+                Geometry::List { shapes }
+                | Geometry::Tree { shapes, .. }
+                | Geometry::BuiltTree { shapes, .. },
+                Value::Shapes(new),
+            ) => *shapes = new.into_owned(),
+            (Geometry::Tree { nodes, .. }, Value::Nodes(new)) => *nodes = new.into_owned(),
+            (Geometry::Tree { root, .. }, Value::Index(new)) => *root = new,
+            (Geometry::BuiltTree { max_leaf_size, .. }, Value::Count(new)) => *max_leaf_size = new,
+            _ => {}
+        }
+    }
+}
+
+impl Input for Ray {
+    type View = ExamCamera;
+}
+
+impl View for ExamCamera {
+    type Input = Ray;
+
+    fn film(&self) -> UVec2 {
+        self.film
+    }
+
+    fn input(&self, sample: Sample) -> Ray {
+        self.ray(sample)
+    }
+}
+
+fields! {
+    Trace {
+        "distance": Length = distance,
+        "position": Point = position,
+        "normal": Direction = normal,
+        "uv": Uv = uv,
+        "origin": Point = origin,
+        "material": Index = material,
+    }
+}
+
+impl Output for Option<Trace> {
+    const NAMES: &'static [&'static str] = <Trace as Fields>::NAMES;
+    const WORDS: Words = Words {
+        record: "distance {distance}, position {position}, normal {normal}, uv {uv}, \
+                 material {material}",
+        present: "a hit at distance {distance}",
+        absent: "no hit",
+    };
+    // 12 floats and a number of variable length.
+    const MAX_BYTES: usize = 12 * size_of::<f32>() + 6;
+
+    fn record(&self) -> Option<&dyn Record> {
+        self.as_ref().map(|trace| trace as &dyn Record)
+    }
+
+    fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer {
+        Answer::Hits(rows)
+    }
+}

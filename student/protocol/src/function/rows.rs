@@ -1,0 +1,97 @@
+//! The rows of a table: a list, or all rays of a picture.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use glam::UVec2;
+use serde::{Deserialize, Serialize};
+
+use super::Data;
+use crate::packed;
+use crate::value::Record;
+use crate::view::{PIXEL_OFFSETS, Sample};
+
+/// The arguments of one call of a function.
+pub trait Input: Record + Data {
+    /// A picture each of whose positions is a row.
+    type View: View<Input = Self>;
+}
+
+/// A picture, with one row for each of the five [`PIXEL_OFFSETS`] in every pixel, row by row from the
+/// bottom.
+pub trait View: Data {
+    /// The row at one position.
+    type Input;
+
+    /// Returns the number of pixels, across and up.
+    fn film(&self) -> UVec2;
+
+    /// Returns the row at a position.
+    fn input(&self, sample: Sample) -> Self::Input;
+}
+
+/// The picture of a function that has none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum NoView {}
+
+/// The rows of a table, each with the arguments of one call.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", bound = "")]
+pub enum Rows<I: Input> {
+    /// The listed rows.
+    List(#[serde(with = "packed")] Vec<I>),
+    /// The rows of a picture.
+    Picture(I::View),
+}
+
+impl<I: Input> Rows<I> {
+    /// Returns the number of rows.
+    pub fn count(&self) -> usize {
+        match self {
+            Rows::List(list) => list.len(),
+            // Saturates if the film has more positions than a `usize` can count.
+            Rows::Picture(view) => {
+                let UVec2 { x, y } = view.film();
+                let pixels = (x as usize).saturating_mul(y as usize);
+                pixels.saturating_mul(PIXEL_OFFSETS.len())
+            }
+        }
+    }
+
+    /// Returns the row at `index`, or `None` if there is none.
+    pub fn get(&self, index: usize) -> Option<I> {
+        if index >= self.count() {
+            return None;
+        }
+        match self {
+            Rows::List(list) => list.get(index).cloned(),
+            Rows::Picture(view) => Some(view.input(Sample::of_position(view.film(), index))),
+        }
+    }
+
+    /// Returns all rows, in order.
+    pub fn to_vec(&self) -> Cow<'_, [I]> {
+        match self {
+            Rows::List(list) => Cow::Borrowed(list),
+            Rows::Picture(_) => Cow::Owned((0..self.count()).filter_map(|i| self.get(i)).collect()),
+        }
+    }
+
+    /// Returns a list of some of the rows.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer rows.
+    pub fn subset(&self, rows: Range<usize>) -> Self {
+        let row = |index| self.get(index).expect("the row exists");
+        Rows::List(rows.map(row).collect())
+    }
+
+    /// Returns the picture whose positions are the rows, unless they are a list.
+    pub fn view(&self) -> Option<&I::View> {
+        match self {
+            Rows::List(_) => None,
+            Rows::Picture(view) => Some(view),
+        }
+    }
+}

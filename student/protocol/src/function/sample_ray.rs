@@ -1,0 +1,91 @@
+//! `Camera::sample_ray`: from a position on the film to a ray.
+
+use glam::UVec2;
+use serde::{Deserialize, Serialize};
+
+use super::{Function, Input, Output, Table, View, Words};
+use crate::answer::{Answer, ElementOutcome};
+use crate::question::Question;
+use crate::ray::Ray;
+use crate::value::{Fields, Record, fields};
+use crate::view::{PinholeCamera, Sample};
+
+/// Calls `Camera::sample_ray` for positions on the film.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SampleRay;
+
+impl Function for SampleRay {
+    type Subject = PinholeCamera;
+    type Input = Sample;
+    type Output = Ray;
+
+    fn name(_: &PinholeCamera) -> &'static str {
+        "Camera::sample_ray"
+    }
+
+    fn sentence(_: &PinholeCamera) -> &'static str {
+        "camera of {vertical_fov}° and aspect {aspect_ratio}, film {film}, pixel {pixel} + {offset}"
+    }
+
+    fn question(table: Table<Self>) -> Question {
+        Question::SampleRay(table)
+    }
+}
+
+fields! {
+    PinholeCamera {
+        "vertical_fov": Angle = vertical_fov,
+        "aspect_ratio": Ratio = aspect_ratio,
+        "film": Film = film,
+    }
+}
+
+fields! {
+    Sample {
+        "pixel": Pixel = pixel,
+        "offset": Offset = offset,
+    }
+}
+
+fields! {
+    Ray {
+        "origin": Point = origin,
+        "direction": Direction = dir,
+        "range": Range = range,
+    }
+}
+
+impl Input for Sample {
+    type View = UVec2;
+}
+
+/// All positions on a film of this size.
+impl View for UVec2 {
+    type Input = Sample;
+
+    fn film(&self) -> UVec2 {
+        *self
+    }
+
+    fn input(&self, sample: Sample) -> Sample {
+        sample
+    }
+}
+
+impl Output for Ray {
+    const NAMES: &'static [&'static str] = <Ray as Fields>::NAMES;
+    const WORDS: Words = Words {
+        record: "{ray}",
+        present: "{ray}",
+        absent: "no ray",
+    };
+    const MAX_BYTES: usize = 8 * size_of::<f32>();
+
+    fn record(&self) -> Option<&dyn Record> {
+        Some(self)
+    }
+
+    fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer {
+        Answer::Rays(rows)
+    }
+}

@@ -1,0 +1,128 @@
+//! Tables: questions that call one function of one subject, once per row.
+
+use std::ops::Range;
+
+use glam::UVec2;
+use serde::{Deserialize, Serialize};
+
+use super::{Function, Output, Rows, View, Words};
+use crate::question::Question;
+use crate::value::{Record, Value};
+
+/// A question that calls a function of a subject once per row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, bound = "")]
+pub struct Table<F: Function> {
+    /// The value that the function is called on.
+    pub subject: F::Subject,
+    /// The arguments of each call.
+    pub rows: Rows<F::Input>,
+}
+
+impl<F: Function> Table<F> {
+    /// Creates a table with a list of rows.
+    pub fn of_list(subject: F::Subject, rows: Vec<F::Input>) -> Self {
+        Table {
+            subject,
+            rows: Rows::List(rows),
+        }
+    }
+}
+
+/// A table of any function.
+pub trait AnyTable {
+    /// Returns the function's name, such as `BBox::hit`.
+    fn name(&self) -> &'static str;
+
+    /// Returns a sentence about one row, in which `{name}` stands for the field of this name.
+    fn sentence(&self) -> &'static str;
+
+    /// Returns the value that the function is called on.
+    fn subject(&self) -> &dyn Record;
+
+    /// Returns the number of rows.
+    fn count(&self) -> usize;
+
+    /// Returns the arguments in a row, or `None` if there is no such row.
+    fn input(&self, row: usize) -> Option<Box<dyn Record>>;
+
+    /// Returns the number of pixels, across and up, if the rows are those of a picture.
+    fn film(&self) -> Option<UVec2>;
+
+    /// Returns the names of the fields of what the function returns.
+    fn output_names(&self) -> &'static [&'static str];
+
+    /// Returns how the values that the function returns are printed.
+    fn words(&self) -> Words;
+
+    /// Returns an upper bound on the size of one row of the answer on the wire, in bytes.
+    fn max_row_bytes(&self) -> usize;
+
+    /// Returns a question with only these rows, as a list.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer rows.
+    fn subset(&self, rows: Range<usize>) -> Question;
+
+    /// Returns the question in which `change` replaces every field of the subject and of the rows.
+    /// Returns `None` if the rows are those of a picture.
+    fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question>;
+}
+
+impl<F: Function> AnyTable for Table<F> {
+    fn name(&self) -> &'static str {
+        F::name(&self.subject)
+    }
+
+    fn sentence(&self) -> &'static str {
+        F::sentence(&self.subject)
+    }
+
+    fn subject(&self) -> &dyn Record {
+        &self.subject
+    }
+
+    fn count(&self) -> usize {
+        self.rows.count()
+    }
+
+    fn input(&self, row: usize) -> Option<Box<dyn Record>> {
+        Some(Box::new(self.rows.get(row)?))
+    }
+
+    fn film(&self) -> Option<UVec2> {
+        self.rows.view().map(View::film)
+    }
+
+    fn output_names(&self) -> &'static [&'static str] {
+        F::Output::NAMES
+    }
+
+    fn words(&self) -> Words {
+        F::Output::WORDS
+    }
+
+    fn max_row_bytes(&self) -> usize {
+        F::Output::MAX_BYTES
+    }
+
+    fn subset(&self, rows: Range<usize>) -> Question {
+        F::question(Table {
+            subject: self.subject.clone(),
+            rows: self.rows.subset(rows),
+        })
+    }
+
+    fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question> {
+        let Rows::List(mut rows) = self.rows.clone() else {
+            return None;
+        };
+        let mut subject = self.subject.clone();
+        (&mut subject as &mut dyn Record).change(change);
+        for row in &mut rows {
+            (row as &mut dyn Record).change(change);
+        }
+        Some(F::question(Table::of_list(subject, rows)))
+    }
+}

@@ -1,0 +1,117 @@
+//! Fields: the named parts of a function's subject, inputs and outputs. The type of a field decides
+//! how it is compared, moved and printed, whichever function it belongs to.
+
+use std::borrow::Cow;
+use std::fmt::Debug;
+
+use glam::{UVec2, Vec2, Vec3};
+
+use crate::interval::Interval;
+use crate::shape::Shape;
+use crate::tree::TreeNode;
+
+/// The value of a field. The variant is the field's type.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value<'a> {
+    /// A distance along a ray.
+    Length(f32),
+    /// A position in space.
+    Point(Vec3),
+    /// A direction, of length one.
+    Direction(Vec3),
+    /// Texture coordinates. u is periodic: 0 and 1 are the same.
+    Uv(Vec2),
+    /// A part of a ray, from one distance to another.
+    Interval(Interval),
+    /// The range of a ray, which may be unbounded.
+    Range(Interval),
+    /// The number of a shape or a node.
+    Index(u32),
+    /// A number of things.
+    Count(u32),
+    /// An angle in degrees.
+    Angle(f32),
+    /// A ratio of two lengths.
+    Ratio(f32),
+    /// The number of pixels, across and up.
+    Film(UVec2),
+    /// A pixel; (0, 0) is at the bottom left.
+    Pixel(UVec2),
+    /// A position in a pixel, each component in `[0, 1)`.
+    Offset(Vec2),
+    /// A list of shapes.
+    Shapes(Cow<'a, [Shape]>),
+    /// The nodes of a tree.
+    Nodes(Cow<'a, [TreeNode]>),
+}
+
+/// A subject, an input or an output: a list of fields.
+pub trait Record: Debug {
+    /// Returns the names of the fields, in order.
+    fn names(&self) -> &'static [&'static str];
+
+    /// Returns the value of the field at `index`.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such field.
+    fn value(&self, index: usize) -> Value<'_>;
+
+    /// Changes the value of the field at `index`. A value of another type is ignored.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such field.
+    fn set(&mut self, index: usize, value: Value<'_>);
+}
+
+impl dyn Record + '_ {
+    /// Returns the values of all fields, in order.
+    pub fn values(&self) -> impl Iterator<Item = Value<'_>> {
+        (0..self.names().len()).map(|index| self.value(index))
+    }
+
+    /// Replaces the value of every field with what `change` returns for it.
+    pub fn change(&mut self, change: &dyn Fn(Value<'_>) -> Value<'static>) {
+        for index in 0..self.names().len() {
+            let changed = change(self.value(index));
+            self.set(index, changed);
+        }
+    }
+}
+
+/// A record whose fields do not depend on its value.
+pub trait Fields: Record {
+    /// The names of the fields, in order.
+    const NAMES: &'static [&'static str];
+}
+
+/// Declares the fields of a struct, each with its name, its type, and where it is in the struct.
+macro_rules! fields {
+    ($record:ty { $($name:literal: $type:ident = $($part:ident).+,)+ }) => {
+        impl $crate::value::Fields for $record {
+            const NAMES: &'static [&'static str] = &[$($name),+];
+        }
+
+        impl $crate::value::Record for $record {
+            fn names(&self) -> &'static [&'static str] {
+                <Self as $crate::value::Fields>::NAMES
+            }
+
+            fn value(&self, index: usize) -> $crate::value::Value<'_> {
+                const VALUES: &[fn(&$record) -> $crate::value::Value<'static>] =
+                    &[$(|record| $crate::value::Value::$type(record.$($part).+)),+];
+                VALUES[index](self)
+            }
+
+            fn set(&mut self, index: usize, value: $crate::value::Value<'_>) {
+                match (<Self as $crate::value::Fields>::NAMES[index], value) {
+                    $(($name, $crate::value::Value::$type(value)) => self.$($part).+ = value,)+
+                    _ => {}
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use fields;

@@ -21,17 +21,17 @@ impl Primitive {
         match *shape {
             Shape::Triangle {
                 vertices: [p0, p1, p2],
-                material,
-            } => Primitive::Triangle(Triangle::new(p0, p1, p2, material)),
-            Shape::FlatTriangle { corners, material } => {
+                shape,
+            } => Primitive::Triangle(Triangle::new(p0, p1, p2, shape)),
+            Shape::FlatTriangle { corners, shape } => {
                 let [p0, p1, p2] = Shape::flat_triangle_vertices(corners);
-                Primitive::Triangle(Triangle::new(p0, p1, p2, material))
+                Primitive::Triangle(Triangle::new(p0, p1, p2, shape))
             }
             Shape::Sphere {
                 center,
                 radius,
-                material,
-            } => Primitive::Sphere(Sphere::new(center, radius, material)),
+                shape,
+            } => Primitive::Sphere(Sphere::new(center, radius, shape)),
         }
     }
 
@@ -51,11 +51,11 @@ impl Primitive {
         }
     }
 
-    /// Returns the index of the primitive's material.
-    pub fn material(&self) -> u32 {
+    /// Returns the number of the primitive's shape.
+    pub fn number(&self) -> u32 {
         match self {
-            Primitive::Triangle(triangle) => triangle.material,
-            Primitive::Sphere(sphere) => sphere.material,
+            Primitive::Triangle(triangle) => triangle.shape,
+            Primitive::Sphere(sphere) => sphere.shape,
         }
     }
 }

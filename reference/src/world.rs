@@ -107,9 +107,9 @@ impl Hierarchy for Adapter<Bvh> {
         bvh.primitives.len()
     }
 
-    fn material(&self, index: usize) -> u32 {
+    fn shape(&self, index: usize) -> u32 {
         let Adapter(bvh) = self;
-        bvh.primitives[index].material()
+        bvh.primitives[index].number()
     }
 }
 

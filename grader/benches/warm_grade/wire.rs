@@ -95,7 +95,7 @@ fn questions(rays_per_question: usize) -> Vec<Question> {
     let corner = |x, y| Vertex::new(vec3(x, y, -2.0), Vec3::Z, Vec2::ZERO);
     let triangle = Shape::Triangle {
         vertices: [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
-        material: 0,
+        shape: 0,
     };
     let ray = |number: usize| {
         let [x, y] = [number % 317, number / 317].map(|step| step as f32 / 317.0);

@@ -11,7 +11,7 @@ pub fn read(bytes: &[u8]) {
             let film = scene.camera.pinhole.film;
             assert!(film.x > 0 && film.y > 0, "{film}");
             for (index, shape) in (0..).zip(&scene.shapes) {
-                assert_eq!(shape.material(), index, "{shape:?}");
+                assert_eq!(shape.number(), index, "{shape:?}");
                 assert!(scene.material_of(index).is_some(), "{shape:?}");
             }
             let _ = (scene.extent(), scene.on_film(film));

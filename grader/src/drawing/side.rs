@@ -127,7 +127,7 @@ pub(super) fn draw_hits(
     canvas.mark_pinned(window, wanted, Mark::Right);
     let is_marked = match comparison.focus {
         Focus::Distance | Focus::Position => true,
-        Focus::Normal | Focus::Uv | Focus::Origin | Focus::Material => false,
+        Focus::Normal | Focus::Uv | Focus::Origin | Focus::Shape => false,
     };
     canvas.mark_pinned(window, got.filter(|_| is_marked), Mark::Wrong);
     if let (Focus::Origin, HitAnswer::Hit(hit)) = (comparison.focus, comparison.got) {
@@ -148,7 +148,7 @@ pub(super) fn draw_legend(
     let is_off = got.is_some_and(|(_, is_off)| is_off);
     let symbol = |line: LineStyle, mark: Mark| match comparison.focus {
         Focus::Normal => Symbol::Line(line),
-        Focus::Distance | Focus::Position | Focus::Uv | Focus::Origin | Focus::Material => {
+        Focus::Distance | Focus::Position | Focus::Uv | Focus::Origin | Focus::Shape => {
             Symbol::Mark(mark)
         }
     };
@@ -167,9 +167,9 @@ pub(super) fn draw_legend(
     match (comparison.got, comparison.focus) {
         (HitAnswer::NoAnswer, _) => {}
         (HitAnswer::Miss, _) => sheet.add_legend(Symbol::None, "got: no hit"),
-        // Nothing in the picture has a material.
-        (HitAnswer::Hit(hit), Focus::Material) => {
-            let text = format!("got: {}", field(&hit, Focus::Material));
+        // Nothing in the picture shows the number.
+        (HitAnswer::Hit(hit), Focus::Shape) => {
+            let text = format!("got: {}", field(&hit, Focus::Shape));
             sheet.add_legend(Symbol::None, &text);
         }
         (HitAnswer::Hit(hit), focus) => {
@@ -199,7 +199,7 @@ fn field(hit: &DrawnHit, field: Focus) -> String {
         Focus::Normal => format!("normal {}", point(hit.normal)),
         Focus::Uv => format!("uv {}", describe::uv(hit.uv.as_vec2())),
         Focus::Origin => format!("origin {}", describe::point(hit.origin.as_vec3())),
-        Focus::Material => format!("material {}", hit.material.unwrap_or_default()),
+        Focus::Shape => format!("shape {}", hit.shape.unwrap_or_default()),
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Dr
             uv::draw_square(&mut sheet.canvas, right, comparison, &[]);
             Window::around(left, seen)
         }
-        Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Material => {
+        Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Shape => {
             sheet.window(seen)
         }
     };

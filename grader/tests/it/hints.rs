@@ -61,7 +61,7 @@ fn recognises_two_mistakes_in_one_task() {
             "position: ray.at(t),",
             "position: t * ray.dir,",
         )
-        .with_replaced("triangle.rs", "material: self.material,", "material: 0,")
+        .with_replaced("triangle.rs", "shape: self.shape,", "shape: 0,")
         .grade();
     let staff = graded.score().to_string();
     for known in ["triangle.position_without_origin", "triangle.material_zero"] {

@@ -54,7 +54,7 @@ fn constant_answers_earn_nothing() {
             normal: self.p0.normal,
             uv: self.p0.uv,
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         }); todo!";
     let one_leaf = "let mut bbox = BBox::EMPTY;
         for primitive in &primitives {

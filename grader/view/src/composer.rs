@@ -212,7 +212,7 @@ mod tests {
             normal,
             uv: Vec2::ZERO,
             origin: Vec3::Z,
-            material: 0,
+            shape: 0,
         };
         let eye = Vec3::new(0.0, 0.0, 5.0);
         let luminance = |normal| clay(hit(normal), eye).element_sum();

@@ -184,13 +184,13 @@ fn camera(viewpoint: &Viewpoint) -> Camera {
     }
 }
 
-/// Returns the shapes with their index as material, like those of a scene.
+/// Returns the shapes numbered in order, like those of a scene.
 fn numbered(mut shapes: Vec<Shape>) -> Vec<Shape> {
     for (index, shape) in (0..).zip(&mut shapes) {
         match shape {
-            Shape::Triangle { material, .. }
-            | Shape::FlatTriangle { material, .. }
-            | Shape::Sphere { material, .. } => *material = index,
+            Shape::Triangle { shape, .. }
+            | Shape::FlatTriangle { shape, .. }
+            | Shape::Sphere { shape, .. } => *shape = index,
         }
     }
     shapes

@@ -33,7 +33,7 @@ pub const RECORDED: [RecordedMethod; 2] = [
         wrapper: "(&self, ray: &::protocol::Ray) \
             -> ::core::option::Option<::protocol::Trace> { \
             let hit = self.hit_as_written(ray); \
-            ::view_probe::record::primitive_test(self.material(), ray, hit) }",
+            ::view_probe::record::primitive_test(self.number(), ray, hit) }",
     },
 ];
 

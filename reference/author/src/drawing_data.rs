@@ -103,10 +103,10 @@ mod tests {
 
     #[test]
     fn traversal_visits_the_nearer_leaf_first_and_prunes_the_farther() {
-        let wall = |x: f64, material| {
+        let wall = |x: f64, shape| {
             let corner = |y: f64, z: f64| DVec3::new(x + 0.1 * y, y, z);
             let corners = [corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)];
-            meshes::flat_triangle(corners, material)
+            meshes::flat_triangle(corners, shape)
         };
         let tree = construction::median_split(vec![wall(1.0, 0), wall(5.0, 1)], 1);
         let steps = traversal_steps(&tree, &Ray::new(Vec3::ZERO, Vec3::X));

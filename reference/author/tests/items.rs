@@ -158,8 +158,8 @@ fn materials_are_distinct_in_trees() {
                     continue;
                 }
             };
-            let materials: BTreeSet<u32> = shapes.iter().map(Shape::material).collect();
-            assert_eq!(materials.len(), shapes.len(), "{}", item.id);
+            let numbers: BTreeSet<u32> = shapes.iter().map(Shape::number).collect();
+            assert_eq!(numbers.len(), shapes.len(), "{}", item.id);
         }
     }
 }

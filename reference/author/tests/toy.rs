@@ -115,7 +115,7 @@ fn ball(x: f32) -> Shape {
     Shape::Sphere {
         center: Vec3::new(x, 0.0, 0.0),
         radius: 1.0,
-        material: 0,
+        shape: 0,
     }
 }
 
@@ -127,7 +127,7 @@ fn hits_at(x: f32) -> Key {
         normal: Vec3::NEG_X,
         uv: Vec2::ZERO,
         origin: Vec3::new(-5.0, 0.0, 0.0),
-        material: 0,
+        shape: 0,
     };
     Key::table(
         &["distance", "normal"],

@@ -63,9 +63,9 @@ impl Mesh {
 
     /// Returns the triangles as shapes.
     pub fn shapes(&self) -> impl Iterator<Item = Shape> {
-        let shape = |(material, corners): (u32, &[Vec3; 3])| Shape::FlatTriangle {
+        let shape = |(shape, corners): (u32, &[Vec3; 3])| Shape::FlatTriangle {
             corners: *corners,
-            material,
+            shape,
         };
         (0..).zip(&self.corners).map(shape)
     }

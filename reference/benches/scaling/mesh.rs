@@ -24,10 +24,10 @@ pub fn bumpy_ball(pieces: u32) -> Vec<Shape> {
                 for j in 0..pieces {
                     let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
                     let [a, b, c, d] = corners.map(|(i, j)| point(i, j));
-                    shapes.extend([[a, b, c], [a, c, d]].map(|corners| Shape::FlatTriangle {
-                        corners,
-                        material: 0,
-                    }));
+                    shapes.extend(
+                        [[a, b, c], [a, c, d]]
+                            .map(|corners| Shape::FlatTriangle { corners, shape: 0 }),
+                    );
                 }
             }
         }

@@ -28,7 +28,7 @@ impl Sphere {
             normal,
             uv: Sphere::uv(normal),
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         })
     }
 }

@@ -39,7 +39,7 @@ impl Triangle {
             normal: (weights * corners.map(|corner| corner.normal)).normalize(),
             uv: weights * corners.map(|corner| corner.uv),
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         })
     }
 }

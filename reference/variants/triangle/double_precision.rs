@@ -28,7 +28,7 @@ impl Triangle {
             normal: (w * n0 + u * n1 + v * n2).normalize().as_vec3(),
             uv: (w * uv0 + u * uv1 + v * uv2).as_vec2(),
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         })
     }
 }

@@ -29,7 +29,7 @@ impl Triangle {
                 .normalize(),
             uv: Interpolate::interpolate(corners.map(|corner| corner.uv), weights),
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         })
     }
 

@@ -28,7 +28,7 @@ impl Triangle {
                     .normalize(),
                 uv: weighted().map(|(weight, corner)| weight * corner.uv).sum(),
                 origin: ray.origin,
-                material: self.material,
+                shape: self.shape,
             }
         })
     }

@@ -7,7 +7,7 @@ pub struct Triangle {
     pub p0: Vertex,
     pub p1: Vertex,
     pub p2: Vertex,
-    pub material: u32,
+    pub shape: u32,
     /// The edge from p0 to p1.
     e1: Vec3,
     /// The edge from p0 to p2.
@@ -17,14 +17,14 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, shape: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
         Triangle {
             p0,
             p1,
             p2,
-            material,
+            shape,
             e1,
             e2,
             face: e1.cross(e2),

@@ -27,7 +27,7 @@ impl Triangle {
             normal: p0.normal + u * (p1.normal - p0.normal) + v * (p2.normal - p0.normal),
             uv: p0.uv + u * (p1.uv - p0.uv) + v * (p2.uv - p0.uv),
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         })
     }
 }

@@ -30,7 +30,7 @@ impl Triangle {
             normal: Vec3::ZERO,
             uv: Vec2::ZERO,
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         };
         for (weight, corner) in weights.into_iter().zip([self.p0, self.p1, self.p2]) {
             trace.position += weight * corner.position;

@@ -10,7 +10,7 @@ pub struct Triangle {
     pub p0: Vertex,
     pub p1: Vertex,
     pub p2: Vertex,
-    pub material: u32,
+    pub shape: u32,
     /// The normal of the triangle's plane.
     face: Vec3,
     /// The normal of the plane through p0 and p2, scaled so that the distance of p1 is 1.
@@ -20,7 +20,7 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, shape: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
         let face = e1.cross(e2);
@@ -28,7 +28,7 @@ impl Triangle {
             p0,
             p1,
             p2,
-            material,
+            shape,
             face,
             u_plane: e2.cross(face) / face.length_squared(),
             v_plane: face.cross(e1) / face.length_squared(),

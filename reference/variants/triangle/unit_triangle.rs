@@ -11,14 +11,14 @@ pub struct Triangle {
     pub p0: Vertex,
     pub p1: Vertex,
     pub p2: Vertex,
-    pub material: u32,
+    pub shape: u32,
     /// The matrix that maps e1 to the x-axis, e2 to the y-axis, and a coordinate axis to the
     /// z-axis.
     to_unit: Mat3,
 }
 
 impl Triangle {
-    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, material: u32) -> Self {
+    pub fn new(p0: Vertex, p1: Vertex, p2: Vertex, shape: u32) -> Self {
         let e1 = p1.position - p0.position;
         let e2 = p2.position - p0.position;
         let axis = Vec3::AXES[e1.cross(e2).abs().max_position()];
@@ -27,7 +27,7 @@ impl Triangle {
             p0,
             p1,
             p2,
-            material,
+            shape,
             to_unit,
         }
     }

@@ -61,8 +61,8 @@ pub trait Hierarchy: Aggregate {
     /// Returns the number of primitives.
     fn primitive_count(&self) -> usize;
 
-    /// Returns the material of the primitive at `index`, in the order that the leaves index them.
-    fn material(&self, index: usize) -> u32;
+    /// Returns the number of the primitive at `index`, in the order that the leaves index them.
+    fn shape(&self, index: usize) -> u32;
 }
 
 impl dyn Hierarchy {
@@ -74,7 +74,7 @@ impl dyn Hierarchy {
                 .collect(),
             root: TreeNode::saturating_index(self.root()),
             order: (0..self.primitive_count())
-                .map(|index| self.material(index))
+                .map(|index| self.shape(index))
                 .collect(),
         }
     }

@@ -138,7 +138,7 @@ impl Hierarchy for SphereList {
         0
     }
 
-    fn material(&self, index: usize) -> u32 {
+    fn shape(&self, index: usize) -> u32 {
         unreachable!("there is no primitive {index}")
     }
 }
@@ -149,7 +149,7 @@ fn intersect(shape: &Shape, ray: &Ray) -> Option<Trace> {
     let Shape::Sphere {
         center,
         radius,
-        material,
+        shape,
     } = *shape
     else {
         return None;
@@ -169,6 +169,6 @@ fn intersect(shape: &Shape, ray: &Ray) -> Option<Trace> {
         normal: (position - center) / radius,
         uv: Vec2::ZERO,
         origin: ray.origin,
-        material,
+        shape,
     })
 }

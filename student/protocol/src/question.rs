@@ -22,7 +22,7 @@ pub enum Question {
     BBoxHit(Table<BBoxHit>),
     /// Calls `Bvh::build` once. The answer is the whole tree.
     Build {
-        /// The primitives, each with a different material.
+        /// The primitives, each with a different number.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
         /// The maximum number of primitives in a leaf.

@@ -11,15 +11,15 @@ pub enum Shape {
     Triangle {
         /// The corners p0, p1, p2.
         vertices: [Vertex; 3],
-        /// The material to report in the `Trace`.
-        material: u32,
+        /// The number to report as `shape` in the `Trace`.
+        shape: u32,
     },
     /// A triangle given by its corners alone; see [`Shape::flat_triangle_vertices`].
     FlatTriangle {
         /// The corners p0, p1, p2.
         corners: [Vec3; 3],
-        /// The material to report in the `Trace`.
-        material: u32,
+        /// The number to report as `shape` in the `Trace`.
+        shape: u32,
     },
     /// A sphere, given by its centre and radius.
     Sphere {
@@ -27,8 +27,8 @@ pub enum Shape {
         center: Vec3,
         /// The radius, greater than zero.
         radius: f32,
-        /// The material to report in the `Trace`.
-        material: u32,
+        /// The number to report as `shape` in the `Trace`.
+        shape: u32,
     },
 }
 
@@ -46,13 +46,13 @@ impl Shape {
         ]
     }
 
-    /// Returns the material to report in the `Trace`. In questions about trees, each primitive has
+    /// Returns the number to report as `shape` in the `Trace`. In questions about trees, each primitive has
     /// a different one.
-    pub fn material(&self) -> u32 {
+    pub fn number(&self) -> u32 {
         match *self {
-            Shape::Triangle { material, .. }
-            | Shape::FlatTriangle { material, .. }
-            | Shape::Sphere { material, .. } => material,
+            Shape::Triangle { shape, .. }
+            | Shape::FlatTriangle { shape, .. }
+            | Shape::Sphere { shape, .. } => shape,
         }
     }
 }

@@ -16,8 +16,8 @@ pub struct Trace {
     pub uv: Vec2,
     /// The origin of the ray.
     pub origin: Vec3,
-    /// The material of the primitive that was hit.
-    pub material: u32,
+    /// The number of the shape that was hit.
+    pub shape: u32,
 }
 
 impl Trace {

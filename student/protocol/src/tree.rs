@@ -44,13 +44,13 @@ impl TreeNode {
 }
 
 /// A bounding volume hierarchy as data. The primitives that the leaves index are listed separately:
-/// as shapes in a question, and as materials (`order`) in an answer.
+/// as shapes in a question, and by their numbers (`order`) in an answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tree {
     /// The nodes, in any order.
     pub nodes: Vec<TreeNode>,
     /// The index of the root in `nodes`.
     pub root: u32,
-    /// The material of each primitive, in the order that the leaves index them.
+    /// The number of each primitive, in the order that the leaves index them.
     pub order: Vec<u32>,
 }

@@ -27,13 +27,13 @@ fn ray() -> impl Strategy<Value = Ray> {
 
 fn trace() -> impl Strategy<Value = Trace> {
     (any::<f32>(), vec3(), vec3(), vec2(), vec3(), any::<u32>()).prop_map(
-        |(distance, position, normal, uv, origin, material)| Trace {
+        |(distance, position, normal, uv, origin, shape)| Trace {
             distance,
             position,
             normal,
             uv,
             origin,
-            material,
+            shape,
         },
     )
 }
@@ -51,13 +51,13 @@ fn node() -> impl Strategy<Value = TreeNode> {
 
 fn shape() -> impl Strategy<Value = Shape> {
     let sphere =
-        (vec3(), any::<f32>(), any::<u32>()).prop_map(|(center, radius, material)| Shape::Sphere {
+        (vec3(), any::<f32>(), any::<u32>()).prop_map(|(center, radius, shape)| Shape::Sphere {
             center,
             radius,
-            material,
+            shape,
         });
     let flat_triangle = (prop::array::uniform3(vec3()), any::<u32>())
-        .prop_map(|(corners, material)| Shape::FlatTriangle { corners, material });
+        .prop_map(|(corners, shape)| Shape::FlatTriangle { corners, shape });
     prop_oneof![sphere, flat_triangle]
 }
 

@@ -65,7 +65,7 @@ mod tests {
             normal: Vec3::Z,
             uv: glam::Vec2::ZERO,
             origin: Vec3::ZERO,
-            material: 0,
+            shape: 0,
         });
         let trace = trace.as_ref().map(|trace| trace as &dyn Record);
         Scales::new(table).of_row(0, trace)

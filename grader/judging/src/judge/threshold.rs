@@ -60,7 +60,7 @@ impl Threshold {
             normal: Vec3::ZERO,
             uv: Vec2::ZERO,
             origin: Vec3::ZERO,
-            material: 0,
+            shape: 0,
         };
         let ray = Ray::new(Vec3::ZERO, Vec3::Z);
         let records: [&dyn Record; 3] = [&trace, &ray, &Interval::AHEAD];

@@ -95,7 +95,7 @@ fn observe_one(quantity: &str, record: &(impl Fields + Copy)) -> ObservedAnswer 
 
 #[test]
 fn each_material_is_far_from_the_others() {
-    let of = |material| observe_one("material", &Trace { material, ..HIT });
+    let of = |shape| observe_one("shape", &Trace { shape, ..HIT });
     assert!(of(1).matches(&of(1)));
     assert!(!of(1).matches(&of(2)));
 }

@@ -111,12 +111,12 @@ fn manner(
                 && (own.max - other.max).abs().max_element() <= close
         })
     };
-    let materials = shapes.iter().map(Shape::material);
+    let numbers = shapes.iter().map(Shape::number);
     if wrong.iter().all(is_empty) {
         ", empty"
     } else if wrong.iter().all(is_of_sibling) {
         ", the sibling's"
-    } else if materials.eq(tree.order.iter().copied()) {
+    } else if numbers.eq(tree.order.iter().copied()) {
         ", in the original order"
     } else {
         ""

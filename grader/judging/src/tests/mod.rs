@@ -22,14 +22,14 @@ pub const HIT: Trace = Trace {
     normal: Vec3::X,
     uv: Vec2::ZERO,
     origin: Vec3::ZERO,
-    material: 0,
+    shape: 0,
 };
 
 pub fn sphere(center: Vec3, radius: f32) -> Shape {
     Shape::Sphere {
         center,
         radius,
-        material: 0,
+        shape: 0,
     }
 }
 

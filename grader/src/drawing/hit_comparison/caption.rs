@@ -67,11 +67,11 @@ impl HitComparison {
                 describe::point(got.origin.as_vec3()),
                 describe::point(wanted.origin.as_vec3())
             ),
-            Focus::Material => {
+            Focus::Shape => {
                 let name =
-                    |hit: &DrawnHit| hit.material.map_or("none".to_owned(), |id| id.to_string());
+                    |hit: &DrawnHit| hit.shape.map_or("none".to_owned(), |id| id.to_string());
                 format!(
-                    "Your hit has material {}; the shape has material {}.",
+                    "Your hit is of shape {}; the ray hits shape {}.",
                     name(got),
                     name(wanted)
                 )

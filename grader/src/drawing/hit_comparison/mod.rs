@@ -9,7 +9,7 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
 
-/// A hit to draw. If it comes from the key of a picture, it has no material.
+/// A hit to draw. If it comes from the key of a picture, the shape's number is not known.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) struct DrawnHit {
     pub(in crate::drawing) distance: f64,
@@ -17,7 +17,7 @@ pub(in crate::drawing) struct DrawnHit {
     pub(in crate::drawing) normal: DVec3,
     pub(in crate::drawing) uv: DVec2,
     pub(in crate::drawing) origin: DVec3,
-    pub(in crate::drawing) material: Option<u32>,
+    pub(in crate::drawing) shape: Option<u32>,
 }
 
 /// The submission's answer for one ray.
@@ -52,8 +52,8 @@ pub(in crate::drawing) enum Focus {
     Uv,
     /// The origin of the ray, which a hit stores.
     Origin,
-    /// The material of the primitive.
-    Material,
+    /// The number of the shape.
+    Shape,
 }
 
 /// One ray of a question, with the expected and the submitted hit.
@@ -157,7 +157,7 @@ fn choose_focus(judged: &[&str], wanted: Option<&DrawnHit>, got: &HitAnswer) -> 
         "unit_normal" => numbers_differ(got.normal.length(), 1.0),
         "uv" => vectors_differ(got.uv.extend(0.0), wanted.uv.extend(0.0)),
         "origin" => vectors_differ(got.origin, wanted.origin),
-        "material" => got.material != wanted.material,
+        "shape" => got.shape != wanted.shape,
         _ => numbers_differ(got.distance, wanted.distance),
     };
     match judged.iter().find(is_wrong).or(judged.first()) {
@@ -165,7 +165,7 @@ fn choose_focus(judged: &[&str], wanted: Option<&DrawnHit>, got: &HitAnswer) -> 
         Some(&("normal" | "unit_normal")) => Focus::Normal,
         Some(&"uv") => Focus::Uv,
         Some(&"origin") => Focus::Origin,
-        Some(&"material") => Focus::Material,
+        Some(&"shape") => Focus::Shape,
         Some(_) | None => Focus::Distance,
     }
 }
@@ -189,7 +189,7 @@ impl DrawnHit {
             normal: surface.normal.as_dvec3(),
             uv: surface.uv.as_dvec2(),
             origin: ray.origin.as_dvec3(),
-            material: None,
+            shape: None,
         }
     }
 
@@ -200,7 +200,7 @@ impl DrawnHit {
             normal: trace.normal.as_dvec3(),
             uv: trace.uv.as_dvec2(),
             origin: trace.origin.as_dvec3(),
-            material: Some(trace.material),
+            shape: Some(trace.shape),
         }
     }
 }

@@ -72,13 +72,13 @@ fn trace() -> impl Strategy<Value = Trace> {
         [number(), number()],
         0..30u32,
     );
-    fields.prop_map(|(position, normal, origin, distance, uv, material)| Trace {
+    fields.prop_map(|(position, normal, origin, distance, uv, shape)| Trace {
         distance,
         position,
         normal,
         uv: Vec2::from_array(uv),
         origin,
-        material,
+        shape,
     })
 }
 

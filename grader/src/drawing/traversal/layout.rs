@@ -62,9 +62,9 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) fn new(comparison: &HitComparison, traversal: &RecordedTraversal) -> Layout {
         let parents = ParentMap::new(traversal);
-        let leaf_with = |material: Option<u32>| parents.leaf_with(traversal, material?);
-        let wanted = leaf_with(comparison.wanted.and_then(|hit| hit.material));
-        let got = leaf_with(comparison.got.hit().and_then(|hit| hit.material));
+        let leaf_with = |shape: Option<u32>| parents.leaf_with(traversal, shape?);
+        let wanted = leaf_with(comparison.wanted.and_then(|hit| hit.shape));
+        let got = leaf_with(comparison.got.hit().and_then(|hit| hit.shape));
         let paths =
             [wanted, got].map(|leaf| leaf.map_or(Vec::new(), |leaf| parents.path_to_root(leaf)));
 
@@ -207,10 +207,10 @@ impl ParentMap {
         self.path_to_root(node).len() - 1
     }
 
-    /// Returns the leaf that contains the first primitive with this material.
-    fn leaf_with(&self, traversal: &RecordedTraversal, material: u32) -> Option<u32> {
+    /// Returns the leaf that contains the first primitive with this number.
+    fn leaf_with(&self, traversal: &RecordedTraversal, number: u32) -> Option<u32> {
         let mut shapes = traversal.shapes.iter();
-        let index = shapes.position(|shape| shape.material() == material)? as u64;
+        let index = shapes.position(|shape| shape.number() == number)? as u64;
         let holds = |node: &&u32| {
             let node = &traversal.nodes[**node as usize];
             let start = u64::from(node.start);

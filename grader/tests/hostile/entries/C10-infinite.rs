@@ -14,6 +14,6 @@ fn attack() -> Trace {
         normal: Vec3::splat(-0.0),
         uv: Vec2::splat(1e-45),
         origin: Vec3::NEG_INFINITY,
-        material: u32::MAX,
+        shape: u32::MAX,
     }
 }

@@ -48,12 +48,12 @@ pub fn box_test<B>(
     inside
 }
 
-/// Records a call of `Primitive::hit`, and returns its result. `material` is the index of the shape.
-pub fn primitive_test(material: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
+/// Records a call of `Primitive::hit`, and returns its result. `shape` is the index of the shape.
+pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
     record(
         |counts| &mut counts.primitives,
         || Test::Primitive {
-            shape: material,
+            shape: shape,
             range: ray.range,
             distance: hit.map(|trace| trace.distance),
         },
@@ -146,7 +146,7 @@ impl Hierarchy for Recorded {
         self.0.primitive_count()
     }
 
-    fn material(&self, index: usize) -> u32 {
-        self.0.material(index)
+    fn shape(&self, index: usize) -> u32 {
+        self.0.shape(index)
     }
 }

@@ -14,7 +14,7 @@ pub struct SceneData {
     pub materials: Vec<SceneMaterial>,
     /// All shapes, numbered like those of a [`Scene`].
     pub shapes: Vec<Shape>,
-    /// For each shape, the index of its material.
+    /// For each shape, the index of its shape.
     pub shape_materials: Vec<u32>,
     /// The maximum number of primitives in a leaf.
     pub max_leaf_size: u32,
@@ -37,7 +37,7 @@ pub enum TreeSource {
     List,
 }
 
-/// A material that can be sent.
+/// A shape that can be sent.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneMaterial(#[serde(with = "MaterialDef")] pub Material);
 
@@ -73,11 +73,7 @@ impl SceneData {
             about: String::new(),
             camera: self.aim.camera(),
             environment: self.environment,
-            materials: self
-                .materials
-                .into_iter()
-                .map(|material| material.0)
-                .collect(),
+            materials: self.materials.into_iter().map(|shape| shape.0).collect(),
             shapes: self.shapes,
             shape_materials: self.shape_materials,
             max_leaf_size: self.max_leaf_size as usize,

@@ -186,7 +186,7 @@ impl Hierarchy for List {
         0
     }
 
-    fn material(&self, index: usize) -> u32 {
+    fn shape(&self, index: usize) -> u32 {
         unreachable!("the primitives of a list are not read, so not {index}")
     }
 }

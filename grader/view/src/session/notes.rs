@@ -86,7 +86,7 @@ impl Session {
             add(
                 format!(
                     "{} paths are black, because a hit contains NaN or infinity, a normal of \
-                     length zero, or an unknown material.",
+                     length zero, or an unknown shape.",
                     self.invalid_paths
                 ),
                 None,

@@ -15,7 +15,7 @@ use crate::harness::workspace;
 
 /// A scene with the reference's tree, or a question of the practice exam with its tree.
 pub struct Expected {
-    /// The shapes. In a scene, they have their numbers as materials, so that the tree says which is
+    /// The shapes. In a scene, they are numbered, so that the tree says which is
     /// where.
     shapes: Vec<Shape>,
     pub tree: Tree,
@@ -31,8 +31,8 @@ impl Expected {
         let scene = Scene::load(&path).unwrap().on_film(film);
         let mut shapes = scene.shapes.clone();
         for (number, shape) in (0..).zip(&mut shapes) {
-            if let Shape::Triangle { material, .. } = shape {
-                *material = number;
+            if let Shape::Triangle { shape, .. } = shape {
+                *shape = number;
             }
         }
         let tree = Student.build(&shapes, scene.max_leaf_size).tree();

@@ -68,7 +68,7 @@ fn correct_answer(question: &ExamQuestion) -> Option<Answer> {
                 normal: surface.normal,
                 uv: surface.uv,
                 origin: Vec3::ZERO,
-                material: 0,
+                shape: 0,
             };
             let hits = hits.iter().map(|surface| surface.as_ref().map(trace));
             Answer::Hits(hits.map(ElementOutcome::Value).collect())

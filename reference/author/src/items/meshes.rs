@@ -1,4 +1,4 @@
-//! Lists of shapes for trees. The material of each shape is its index in the list.
+//! Lists of shapes for trees. The number of each shape is its index in the list.
 
 use glam::{DVec3, dvec3};
 use protocol::Shape;
@@ -7,21 +7,21 @@ use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
 /// Returns the flat triangle with these corners.
-pub fn flat_triangle(corners: [DVec3; 3], material: u32) -> Shape {
+pub fn flat_triangle(corners: [DVec3; 3], shape: u32) -> Shape {
     Shape::FlatTriangle {
         corners: corners.map(|corner| corner.as_vec3()),
-        material,
+        shape,
     }
 }
 
-/// Returns the shapes with their indices as materials.
+/// Returns the shapes, numbered in order.
 pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
-    let number = |(index, mut shape): (u32, Shape)| {
-        let (Shape::Triangle { material, .. }
-        | Shape::FlatTriangle { material, .. }
-        | Shape::Sphere { material, .. }) = &mut shape;
-        *material = index;
-        shape
+    let number = |(index, mut numbered): (u32, Shape)| {
+        let (Shape::Triangle { shape, .. }
+        | Shape::FlatTriangle { shape, .. }
+        | Shape::Sphere { shape, .. }) = &mut numbered;
+        *shape = index;
+        numbered
     };
     (0..).zip(shapes).map(number).collect()
 }

@@ -125,7 +125,7 @@ mod tests {
         let corner = |x: f32, y: f32| Vec3::new(x, y, -1.0);
         let wall = Shape::FlatTriangle {
             corners: [corner(0.0, -9.0), corner(0.0, 9.0), corner(9.0, 0.0)],
-            material: 0,
+            shape: 0,
         };
         picture_question(camera_at_origin(9), vec![wall])
     }

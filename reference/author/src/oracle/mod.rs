@@ -74,8 +74,8 @@ pub struct Intersection {
     pub normal: DVec3,
     /// The texture coordinates.
     pub uv: DVec2,
-    /// The material of the shape.
-    pub material: u32,
+    /// The number of the shape.
+    pub shape: u32,
 }
 
 impl Intersection {
@@ -87,7 +87,7 @@ impl Intersection {
             normal: self.normal.as_vec3(),
             uv: self.uv.as_vec2(),
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         }
     }
 

@@ -12,10 +12,10 @@ pub fn intersect(ray: &Ray64, shape: &Shape) -> Option<Intersection> {
     match *shape {
         Shape::Triangle {
             ref vertices,
-            material,
-        } => triangle::intersect(ray, vertices, material),
+            shape,
+        } => triangle::intersect(ray, vertices, shape),
         // Most rays miss, so the vertices are computed only after a hit.
-        Shape::FlatTriangle { corners, material } => {
+        Shape::FlatTriangle { corners, shape } => {
             let intersection =
                 triangle::intersect_inside(ray, corners.map(|corner| corner.as_dvec3()))?;
             let vertices = Shape::flat_triangle_vertices(corners);
@@ -23,14 +23,14 @@ pub fn intersect(ray: &Ray64, shape: &Shape) -> Option<Intersection> {
                 ray,
                 &intersection,
                 &vertices,
-                material,
+                shape,
             ))
         }
         Shape::Sphere {
             center,
             radius,
-            material,
-        } => sphere(center, radius).intersect(ray, material),
+            shape,
+        } => sphere(center, radius).intersect(ray, shape),
     }
 }
 
@@ -157,7 +157,7 @@ mod tests {
             Shape::Sphere {
                 center: vec3(0.0, 0.0, -9.0),
                 radius: 2.0,
-                material: 0,
+                shape: 0,
             },
             Shape::FlatTriangle {
                 corners: [
@@ -165,7 +165,7 @@ mod tests {
                     vec3(3.0, -1.0, -5.0),
                     vec3(-1.0, 3.0, -5.0),
                 ],
-                material: 1,
+                shape: 1,
             },
         ]
     }
@@ -174,9 +174,9 @@ mod tests {
     fn the_nearest_shape_wins() {
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
         let hit = closest_hit(&Ray64::from(&ray), &shapes()).unwrap();
-        assert_eq!((hit.distance, hit.material), (5.0, 1));
+        assert_eq!((hit.distance, hit.shape), (5.0, 1));
         let hit = closest_hit(&Ray64::from(&ray.within(6.0, 20.0)), &shapes()).unwrap();
-        assert_eq!((hit.distance, hit.material), (7.0, 0));
+        assert_eq!((hit.distance, hit.shape), (7.0, 0));
     }
 
     #[test]

@@ -46,7 +46,7 @@ impl Sphere {
     }
 
     /// Returns the first intersection in the ray's range.
-    pub fn intersect(&self, ray: &Ray64, material: u32) -> Option<Intersection> {
+    pub fn intersect(&self, ray: &Ray64, shape: u32) -> Option<Intersection> {
         let roots = self.intersect_line(ray).roots;
         let distance = roots.into_iter().find(|&root| ray.is_in_range(root))?;
         let position = ray.at(distance);
@@ -56,7 +56,7 @@ impl Sphere {
             position,
             normal,
             uv: uv(normal),
-            material,
+            shape,
         })
     }
 }

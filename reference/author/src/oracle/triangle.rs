@@ -61,7 +61,7 @@ pub fn intersection_at(
     ray: &Ray64,
     intersection: &PlaneIntersection,
     vertices: &[Vertex; 3],
-    material: u32,
+    shape: u32,
 ) -> Intersection {
     let weighted = || intersection.weights.into_iter().zip(vertices);
     let normal: DVec3 = weighted().map(|(w, v)| w * v.normal.as_dvec3()).sum();
@@ -71,14 +71,14 @@ pub fn intersection_at(
         position: ray.at(intersection.distance),
         normal: normal.normalize_or_zero(),
         uv,
-        material,
+        shape,
     }
 }
 
 /// Returns the intersection with the triangle, if it is in the ray's range.
-pub fn intersect(ray: &Ray64, vertices: &[Vertex; 3], material: u32) -> Option<Intersection> {
+pub fn intersect(ray: &Ray64, vertices: &[Vertex; 3], shape: u32) -> Option<Intersection> {
     let intersection = intersect_inside(ray, corners(vertices))?;
-    Some(intersection_at(ray, &intersection, vertices, material))
+    Some(intersection_at(ray, &intersection, vertices, shape))
 }
 
 #[cfg(test)]
@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(hit.uv, dvec2(0.25, 1.0));
         let normal = dvec3(0.25, 0.25, 0.5).normalize();
         assert!(hit.normal.abs_diff_eq(normal, 1e-15), "{hit:?}");
-        assert_eq!(hit.material, 5);
+        assert_eq!(hit.shape, 5);
     }
 
     #[test]

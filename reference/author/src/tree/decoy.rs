@@ -208,7 +208,7 @@ fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
             ..*ray64
         };
         let is_near = bounds.grown(BESIDE * size).span(&near).is_some();
-        let is_other = expected.is_none_or(|hit| hit.material != shape.material());
+        let is_other = expected.is_none_or(|hit| hit.shape != shape.number());
         !is_near
             || (scan::is_unambiguous(ray64, shape)
                 && (!is_other || scan::intersect(&near, shape).is_none()))
@@ -217,14 +217,14 @@ fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
 
 /// Returns a flat triangle that is perpendicular to the ray at this distance, and small enough that
 /// other rays rarely hit it.
-pub fn triangle_across(rng: &mut Rng, ray: &Ray, distance: f64, size: f64, material: u32) -> Shape {
+pub fn triangle_across(rng: &mut Rng, ray: &Ray, distance: f64, size: f64, shape: u32) -> Shape {
     let dir = ray.dir.as_dvec3();
     let middle = ray.origin.as_dvec3() + distance * dir;
     let x = rng.perpendicular_to(dir);
     let y = dir.cross(x);
     let corner = |across: f64, up: f64| (middle + size * (across * x + up * y)).as_vec3();
     let corners = [corner(-1.0, -0.6), corner(1.0, -0.6), corner(0.0, 1.2)];
-    Shape::FlatTriangle { corners, material }
+    Shape::FlatTriangle { corners, shape }
 }
 
 /// Returns the tree with a decoy added in front of a ray's closest hit, in a random leaf that
@@ -235,7 +235,7 @@ pub fn add_decoy(
     tree: &Tree,
     rays: &[Ray],
     ray: usize,
-    material: u32,
+    shape: u32,
     fits: &dyn Fn(&Tree, usize, &Ray64) -> bool,
 ) -> Option<Tree> {
     let ray64 = Ray64::from(&rays[ray]);
@@ -248,7 +248,7 @@ pub fn add_decoy(
 
     let end = tree.expected_hit(&ray64).map_or(4.0, |hit| hit.distance);
     let distance = ray64.min + (end - ray64.min) * rng.uniform(0.2, 0.8);
-    let decoy = triangle_across(rng, &rays[ray], distance, 0.1, material);
+    let decoy = triangle_across(rng, &rays[ray], distance, 0.1, shape);
     if entry_distance(tree, leaf, &ray64).is_some_and(|enter| enter < distance + 0.05) {
         return None;
     }
@@ -266,7 +266,7 @@ mod tests {
 
     /// Returns a slanted triangle that a ray along the x-axis hits in the middle of its box, or
     /// misses.
-    fn slanted_triangle(from: f64, to: f64, is_hit: bool, material: u32) -> Shape {
+    fn slanted_triangle(from: f64, to: f64, is_hit: bool, shape: u32) -> Shape {
         let y = if is_hit { 0.0 } else { 2.0 };
         let corner = |x: f64, up: f64, z: f64| dvec3(x, y + up, z);
         meshes::flat_triangle(
@@ -275,7 +275,7 @@ mod tests {
                 corner(from, -1.0, 1.0),
                 corner(to, 1.5, 0.0),
             ],
-            material,
+            shape,
         )
     }
 

@@ -156,7 +156,7 @@ impl Tree {
     /// Returns the leaf that holds the primitive of the expected hit, or `None` if there is no hit.
     pub fn leaf_of_hit(&self, ray64: &Ray64) -> Option<usize> {
         let hit = self.expected_hit(ray64)?;
-        let is_hit = |index: usize| self.shapes[index].material() == hit.material;
+        let is_hit = |index: usize| self.shapes[index].number() == hit.shape;
         let mut leaves = self.leaves().into_iter();
         leaves.find(|&leaf| self.primitives(leaf).any(is_hit))
     }

@@ -188,10 +188,10 @@ impl<'a> Collapser<'a> {
         }
 
         let is_flat =
-            |triangle: &&Triangle| is_flat(triangle) && triangle.material < Word::EXTRA_LIMIT;
+            |triangle: &&Triangle| is_flat(triangle) && triangle.shape < Word::EXTRA_LIMIT;
         if triangles.iter().all(is_flat) {
             for (word, triangle) in words.iter_mut().zip(triangles) {
-                word.set_extra(triangle.material);
+                word.set_extra(triangle.shape);
             }
         } else {
             let start = to_u32(self.surfaces.len());

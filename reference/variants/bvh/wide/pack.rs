@@ -62,7 +62,7 @@ impl<'a> Pack<'a> {
     const SPHERES_FLAG: usize = 0;
     /// The lane whose flag marks a pack with triangles that are not flat. The extra data of the
     /// first two words is then the index of the first triangle's surface; otherwise, the extra data
-    /// of each word is the triangle's material.
+    /// of each word is the triangle's number.
     const SURFACES_FLAG: usize = 1;
 
     fn at(lines: &'a [CacheLine], start: u32) -> Self {
@@ -109,7 +109,7 @@ impl<'a> Pack<'a> {
             .map(|corner| Vec3::from([x, y, z].map(|lanes| lanes.as_array()[corner])));
         Shading::Computed {
             normal: (p1 - p0).cross(p2 - p0).normalize(),
-            material: word.extra(),
+            shape: word.extra(),
         }
     }
 
@@ -181,7 +181,7 @@ struct PackHit {
 /// The source of a triangle's shading data.
 enum Shading {
     /// Computed from the corners. See [`Shape::flat_triangle_vertices`].
-    Computed { normal: Vec3, material: u32 },
+    Computed { normal: Vec3, shape: u32 },
     /// The surface with this index.
     Stored { index: u32 },
 }
@@ -192,7 +192,7 @@ enum Shading {
 struct Surface {
     normals: [Vec3; 3],
     uvs: [Vec2; 3],
-    material: u32,
+    shape: u32,
 }
 
 impl Surface {
@@ -201,17 +201,17 @@ impl Surface {
         Surface {
             normals: [p0.normal, p1.normal, p2.normal],
             uvs: [p0.uv, p1.uv, p2.uv],
-            material: triangle.material,
+            shape: triangle.shape,
         }
     }
 
-    /// Returns the normal, texture coordinates and material at a point, given the weights of two
+    /// Returns the normal, texture coordinates and number of the shape at a point, given the weights of two
     /// corners.
     fn interpolate(&self, u: f32, v: f32) -> (Vec3, Vec2, u32) {
         let w = 1.0 - u - v;
         let [n0, n1, n2] = self.normals;
         let [uv0, uv1, uv2] = self.uvs;
         let normal = (w * n0 + u * n1 + v * n2).normalize();
-        (normal, w * uv0 + u * uv1 + v * uv2, self.material)
+        (normal, w * uv0 + u * uv1 + v * uv2, self.shape)
     }
 }

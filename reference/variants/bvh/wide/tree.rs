@@ -94,8 +94,8 @@ impl Bvh {
             HitPrimitive::Sphere { index } => self.primitives[index as usize].hit(ray),
             HitPrimitive::Triangle { pack, lane, u, v } => {
                 let pack = Pack::at(&self.lines, pack);
-                let (normal, uv, material) = match pack.shading(lane) {
-                    Shading::Computed { normal, material } => (normal, Vec2::new(u, v), material),
+                let (normal, uv, shape) = match pack.shading(lane) {
+                    Shading::Computed { normal, shape } => (normal, Vec2::new(u, v), shape),
                     Shading::Stored { index } => self.surfaces[index as usize].interpolate(u, v),
                 };
                 Some(Trace {
@@ -104,7 +104,7 @@ impl Bvh {
                     normal,
                     uv,
                     origin: ray.origin,
-                    material,
+                    shape,
                 })
             }
         }

@@ -8,7 +8,7 @@ impl Triangle {
             normal: (w * self.p0.normal + u * self.p1.normal + v * self.p2.normal).normalize(),
             uv: w * self.p0.uv + u * self.p1.uv + v * self.p2.uv,
             origin: ray.origin,
-            material: self.material,
+            shape: self.shape,
         }
     }
 }

@@ -158,7 +158,7 @@ mod tests {
             normal: Vec3::Y * 2.0,
             uv: Vec2::new(1.25, -0.25),
             origin: Vec3::ZERO,
-            material: 0,
+            shape: 0,
         })
     }
 

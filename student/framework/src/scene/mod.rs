@@ -45,7 +45,7 @@ pub struct Scene {
     pub environment: Vec3,
     /// The materials, indexed by `shape_materials`.
     pub materials: Vec<Material>,
-    /// All shapes, in world space. Meshes are converted to triangles. The `material` of each shape is
+    /// All shapes, in world space. Meshes are converted to triangles. The number of each shape is
     /// its index in this list, so that a hit tells which shape it is on.
     pub shapes: Vec<Shape>,
     /// For each shape, the index of its material.

@@ -76,7 +76,7 @@ fn read_shape<'a>(
 ) -> Result<(Object<'a>, Vec<Shape>), SceneError> {
     let numbered = |triangles: Vec<[Vertex; 3]>| {
         let numbered = triangles.into_iter().zip(first..);
-        let shapes = numbered.map(|(vertices, material)| Shape::Triangle { vertices, material });
+        let shapes = numbered.map(|(vertices, shape)| Shape::Triangle { vertices, shape });
         shapes.collect::<Vec<Shape>>()
     };
     let (kind, value) = entry.kind()?;
@@ -86,7 +86,7 @@ fn read_shape<'a>(
             let sphere = Shape::Sphere {
                 center: keys.required("center", Value::point)?,
                 radius: keys.required("radius", Value::positive)?,
-                material: first,
+                shape: first,
             };
             Ok((keys, vec![sphere]))
         }

@@ -153,7 +153,7 @@ fields! {
         "normal": Direction = normal,
         "uv": Uv = uv,
         "origin": Point = origin,
-        "material": Index = material,
+        "shape": Index = shape,
     }
 }
 
@@ -161,7 +161,7 @@ impl Output for Option<Trace> {
     const NAMES: &'static [&'static str] = <Trace as Fields>::NAMES;
     const WORDS: Words = Words {
         record: "distance {distance}, position {position}, normal {normal}, uv {uv}, \
-                 material {material}",
+                 shape {shape}",
         present: "a hit at distance {distance}",
         absent: "no hit",
     };

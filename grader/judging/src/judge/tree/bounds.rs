@@ -107,11 +107,11 @@ mod tests {
             Vec3::new(2.0, -5.0, 3.0),
             Vec3::new(0.0, 6.0, -8.0),
         ];
-        let material = 0;
+        let shape = 0;
         for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
             let bounds = Bounds::of_shape(&Shape::FlatTriangle {
                 corners: order.map(|corner| corners[corner]),
-                material,
+                shape,
             });
             assert_eq!(bounds.min, DVec3::new(-4.0, -5.0, -8.0));
             assert_eq!(bounds.max, DVec3::new(2.0, 7.0, 3.0));
@@ -119,7 +119,7 @@ mod tests {
         let bounds = Bounds::of_shape(&Shape::Sphere {
             center: Vec3::new(1.0, 2.0, 3.0),
             radius: 0.5,
-            material,
+            shape,
         });
         assert_eq!(bounds.min, DVec3::new(0.5, 1.5, 2.5));
         assert_eq!(bounds.max, DVec3::new(1.5, 2.5, 3.5));

@@ -39,13 +39,13 @@ pub fn reached_nodes<'a>(
         let primitives = shapes.len();
         return Err(TreeDefect::NoNodes { primitives });
     }
-    // Each primitive has its own material, by which it is identified. Unknown materials have no
+    // Each primitive has its own number, by which it is identified. Unknown numbers have no
     // index.
-    let index_of: BTreeMap<u32, usize> = shapes.iter().map(Shape::material).zip(0..).collect();
+    let index_of: BTreeMap<u32, usize> = shapes.iter().map(Shape::number).zip(0..).collect();
     let order: Vec<Option<usize>> = tree
         .order
         .iter()
-        .map(|material| index_of.get(material).copied())
+        .map(|shape| index_of.get(shape).copied())
         .collect();
 
     // If many leaves each list all primitives, storing the lists would need too much memory.

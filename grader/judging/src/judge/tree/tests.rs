@@ -8,7 +8,7 @@ pub(crate) fn row(count: u32) -> Vec<Shape> {
     let ball = |i| Shape::Sphere {
         center: vec3(2.0 * i as f32, 0.0, 0.0),
         radius: 0.5,
-        material: i,
+        shape: i,
     };
     (0..count).map(ball).collect()
 }

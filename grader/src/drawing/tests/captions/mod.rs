@@ -21,11 +21,11 @@ fn captions(question: &ExamQuestion, answers: impl IntoIterator<Item = Answer>) 
     lines.join("\n")
 }
 
-fn ball(x: f32, material: u32) -> Shape {
+fn ball(x: f32, shape: u32) -> Shape {
     Shape::Sphere {
         center: vec3(x, 0.0, -5.0),
         radius: 1.0,
-        material,
+        shape,
     }
 }
 
@@ -40,7 +40,7 @@ fn trace(distance: f32) -> Trace {
         normal: Vec3::Z,
         uv: vec2(0.25, 0.5),
         origin: Vec3::ZERO,
-        material: 7,
+        shape: 7,
     }
 }
 

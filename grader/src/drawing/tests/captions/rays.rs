@@ -78,7 +78,7 @@ fn captions_of_hits_with_another_wrong_field() {
             &exam_question("origin"),
             with(|trace| trace.origin = Vec3::ONE),
         ),
-        caption(&exam_question("material"), with(|trace| trace.material = 0)),
+        caption(&exam_question("shape"), with(|trace| trace.shape = 0)),
     ];
     assert_snapshot!(lines.join("\n"));
 }

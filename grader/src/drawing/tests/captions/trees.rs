@@ -97,7 +97,7 @@ fn captions_of_traversals() {
             key: Key::table(
                 &["distance"],
                 ExpectedRows::Hits(vec![Some(Trace {
-                    material: 0,
+                    shape: 0,
                     ..trace(4.0)
                 })]),
             ),
@@ -108,9 +108,9 @@ fn captions_of_traversals() {
             ]]),
         }
     };
-    let answer = |material, distance| {
+    let answer = |shape, distance| {
         hits(Some(Trace {
-            material,
+            shape,
             ..trace(distance)
         }))
     };

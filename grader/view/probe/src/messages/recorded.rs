@@ -24,7 +24,7 @@ pub struct Followed {
 pub struct FollowedRay {
     /// The ray that was passed to `Bvh::hit`.
     pub ray: Ray,
-    /// The result of `Bvh::hit`. `Trace::material` is the index of the shape. `None` if it missed,
+    /// The result of `Bvh::hit`. `Trace::shape` is the index of the shape. `None` if it missed,
     /// or panicked.
     pub hit: Option<Trace>,
     /// The tests, in order. Tests beyond the maximum number are left out.

@@ -16,7 +16,7 @@ pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, Outcome}
 
 /// The scene that the rays are traced in.
 pub struct Context<'a> {
-    /// The tree, whose primitives have their numbers as materials.
+    /// The tree, whose primitives are numbered.
     pub tree: &'a TreeModel,
     /// All shapes.
     pub shapes: &'a [Shape],
@@ -98,7 +98,7 @@ fn explain_ray(
         hit: ray.hit.map(|trace| ExplainedHit {
             distance: trace.distance,
             position: trace.position,
-            shape: trace.material,
+            shape: trace.shape,
         }),
         notes: remarks::remarks(ray, &tests, closest, context),
         rows: tests,

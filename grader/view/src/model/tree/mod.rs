@@ -32,7 +32,7 @@ pub struct TreeModel {
     order: Vec<u32>,
     /// The number of levels.
     depth: u32,
-    /// The leaf that holds each primitive, by the number in its material: the first in depth-first
+    /// The leaf that holds each primitive, by its number: the first in depth-first
     /// order.
     leaves: HashMap<u32, u32>,
     /// The nodes in the order of the bits of their boxes.
@@ -174,7 +174,7 @@ impl TreeModel {
         self.level(node).is_some() && self.node(node).is_some_and(is_equal)
     }
 
-    /// Returns the leaf that holds the primitive with this number as its material.
+    /// Returns the leaf that holds the primitive with this number.
     pub fn leaf_of(&self, number: u32) -> Option<u32> {
         self.leaves.get(&number).copied()
     }

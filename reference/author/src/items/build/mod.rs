@@ -54,7 +54,7 @@ fn control(seed: Seed) -> ExamQuestion {
     build_question(&[Partition, Split], soup, 4)
 }
 
-/// Creates a question about a tree over these shapes, whose materials are replaced with numbers.
+/// Creates a question about a tree over these shapes, which are numbered anew.
 fn build_question(
     checks: &[TreeCheck],
     shapes: impl IntoIterator<Item = Shape>,

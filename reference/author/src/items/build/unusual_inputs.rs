@@ -72,7 +72,7 @@ fn concentric(rng: &mut Rng) -> Vec<ExamQuestion> {
     let shells = (1..=13).map(|i| Shape::Sphere {
         center,
         radius: step * i as f32,
-        material: 0,
+        shape: 0,
     });
     vec![build_question(&[Partition, Split, Contains], shells, 2)]
 }
@@ -126,7 +126,7 @@ fn collinear(rng: &mut Rng) -> Vec<ExamQuestion> {
             Shape::Sphere {
                 center: center.as_vec3(),
                 radius,
-                material: 0,
+                shape: 0,
             }
         });
         build_question(&[Partition, Split, Contains], row, 3)

@@ -40,11 +40,11 @@ fn random_sphere(rng: &mut Rng, radius: f64) -> Sphere {
     }
 }
 
-fn shape(sphere: &Sphere, material: u32) -> Shape {
+fn shape(sphere: &Sphere, shape: u32) -> Shape {
     Shape::Sphere {
         center: sphere.center.as_vec3(),
         radius: sphere.radius as f32,
-        material,
+        shape,
     }
 }
 
@@ -74,10 +74,10 @@ fn ray_from_inside(rng: &mut Rng, sphere: &Sphere) -> Ray {
 fn sphere_question(
     judged: &[&str],
     sphere: &Sphere,
-    material: u32,
+    number: u32,
     rays: impl IntoIterator<Item = Ray>,
 ) -> ExamQuestion {
-    super::shape_question(judged, shape(sphere, material), rays)
+    super::shape_question(judged, shape(sphere, number), rays)
 }
 
 /// Creates one question per radius, with rays of one kind and some rays that miss.

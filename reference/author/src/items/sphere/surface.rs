@@ -86,22 +86,22 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "sphere.origin_and_material",
     points: 1,
-    title: "the trace holds the ray's origin and the sphere's material",
+    title: "the trace holds the ray's origin and the sphere's shape",
     look: "Copy both: the origin from the ray that you were given, even if you computed with a \
-           shifted one, and the material from the sphere.",
+           shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
     questions: origin_and_material,
     ..Declaration::ALONE
 };
 
 fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut table = |material: u32| {
+    let mut table = |shape: u32| {
         let sphere = random_sphere(rng, 1.2);
         let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
         rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
         rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
-        let judged = ["origin", "material"];
-        sphere_question(&judged, &sphere, material, rays)
+        let judged = ["origin", "shape"];
+        sphere_question(&judged, &sphere, shape, rays)
     };
     vec![table(0), table(3), table(99)]
 }
@@ -125,7 +125,7 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
         Shape::Sphere {
             center: center.as_vec3(),
             radius: (radius * rng.uniform(0.9, 1.1)) as f32,
-            material: 0,
+            shape: 0,
         }
     };
     let camera = |half, pixels| picture::camera_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);

@@ -51,7 +51,7 @@ const TRAVERSAL: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-/// The material of the first unreferenced primitive. Materials of primitives in leaves start at 0.
+/// The number of the first unreferenced primitive. Those of primitives in leaves start at 0.
 const FIRST_UNREFERENCED: u32 = 10_000;
 
 /// Creates a question that asks for the closest hits of the rays in the tree. Only distances are

@@ -70,8 +70,8 @@ fn with_detached_subtrees(
 ) -> Tree {
     let mut add_detached_subtree = |tree: &mut Tree, distance: f64| {
         let triangles = rays.iter().enumerate().map(|(i, ray)| {
-            let material = FIRST_UNREFERENCED + tree.shapes.len() as u32 + i as u32;
-            decoy::triangle_across(rng, ray, distance, 0.1, material)
+            let shape = FIRST_UNREFERENCED + tree.shapes.len() as u32 + i as u32;
+            decoy::triangle_across(rng, ray, distance, 0.1, shape)
         });
         let mut left: Vec<Shape> = triangles.collect();
         let right = left.split_off(left.len() / 2);

@@ -20,7 +20,7 @@ fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
     Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
 }
 
-/// The material of the first decoy. Materials of unreferenced primitives are smaller.
+/// The number of the first decoy. Those of unreferenced primitives are smaller.
 const FIRST_DECOY: u32 = 20_000;
 
 /// A filter for the leaves that may hold a decoy for a ray.
@@ -74,9 +74,9 @@ fn add_decoys(
     const ATTEMPTS: usize = 30;
     let mut done = Vec::new();
     for index in 0..RAYS_WITH_DECOYS {
-        let material = FIRST_DECOY + index as u32;
+        let shape = FIRST_DECOY + index as u32;
         let added = (0..ATTEMPTS).find_map(|_| {
-            let with_decoy = decoy::add_decoy(rng, &tree, rays, index, material, fits)?;
+            let with_decoy = decoy::add_decoy(rng, &tree, rays, index, shape, fits)?;
             let is_as_required = (0..).zip(rays).all(|(other, ray)| {
                 let has_decoy = other == index || done.contains(&other);
                 let is_wrong = has_decoy && slides == SlidesAnswer::Wrong;

@@ -233,7 +233,7 @@ fn mixed(rng: &mut Rng) -> Vec<ExamQuestion> {
             Shape::Sphere {
                 center: center.as_vec3(),
                 radius: rng.uniform(0.2, 0.5) as f32,
-                material: 0,
+                shape: 0,
             }
         }
     });

@@ -85,10 +85,10 @@ pub(super) fn ray_through(
     })
 }
 
-pub(super) fn shape(vertices: &[Vertex; 3], material: u32) -> Shape {
+pub(super) fn shape(vertices: &[Vertex; 3], shape: u32) -> Shape {
     Shape::Triangle {
         vertices: *vertices,
-        material,
+        shape,
     }
 }
 

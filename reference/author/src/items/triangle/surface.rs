@@ -84,22 +84,22 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "triangle.origin_and_material",
     points: 1,
-    title: "the trace holds the ray's origin and the triangle's material",
-    look: "Copy both: the origin from the ray, and the material from the triangle.",
+    title: "the trace holds the ray's origin and the triangle's shape",
+    look: "Copy both: the origin from the ray, and the shape's number from the triangle.",
     section: "triangle.md#what-to-return",
     questions: origin_and_material,
     ..Declaration::in_group(Group::TriangleSurface)
 };
 
 fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut table = |material: u32| {
+    let mut table = |number: u32| {
         let vertices = random_triangle(rng);
         let mut rays: Vec<Ray> = (0..6)
             .map(|_| hitting_ray(rng, &vertices, Side::Front))
             .collect();
         rays.extend((0..3).map(|_| missing_ray(rng, &vertices, Side::Front)));
-        let judged = ["origin", "material"];
-        shape_question(&judged, shape(&vertices, material), rays)
+        let judged = ["origin", "shape"];
+        shape_question(&judged, shape(&vertices, number), rays)
     };
     vec![table(0), table(7), table(42)]
 }

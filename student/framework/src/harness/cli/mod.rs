@@ -150,7 +150,7 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     if stats.invalid_paths > 0 {
         eprintln!(
             "note: paths that are black, because a hit contains NaN or infinity, a normal of \
-             length zero, or an unknown material: {}",
+             length zero, or an unknown shape: {}",
             stats.invalid_paths
         );
     }

@@ -55,8 +55,8 @@ fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace
         return text + "  nothing is hit, so the environment is visible\n";
     };
     let rows = [
-        ("shape", shape_name(scene, hit.material)),
-        ("material", material_name(scene, names, hit.material)),
+        ("shape", shape_name(scene, hit.shape)),
+        ("material", material_name(scene, names, hit.shape)),
         ("distance", hit.distance.to_string()),
         ("position", hit.position.to_string()),
         (
@@ -74,7 +74,7 @@ fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace
 
 fn shape_name(scene: &Scene, number: u32) -> String {
     let Some(shape) = scene.shapes.get(number as usize) else {
-        return "unknown, because the hit's material is not that of a shape".to_owned();
+        return "unknown, because the hit's number is not that of a shape".to_owned();
     };
     let triangle = |[a, b, c]: [Vec3; 3]| format!("a triangle with corners {a}, {b} and {c}");
     let name = match *shape {

@@ -35,7 +35,7 @@ pub struct RenderStats {
     /// The number of rays traced by the submission, including shadow rays.
     pub rays: u64,
     /// The number of paths that were discarded and count as black, because a hit contained NaN,
-    /// infinity, a normal of length zero or an unknown material.
+    /// infinity, a normal of length zero or an unknown shape.
     pub invalid_paths: u64,
 }
 

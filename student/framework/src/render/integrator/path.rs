@@ -135,9 +135,9 @@ impl Integrator<'_> {
         let Some(trace) = self.world.hit(ray) else {
             return Ok(None);
         };
-        // The material of a scene's shape is the index of the shape.
-        let shape = self.scene.shapes.get(trace.material as usize);
-        let material = self.scene.material_of(trace.material);
+        // The number of a scene's shape is its index.
+        let shape = self.scene.shapes.get(trace.shape as usize);
+        let material = self.scene.material_of(trace.shape);
         let normal = trace.normal.try_normalize();
         let (Some(shape), Some(&material), Some(normal)) = (shape, material, normal) else {
             return Err(InvalidSample);

@@ -193,7 +193,7 @@ fn counts_and_discards_paths_with_an_invalid_answer() {
         |trace| trace.position = Vec3::NAN,
         |trace| trace.normal = Vec3::ZERO,
         |trace| trace.uv = vec2(f32::INFINITY, 0.0),
-        |trace| trace.material = 77,
+        |trace| trace.shape = 77,
     ];
     for alter in alterations {
         let world = World::new(&SphereSubmission { alter, ..CORRECT }, &scene);

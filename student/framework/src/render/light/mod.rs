@@ -44,7 +44,7 @@ impl Lights {
     /// Collects the lights among the scene's shapes.
     pub fn of(scene: &Scene) -> Self {
         let light = |shape: &Shape| {
-            let index = shape.material();
+            let index = shape.number();
             let radiance = scene.material_of(index)?.emitted()?;
             let shape = LightShape::of(shape);
             // A light without power must not be picked. If all lights had no power, their

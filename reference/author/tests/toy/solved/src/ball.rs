@@ -29,7 +29,7 @@ impl Ball {
                 normal: (position - self.center) / self.radius,
                 uv: Vec2::ZERO,
                 origin: ray.origin,
-                material: 0,
+                shape: 0,
             }
         })
         // end solution

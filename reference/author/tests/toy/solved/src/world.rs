@@ -71,7 +71,7 @@ impl Hierarchy for All {
         self.0.len()
     }
 
-    fn material(&self, _: usize) -> u32 {
+    fn shape(&self, _: usize) -> u32 {
         0
     }
 }

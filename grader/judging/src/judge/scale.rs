@@ -54,7 +54,7 @@ fn largest_coordinate(record: &dyn Record) -> Option<f32> {
 #[cfg(test)]
 mod tests {
     use glam::{Vec3, vec3};
-    use protocol::{Corners, Geometry, Interval, Query, Ray, Shape, Table, Trace};
+    use protocol::{Corners, Geometry, Interval, Query, Ray, Table, Trace};
 
     use super::*;
 

@@ -233,3 +233,101 @@ impl ExpectedTable {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{UVec2, Vec3};
+    use protocol::{Corners, Geometry, Interval, PinholeCamera, Query, Question, Ray, Rows, Table};
+
+    use super::*;
+    use crate::judge::{judge, mismatches};
+    use crate::tests::{HIT, sphere};
+    use crate::types::{direction, length};
+
+    #[test]
+    fn an_error_is_judged_by_the_scale_of_its_ray() {
+        for from in [8.0, 800.0] {
+            // The ray is as short in both, but the coordinates are not as large.
+            let ray = Ray::new(Vec3::X * from, -Vec3::X);
+            let shapes = vec![sphere(Vec3::X * (from - 2.0), 1.0)];
+            let hits = ExpectedRows::Hits(vec![Some(HIT)]);
+            let question = ExamQuestion::new(
+                Question::hits(Geometry::List { shapes }, vec![ray]),
+                Key::table(&["distance"], hits),
+            );
+            let is_right = |tolerances: f32| {
+                let mut hit = HIT;
+                hit.distance += tolerances * length::TOLERANCE * from;
+                let answer = Answer::Hits(vec![ElementOutcome::Value(Some(hit))]);
+                judge(&question, &answer).failure.is_none()
+            };
+            assert!(is_right(0.5), "from {from}");
+            assert!(!is_right(1.5), "from {from}");
+        }
+    }
+
+    /// Returns a picture of one pixel, whose rays all lead down −z.
+    fn pixel() -> ExamQuestion {
+        let film = UVec2::ONE;
+        let camera = PinholeCamera {
+            vertical_fov: 90.0,
+            aspect_ratio: 1.0,
+            film,
+        };
+        let question = Question::SampleRay(Table {
+            subject: camera,
+            rows: Rows::Picture(film),
+        });
+        let directions = ExpectedRows::Rays(vec![Vec3::NEG_Z; question.count()]);
+        let judged = ["origin", "direction", "range"];
+        ExamQuestion::new(question, Key::table(&judged, directions))
+    }
+
+    /// Returns the answer in which all rays have an error in their origin, their direction and their
+    /// range, of these multiples of their tolerances.
+    fn rays(origin: f32, direction: f32, range: f32) -> Answer {
+        let ray = Ray {
+            origin: Vec3::X * (origin * length::TOLERANCE),
+            dir: Vec3::NEG_Z + Vec3::X * (direction * direction::TOLERANCE),
+            range: Interval::new(range * length::TOLERANCE, f32::INFINITY),
+        };
+        Answer::Rays(vec![ElementOutcome::Value(ray); pixel().question.count()])
+    }
+
+    #[test]
+    fn the_first_quantity_that_is_wrong_is_named() {
+        let what = |answer| match judge(&pixel().single(0), &answer).failure?.kind {
+            FailureKind::Wrong { what, .. } => Some(what),
+            other @ (FailureKind::Panicked(_) | FailureKind::Protocol(_)) => panic!("{other:?}"),
+        };
+        let what = |origin, direction, range| what(rays(origin, direction, range).single(0)?);
+        assert_eq!(what(2.0, 9.0, 9.0).as_deref(), Some("origin"));
+        assert_eq!(what(0.5, 2.0, 9.0).as_deref(), Some("direction"));
+        assert_eq!(what(0.5, 0.5, 2.0).as_deref(), Some("range"));
+        assert_eq!(what(0.5, 0.5, 0.5), None);
+    }
+
+    #[test]
+    fn the_largest_error_of_a_pixel_counts() {
+        for (origin, direction, range) in [(3.0, 7.0, 2.0), (7.0, 3.0, 2.0), (2.0, 3.0, 7.0)] {
+            let mask = mismatches(&pixel(), &rays(origin, direction, range)).unwrap();
+            let deviation = mask[0].unwrap().deviation;
+            assert!((deviation - 7.0).abs() < 0.01, "{deviation}");
+        }
+    }
+
+    #[test]
+    fn an_answer_of_another_function_is_wrong_even_where_nothing_is_hit() {
+        let query = Query {
+            ray: Ray::new(Vec3::ZERO, Vec3::X),
+            times: Interval::AHEAD,
+        };
+        let (min, max) = (Vec3::ONE, 2.0 * Vec3::ONE);
+        let question = Question::boxes(Corners { min, max }, vec![query]);
+        let question = ExamQuestion::new(question, Key::spans(vec![None]));
+        let spans = Answer::Spans(vec![ElementOutcome::Value(None)]);
+        assert_eq!(judge(&question, &spans).credit, Credit::FULL);
+        let hits = Answer::Hits(vec![ElementOutcome::Value(None)]);
+        assert_eq!(judge(&question, &hits).credit, Credit::NONE);
+    }
+}

@@ -53,7 +53,7 @@ pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace
     record(
         |counts| &mut counts.primitives,
         || Test::Primitive {
-            shape: shape,
+            shape,
             range: ray.range,
             distance: hit.map(|trace| trace.distance),
         },

@@ -49,89 +49,79 @@ pub struct Drawing {
 /// question, if there is one. Returns `None` if there is nothing to draw, or if a drawing would add
 /// nothing to the text.
 pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
-    match &question.question {
-        Question::SampleRay(table) => {
-            let Key::Table {
-                rows: ExpectedRows::Rays(directions),
-                ..
-            } = &question.key
-            else {
-                return None;
-            };
-            let query = CameraQuery {
-                camera: table.subject,
-                sample: table.rows.get(element)?,
-                wanted: directions.get(element)?.as_dvec3(),
-            };
-            camera::draw(&query, element, answer)
-        }
-        Question::Hit(table) => {
-            let comparison = HitComparison::new(question, element, answer)?;
-            match &table.subject {
-                Geometry::List { shapes } => shapes::draw(&comparison, shapes),
-                Geometry::Tree {
+    let (asked, key) = (&question.question, &question.key);
+    if let (Question::SampleRay(table), Key::Table { rows, .. }) = (asked, key)
+        && let ExpectedRows::Rays(directions) = rows
+    {
+        let query = CameraQuery {
+            camera: table.subject,
+            sample: table.rows.get(element)?,
+            wanted: directions.get(element)?.as_dvec3(),
+        };
+        return camera::draw(&query, element, answer);
+    }
+    if let Question::Hit(table) = asked {
+        let comparison = HitComparison::new(question, element, answer)?;
+        return match &table.subject {
+            Geometry::List { shapes } => shapes::draw(&comparison, shapes),
+            Geometry::Tree {
+                shapes,
+                nodes,
+                root,
+            } => {
+                let steps = match &question.drawing_data {
+                    DrawingData::Traversals(traversals) => traversals.get(element),
+                    DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => None,
+                };
+                let recorded = RecordedTraversal {
                     shapes,
                     nodes,
-                    root,
-                } => {
-                    let steps = match &question.drawing_data {
-                        DrawingData::Traversals(traversals) => traversals.get(element),
-                        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => None,
-                    };
-                    let recorded = RecordedTraversal {
-                        shapes,
-                        nodes,
-                        root: *root,
-                        steps: steps.map(Vec::as_slice).unwrap_or_default(),
-                    };
-                    let drawing = traversal::draw(&comparison, &recorded);
-                    Some(drawing.unwrap_or_else(|| along_ray::draw(&comparison)))
-                }
-                Geometry::BuiltTree { .. } => Some(along_ray::draw(&comparison)),
+                    root: *root,
+                    steps: steps.map(Vec::as_slice).unwrap_or_default(),
+                };
+                let drawing = traversal::draw(&comparison, &recorded);
+                Some(drawing.unwrap_or_else(|| along_ray::draw(&comparison)))
             }
-        }
-        Question::BBoxHit(table) => {
-            let Key::Table {
-                rows: ExpectedRows::Spans(spans),
-                ..
-            } = &question.key
-            else {
-                return None;
-            };
-            let Corners { min, max } = table.subject;
-            let Query { ray, times } = table.rows.get(element)?;
-            let query = BoxQuery {
-                corners: [min, max],
-                ray,
-                times,
-                wanted: *spans.get(element)?,
-                slabs: match &question.drawing_data {
-                    DrawingData::Slabs(slabs) => slabs.get(element).copied(),
-                    DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
-                },
-            };
-            bbox::draw(&query, element, answer)
-        }
+            Geometry::BuiltTree { .. } => Some(along_ray::draw(&comparison)),
+        };
+    }
+    if let (Question::BBoxHit(table), Key::Table { rows, .. }) = (asked, key)
+        && let ExpectedRows::Spans(spans) = rows
+    {
+        let Corners { min, max } = table.subject;
+        let Query { ray, times } = table.rows.get(element)?;
+        let query = BoxQuery {
+            corners: [min, max],
+            ray,
+            times,
+            wanted: *spans.get(element)?,
+            slabs: match &question.drawing_data {
+                DrawingData::Slabs(slabs) => slabs.get(element).copied(),
+                DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
+            },
+        };
+        return bbox::draw(&query, element, answer);
+    }
+    if let (
         Question::Build {
             shapes,
             max_leaf_size,
-        } => {
-            let Key::Tree { checks, sweep_cost } = &question.key else {
-                return None;
-            };
-            let case = build::BuildCase {
-                criteria: TreeCriteria {
-                    checks,
-                    sweep_cost: *sweep_cost,
-                    shapes,
-                    max_leaf_size: *max_leaf_size,
-                },
-                drawing_data: &question.drawing_data,
-            };
-            build::draw(&case, answer)
-        }
-        Question::Radiance { .. } => None,
+        },
+        Key::Tree { checks, sweep_cost },
+    ) = (asked, key)
+    {
+        let case = build::BuildCase {
+            criteria: TreeCriteria {
+                checks,
+                sweep_cost: *sweep_cost,
+                shapes,
+                max_leaf_size: *max_leaf_size,
+            },
+            drawing_data: &question.drawing_data,
+        };
+        return build::draw(&case, answer);
     }
+    None
 }
 
 /// Returns the value of an element, or `None` if there is none, because the code panicked.

@@ -62,6 +62,43 @@ pub fn subject_of_question(
     )
 }
 
+/// Returns the shapes of a question, the tree over them, and the maximum number in a leaf. Returns `None`
+/// for a function that is not about things in space.
+fn shapes_of(question: &Question) -> Option<(&[Shape], TreeSource, u32)> {
+    if let Question::Build {
+        shapes,
+        max_leaf_size,
+    } = question
+    {
+        return Some((shapes, TreeSource::Build, *max_leaf_size));
+    }
+    if let Question::BBoxHit(_) = question {
+        return Some((&[], TreeSource::List, 1));
+    }
+    let Question::Hit(table) = question else {
+        return None;
+    };
+    Some(match &table.subject {
+        Geometry::List { shapes } => (shapes, TreeSource::List, 1),
+        Geometry::Tree {
+            shapes,
+            nodes,
+            root,
+        } => {
+            let tree = Tree {
+                nodes: nodes.clone(),
+                root: *root,
+                order: Vec::new(),
+            };
+            (shapes, TreeSource::Prebuilt(tree), 1)
+        }
+        Geometry::BuiltTree {
+            shapes,
+            max_leaf_size,
+        } => (shapes, TreeSource::Build, *max_leaf_size),
+    })
+}
+
 fn subject(
     name: &str,
     title: &str,
@@ -69,52 +106,26 @@ fn subject(
     element: usize,
     settings: PathSettings,
 ) -> Result<Subject, ViewError> {
-    let (shapes, tree, leaf) = match &question.question {
-        Question::Hit(table) => match &table.subject {
-            Geometry::List { shapes } => (shapes.as_slice(), TreeSource::List, 1),
-            Geometry::Tree {
-                shapes,
-                nodes,
-                root,
-            } => {
-                let tree = Tree {
-                    nodes: nodes.clone(),
-                    root: *root,
-                    order: Vec::new(),
-                };
-                (shapes.as_slice(), TreeSource::Prebuilt(tree), 1)
-            }
-            Geometry::BuiltTree {
-                shapes,
-                max_leaf_size,
-            } => (shapes.as_slice(), TreeSource::Build, *max_leaf_size),
-        },
-        Question::Build {
-            shapes,
-            max_leaf_size,
-        } => (shapes.as_slice(), TreeSource::Build, *max_leaf_size),
-        Question::BBoxHit(_) => (&[][..], TreeSource::List, 1),
-        Question::Radiance { scene, .. } => {
-            let scene = Scene::from_text(scene).map_err(ViewError::usage)?;
-            return Ok(Subject::of_scene(name, &scene, settings));
-        }
-        Question::SampleRay(_) => {
-            return Err(ViewError::Usage(format!(
-                "{name} is about the camera alone, so there is no scene to show: \
-                 run `cargo grade --replay {name}`"
-            )));
-        }
+    if let Question::Radiance { scene, .. } = &question.question {
+        let scene = Scene::from_text(scene).map_err(ViewError::usage)?;
+        return Ok(Subject::of_scene(name, &scene, settings));
+    }
+    let Some((shapes, tree, leaf)) = shapes_of(&question.question) else {
+        return Err(ViewError::Usage(format!(
+            "{name} is about the camera alone, so there is no scene to show: \
+             run `cargo grade --replay {name}`"
+        )));
     };
     let mut boxes = Vec::new();
-    let ray = match &question.question {
-        Question::BBoxHit(table) => {
-            let Corners { min, max } = table.subject;
-            boxes.push([min, max]);
-            let query = table.rows.get(element);
-            query.map(|Query { ray, times }| ray.within(times.min, times.max))
-        }
-        Question::Hit(table) => table.rows.get(element),
-        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => None,
+    let ray = if let Question::BBoxHit(table) = &question.question {
+        let Corners { min, max } = table.subject;
+        boxes.push([min, max]);
+        let query = table.rows.get(element);
+        query.map(|Query { ray, times }| ray.within(times.min, times.max))
+    } else if let Question::Hit(table) = &question.question {
+        table.rows.get(element)
+    } else {
+        None
     };
     // The ray is left out, since it may begin far away.
     let boxes_seen = boxes.iter().map(|[min, max]| Bounds {

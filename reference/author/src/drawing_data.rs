@@ -31,28 +31,27 @@ fn drawing_data(question: &Question) -> DrawingData {
         let steps = rays.iter().map(|ray| traversal_steps(&tree, ray));
         return DrawingData::Traversals(steps.collect());
     }
-    match question {
-        Question::BBoxHit(table) => {
-            let bounds = Bounds::new(table.subject.min, table.subject.max);
-            let queries = table.rows.to_vec();
-            DrawingData::Slabs(
-                queries
-                    .iter()
-                    .map(|query| slabs(&bounds, &query.ray))
-                    .collect(),
-            )
-        }
-        // An empty tree has no root area to divide costs by.
-        Question::Build { shapes, .. } if shapes.is_empty() => DrawingData::None,
-        Question::Build {
-            shapes,
-            max_leaf_size,
-        } => {
-            let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
-            DrawingData::Sweep(sweep::upper_levels(&boxes, *max_leaf_size as usize))
-        }
-        Question::SampleRay(_) | Question::Hit(_) | Question::Radiance { .. } => DrawingData::None,
+    if let Question::BBoxHit(table) = question {
+        let bounds = Bounds::new(table.subject.min, table.subject.max);
+        let queries = table.rows.to_vec();
+        return DrawingData::Slabs(
+            queries
+                .iter()
+                .map(|query| slabs(&bounds, &query.ray))
+                .collect(),
+        );
     }
+    // An empty tree has no root area to divide costs by.
+    if let Question::Build {
+        shapes,
+        max_leaf_size,
+    } = question
+        && !shapes.is_empty()
+    {
+        let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
+        return DrawingData::Sweep(sweep::upper_levels(&boxes, *max_leaf_size as usize));
+    }
+    DrawingData::None
 }
 
 /// Returns, for each axis, the interval in which the ray's line is between the box's two planes.

@@ -10,26 +10,23 @@ pub use types::{interval, number, one_or_count, point, shapes as each_shape, spa
 
 /// Describes one element of a question: the row of a table with the subject, the tree, or the picture.
 pub fn element(question: &Question, element: usize) -> String {
-    match question {
-        Question::SampleRay(_) | Question::Hit(_) | Question::BBoxHit(_) => {
-            let table = question.table();
-            table.map_or_else(String::new, |table| row(table, element))
-        }
-        Question::Build {
-            shapes,
-            max_leaf_size,
-        } => format!(
-            "build a tree over {}, with at most {max_leaf_size} in each leaf",
-            one_or_count(shapes)
-        ),
-        Question::Radiance { film, samples, .. } => {
-            let (x, y) = (element as u32 % film.x, element as u32 / film.x);
-            format!(
-                "a path-traced picture of {}×{} pixels, {samples} samples; pixel ({x}, {y})",
-                film.x, film.y
-            )
-        }
+    if let Question::Build {
+        shapes,
+        max_leaf_size,
+    } = question
+    {
+        let shapes = one_or_count(shapes);
+        return format!("build a tree over {shapes}, with at most {max_leaf_size} in each leaf");
     }
+    if let Question::Radiance { film, samples, .. } = question {
+        let (x, y) = (element as u32 % film.x, element as u32 / film.x);
+        return format!(
+            "a path-traced picture of {}×{} pixels, {samples} samples; pixel ({x}, {y})",
+            film.x, film.y
+        );
+    }
+    let table = question.table();
+    table.map_or_else(String::new, |table| row(table, element))
 }
 
 fn row(table: &dyn AnyTable, row: usize) -> String {

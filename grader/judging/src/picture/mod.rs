@@ -108,13 +108,8 @@ fn mask_pixel(all_mismatches: &[Option<Mismatch>], surfaces: &[bool]) -> MaskPix
 
 /// Returns the film, and the number of positions per pixel.
 fn grid(question: &Question) -> Option<(UVec2, usize)> {
-    let per_pixel = match question {
-        Question::Radiance { .. } => 1,
-        Question::SampleRay(_)
-        | Question::Hit(_)
-        | Question::BBoxHit(_)
-        | Question::Build { .. } => PIXEL_OFFSETS.len(),
-    };
+    let is_radiance = matches!(question, Question::Radiance { .. });
+    let per_pixel = if is_radiance { 1 } else { PIXEL_OFFSETS.len() };
     Some((question.film()?, per_pixel))
 }
 

@@ -193,18 +193,15 @@ pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
 /// the Cornell box, whatever their size was. Returns `None` if it is not about a list of rays, or
 /// about nothing.
 pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuestion> {
-    let bounds = match &asked.question {
-        Question::Hit(table) => match &table.subject {
-            Geometry::List { shapes } | Geometry::Tree { shapes, .. } => shapes
-                .iter()
-                .map(scan::bounds)
-                .reduce(|all, next| all.union(&next))?,
-            Geometry::BuiltTree { .. } => return None,
-        },
-        Question::BBoxHit(table) => Bounds::new(table.subject.min, table.subject.max),
-        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => {
-            return None;
-        }
+    let bounds = if let Question::BBoxHit(table) = &asked.question {
+        Bounds::new(table.subject.min, table.subject.max)
+    } else if let Question::Hit(table) = &asked.question
+        && !matches!(table.subject, Geometry::BuiltTree { .. })
+    {
+        let boxes = table.subject.shapes().iter().map(scan::bounds);
+        boxes.reduce(|all, next| all.union(&next))?
+    } else {
+        return None;
     };
     if bounds.diagonal() <= 0.0 {
         return None;

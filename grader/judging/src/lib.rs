@@ -9,10 +9,10 @@
 //! | layer | modules |
 //! |---|---|
 //! | analysis of answers | [`picture`], [`recognise`], [`observe`] |
+//! | exam files | [`exam_file`] |
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
-//! | types of fields | [`types`] |
-//! | exam files | [`exam_file`] |
+//! | types of fields | `types` |
 //! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`section`]; [`content_hash`], [`sanitize`] |
 
 pub mod assignment;

@@ -9,7 +9,7 @@ use crate::harness::{Submission, assert_fails, grader};
 
 /// A valid exam with one item.
 const VALID_EXAM: &str = r#"{
-  "schema": 1,
+  "schema": 2,
   "id": "small",
   "items": [
     {
@@ -20,11 +20,17 @@ const VALID_EXAM: &str = r#"{
       "look": "Inside all three slabs at once.",
       "questions": [
         {
-          "question": { "bbox": { "min": [-1, -1, -1], "max": [1, 1, 1], "queries": [
-            [{ "origin": [-3, 0, 0], "dir": [1, 0, 0], "range": [0, null] }, [0, null]],
-            [{ "origin": [-3, 0, 0], "dir": [-1, 0, 0], "range": [0, null] }, [0, null]]
-          ] } },
-          "key": { "spans": { "spans": [[2, 4], null] } }
+          "question": { "bbox_hit": {
+            "subject": { "min": [-1, -1, -1], "max": [1, 1, 1] },
+            "rows": { "list": [
+              { "ray": { "origin": [-3, 0, 0], "dir": [1, 0, 0], "range": [0, null] }, "times": [0, null] },
+              { "ray": { "origin": [-3, 0, 0], "dir": [-1, 0, 0], "range": [0, null] }, "times": [0, null] }
+            ] }
+          } },
+          "key": { "table": {
+            "judged": ["interval inside the box"],
+            "rows": { "spans": [[2, 4], null] }
+          } }
         }
       ]
     }
@@ -75,9 +81,9 @@ fn reads_an_exam_from_standard_input() {
 #[test]
 fn rejects_invalid_exams_with_position_and_remedy() {
     let with = |from: &str, to: &str| VALID_EXAM.replace(from, to);
-    let none = r#"{"schema": 1, "id": "none", "items": []}"#;
+    let none = r#"{"schema": 2, "id": "none", "items": []}"#;
     let signatures = r#""signatures": {"elements": [9], "mistake_answers": []}, "look""#;
-    let spans = r#""spans": { "spans": [[2, 4], null] }"#;
+    let spans = r#""rows": { "spans": [[2, 4], null] }"#;
     let slabs = r#""drawing_data": { "slabs": "AA" }, "key":"#;
     let needs = r#""needs": ["bbox.other"], "points""#;
     let cases = [
@@ -92,16 +98,20 @@ fn rejects_invalid_exams_with_position_and_remedy() {
             "unknown task",
             with(r#""task": "bbox""#, r#""task": "box""#),
         ),
-        ("other version", with(r#""schema": 1"#, r#""schema": 2"#)),
+        ("other version", with(r#""schema": 2"#, r#""schema": 3"#)),
         ("no items", none.to_owned()),
         ("negative points", with(r#""points": 5"#, r#""points": -5"#)),
         ("id of another task", with("bbox.through", "sphere.through")),
         (
             "key of another kind",
-            with(spans, r#""tree": { "checks": [] }"#),
+            with(spans, r#""rows": { "rays": [[1, 0, 0], [0, 1, 0]] }"#),
         ),
         ("too little drawing data", with(r#""key":"#, slabs)),
         ("key too short", with("[[2, 4], null]", "[[2, 4]]")),
+        (
+            "unknown quantity",
+            with("interval inside the box", "distance"),
+        ),
         ("needs an unknown item", with("\"points\"", needs)),
     ];
     let rejections = cases.map(|(name, exam)| format!("{name}:\n  {}", rejection(exam)));

@@ -269,11 +269,11 @@ mod tests {
         let problems = margins(&right, &wrong).problems();
         let expected = [
             "`sphere.some` in `sphere.uv`, seed 7 is correct but reaches 0.75 of the threshold for \
-             uv of a hit (2e-3); at most 0.67 is allowed: ask a question with a more precise \
-             answer, or tolerate more in measure.rs: UV",
+             uv in a picture (2e-3); at most 0.67 is allowed: ask a question with a more precise \
+             answer, or tolerate more in types/uv.rs: TOLERANCE",
             "`sphere.some` in `sphere.uv`, seed 8 is correct but fails: run `cargo author prove`",
             "`sphere.some` in `sphere.uv`, seed 9 is barely caught: it reaches 1.25 of the \
-             threshold for uv of a hit, and at least 1.50 is required: ask a question that the \
+             threshold for uv in a picture, and at least 1.50 is required: ask a question that the \
              mistake gets more wrong",
             "`sphere.some` in `sphere.uv_radius`, seed 10 is not caught: it reaches 0.00 of any \
              threshold, and at least 1.50 is required: ask a question that the mistake gets more \

@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_row_shows_both_margins_and_their_solutions() {
         let table = generated_file(&calibration()).contents;
-        let row = "| uv of a hit | 2e-3 | `measure.rs: UV` \
+        let row = "| uv in a picture | 2e-3 | `types/uv.rs: TOLERANCE` \
                    | 0.25: `sphere.geometric` in `sphere.uv`, seed 17 | 4.00 \
                    | 12: `sphere.u_shifted` in `sphere.uv`, seed 17 | 12 |\n";
         assert!(table.contains(row), "{table}");
@@ -168,8 +168,8 @@ mod tests {
     fn a_changed_threshold_makes_a_table_outdated() {
         let table = generated_file(&calibration()).contents;
         assert_eq!(outdated_thresholds(&table), [""; 0]);
-        let older = table.replace("| uv of a hit | 2e-3 |", "| uv of a hit | 1e-3 |");
-        assert_eq!(outdated_thresholds(&older), ["uv of a hit"]);
+        let older = table.replace("| uv in a picture | 2e-3 |", "| uv in a picture | 1e-3 |");
+        assert_eq!(outdated_thresholds(&older), ["uv in a picture"]);
     }
 
     #[test]

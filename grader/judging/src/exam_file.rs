@@ -228,7 +228,7 @@ fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
 /// Returns whether the key fits the question, and the number of elements in the key.
 fn match_key(question: &Question, key: &Key) -> (bool, usize) {
     match (key, question) {
-        (Key::Table { judged, rows }, question) => {
+        (Key::Table { judged, rows, .. }, question) => {
             let fits = question
                 .table()
                 .is_some_and(|table| judged_quantities(table, judged, rows).is_some());

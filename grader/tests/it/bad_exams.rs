@@ -9,7 +9,7 @@ use crate::harness::{Submission, assert_fails, grader};
 
 /// A valid exam with one item.
 const VALID_EXAM: &str = r#"{
-  "schema": 2,
+  "schema": 2, "assignment": "rays",
   "id": "small",
   "items": [
     {
@@ -81,7 +81,7 @@ fn reads_an_exam_from_standard_input() {
 #[test]
 fn rejects_invalid_exams_with_position_and_remedy() {
     let with = |from: &str, to: &str| VALID_EXAM.replace(from, to);
-    let none = r#"{"schema": 2, "id": "none", "items": []}"#;
+    let none = r#"{"schema": 2, "assignment": "rays", "id": "none", "items": []}"#;
     let signatures = r#""signatures": {"elements": [9], "mistake_answers": []}, "look""#;
     let spans = r#""rows": { "spans": [[2, 4], null] }"#;
     let slabs = r#""drawing_data": { "slabs": "AA" }, "key":"#;

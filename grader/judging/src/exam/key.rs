@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Key {
-    /// Key of a table. Every row must be right, or, in a picture, most of them.
+    /// Key of a table.
     Table {
         /// The names of the quantities that are compared, in addition to whether the function
         /// returns anything: fields of what it returns, or `unit_` and the name of a direction, for
@@ -18,6 +18,9 @@ pub enum Key {
         judged: Vec<String>,
         /// The expected row of each call.
         rows: ExpectedRows,
+        /// How the rows together earn credit.
+        #[serde(default, skip_serializing_if = "Aggregate::is_default")]
+        aggregate: Aggregate,
     },
     /// Key of a `Build` question: properties of the tree, and optionally its cost.
     Tree {
@@ -50,17 +53,44 @@ pub enum Key {
 }
 
 impl Key {
-    /// Returns the key of a table in which these quantities are judged.
+    /// Returns the key of a table in which these quantities are judged, and every row must be right.
     pub fn table(judged: &[&str], rows: ExpectedRows) -> Key {
         Key::Table {
             judged: judged.iter().map(|name| (*name).to_owned()).collect(),
             rows,
+            aggregate: Aggregate::EveryRow,
         }
+    }
+
+    /// Returns the key of a table in which the share of right rows decides on the credit.
+    pub fn share_of_rows(judged: &[&str], rows: ExpectedRows) -> Key {
+        let mut key = Key::table(judged, rows);
+        if let Key::Table { aggregate, .. } = &mut key {
+            *aggregate = Aggregate::ShareOfRows;
+        }
+        key
     }
 
     /// Returns the key of intervals in which rays are inside a box.
     pub fn spans(spans: Vec<Option<Interval>>) -> Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
+    }
+}
+
+/// How the rows of a table together earn credit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Aggregate {
+    /// Full credit if every row is right, and none otherwise.
+    #[default]
+    EveryRow,
+    /// The fewer rows are wrong, the more credit. A few wrong rows cost nothing.
+    ShareOfRows,
+}
+
+impl Aggregate {
+    fn is_default(&self) -> bool {
+        *self == Aggregate::default()
     }
 }
 

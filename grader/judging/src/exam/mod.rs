@@ -9,12 +9,12 @@ mod subset;
 use protocol::Question;
 use serde::{Deserialize, Serialize};
 
-use crate::assignment::{RAYS, Task};
+use crate::assignment::Task;
 use crate::drawing_data::DrawingData;
 use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
 
-pub use key::{ExpectedRows, Key, Surface, TreeCheck};
+pub use key::{Aggregate, ExpectedRows, Key, Surface, TreeCheck};
 pub use subset::question_subset;
 
 /// An exam, worth 100 points in total.
@@ -23,8 +23,7 @@ pub use subset::question_subset;
 pub struct Exam {
     /// Version of the file format.
     pub schema: u32,
-    /// Id of the assignment. Files that do not name one are for `rays`.
-    #[serde(default = "rays", skip_serializing_if = "is_rays")]
+    /// Id of the assignment.
     pub assignment: String,
     /// Name of the exam, such as `practice`.
     pub id: String,
@@ -33,14 +32,6 @@ pub struct Exam {
     pub mistakes: Vec<KnownMistake>,
     /// The items in the order in which they are graded. An item comes after those that it needs.
     pub items: Vec<Item>,
-}
-
-fn rays() -> String {
-    RAYS.id.to_owned()
-}
-
-fn is_rays(id: &str) -> bool {
-    id == RAYS.id
 }
 
 impl Exam {

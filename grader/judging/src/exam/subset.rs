@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use protocol::Question;
 
-use super::Key;
+use super::{Aggregate, Key};
 
 /// Returns a question with only these elements. A question with a single element, such as a tree or
 /// a path-traced picture, is returned unchanged.
@@ -17,9 +17,10 @@ pub fn question_subset(question: &Question, elements: Range<usize>) -> Question 
 /// Returns the key of one element. A key with a single element is returned unchanged.
 pub(super) fn single_key(key: &Key, element: usize) -> Key {
     match key {
-        Key::Table { judged, rows } => Key::Table {
+        Key::Table { judged, rows, .. } => Key::Table {
             judged: judged.clone(),
             rows: rows.single(element),
+            aggregate: Aggregate::EveryRow,
         },
         Key::FirstHits { hits, alternatives } => Key::FirstHits {
             hits: vec![hits[element]],

@@ -10,7 +10,7 @@ use super::{
     Threshold,
 };
 use crate::describe;
-use crate::exam::{ExamQuestion, ExpectedRows, Key};
+use crate::exam::{Aggregate, ExamQuestion, ExpectedRows, Key};
 
 /// The rows of an answer and their key. Every row must be right. In a picture, some may be wrong.
 pub(crate) struct TableAnswer<'a> {
@@ -18,6 +18,7 @@ pub(crate) struct TableAnswer<'a> {
     scales: Scales<'a>,
     judged: Vec<Quantity>,
     expected: &'a ExpectedRows,
+    aggregate: Aggregate,
     rows: Vec<Returned<'a>>,
 }
 
@@ -48,7 +49,12 @@ impl<'a> TableAnswer<'a> {
     /// Returns an answer and its key, or `None` if one of them is not for this question, or if the
     /// question is not a table.
     pub(crate) fn new(question: &'a ExamQuestion, answer: &'a Answer) -> Option<Self> {
-        let (Some(table), Key::Table { judged, rows }) = (question.question.table(), &question.key)
+        let table = question.question.table()?;
+        let Key::Table {
+            judged,
+            rows,
+            aggregate,
+        } = &question.key
         else {
             return None;
         };
@@ -60,6 +66,7 @@ impl<'a> TableAnswer<'a> {
             scales: Scales::new(table),
             judged: judged_quantities(table, judged, rows)?,
             expected: rows,
+            aggregate: *aggregate,
             rows: answer.rows()?,
         })
     }
@@ -158,10 +165,9 @@ impl Comparison for TableAnswer<'_> {
             return Judgement::RIGHT;
         };
         let (wrong, all) = (1 + failures.count(), self.rows.len());
-        let credit = if self.is_picture() {
-            Credit::by_count(wrong, all)
-        } else {
-            Credit::NONE
+        let credit = match self.aggregate {
+            Aggregate::EveryRow => Credit::NONE,
+            Aggregate::ShareOfRows => Credit::by_count(wrong, all),
         };
         if credit == Credit::FULL {
             return Judgement::RIGHT;
@@ -180,7 +186,7 @@ impl Comparison for TableAnswer<'_> {
         if !self.is_whole() {
             return worst_by_threshold([Deviation::WRONG]);
         }
-        if self.is_picture() {
+        if self.aggregate == Aggregate::ShareOfRows {
             let allowed = Credit::tolerated(self.rows.len());
             let rows = self.worst_by_row().collect();
             return vec![Measurement::of_positions(
@@ -217,8 +223,8 @@ impl ExpectedTable {
     /// Returns the rows that are expected, or `None` if the question is not a table or its key is not
     /// for it.
     pub(crate) fn new(question: &ExamQuestion) -> Option<Self> {
-        let (Some(table), Key::Table { judged, rows }) = (question.question.table(), &question.key)
-        else {
+        let table = question.question.table()?;
+        let Key::Table { judged, rows, .. } = &question.key else {
             return None;
         };
         let scales = Scales::new(table);
@@ -280,7 +286,7 @@ mod tests {
         });
         let directions = ExpectedRows::Rays(vec![Vec3::NEG_Z; question.count()]);
         let judged = ["origin", "direction", "range"];
-        ExamQuestion::new(question, Key::table(&judged, directions))
+        ExamQuestion::new(question, Key::share_of_rows(&judged, directions))
     }
 
     /// Returns the answer in which all rays have an error in their origin, their direction and their

@@ -120,7 +120,7 @@ fn each_end_of_an_interval_and_each_component_of_a_direction_counts_alone() {
     let mut spoiled = [0; 5];
     for (question, own) in QUESTIONS.iter() {
         let checks_directions = match &question.key {
-            Key::Table { judged, rows } => match rows {
+            Key::Table { judged, rows, .. } => match rows {
                 ExpectedRows::Rays(_) => judged.iter().any(|name| name == "direction"),
                 ExpectedRows::Spans(_) => true,
                 ExpectedRows::Hits(_) => false,

@@ -86,6 +86,7 @@ impl HitComparison {
             Key::Table {
                 judged,
                 rows: ExpectedRows::Hits(hits),
+                ..
             } => {
                 let hit = hits.get(element)?.as_ref();
                 let judged = judged.iter().map(String::as_str);

@@ -238,9 +238,14 @@ fn moved(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
         (_, None) => return None,
     };
     let key = match &asked.key {
-        Key::Table { judged, rows } => Key::Table {
+        Key::Table {
+            judged,
+            rows,
+            aggregate,
+        } => Key::Table {
             judged: judged.clone(),
             rows: rows.changed(&change),
+            aggregate: *aggregate,
         },
         // A tree's cost is a ratio of areas.
         Key::Tree { .. } => asked.key.clone(),

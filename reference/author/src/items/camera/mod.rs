@@ -40,7 +40,11 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
 fn camera_question(judged: &[&str], camera: PinholeCamera, rows: Rows<Sample>) -> ExamQuestion {
     let direction = |sample: &Sample| oracle::camera::direction(&camera, *sample).as_vec3();
     let directions = rows.to_vec().iter().map(direction).collect();
-    let key = Key::table(judged, ExpectedRows::Rays(directions));
+    let directions = ExpectedRows::Rays(directions);
+    let key = match rows {
+        Rows::List(_) => Key::table(judged, directions),
+        Rows::Picture(_) => Key::share_of_rows(judged, directions),
+    };
     let table: Table<SampleRay> = Table {
         subject: camera,
         rows,

@@ -4,10 +4,10 @@
 //!   length: u32 LE | nonce: u64 LE | body: `length` bytes, postcard
 //! ```
 //!
-//! An answer repeats the nonce of its question. A frame without a body marks the end of the questions,
-//! and is sent back as it is: so answers that belong to no question are detected. The reader specifies the maximum length of a body.
-//! The length in the header is checked against this maximum *before* anything is allocated.
-//! Decoding fails if there are bytes after the value.
+//! An answer repeats the nonce of its question. A frame without a body marks the end of the
+//! questions. It is sent back unchanged, so that answers that belong to no question are detected. The
+//! reader specifies the maximum length of a body. The length in the header is checked against this
+//! maximum *before* anything is allocated. Decoding fails if there are bytes after the value.
 
 use std::io::{self, Read, Write};
 

@@ -38,18 +38,10 @@ impl NotCompiled {
 
     /// Returns whether compiling again would give the same result.
     pub fn is_reproducible(&self) -> bool {
-        match self {
-            NotCompiled::Unreadable(
-                TaskFileError::Missing(_)
-                | TaskFileError::NotRegular(_)
-                | TaskFileError::TooLong(_)
-                | TaskFileError::NotText { .. },
-            )
-            | NotCompiled::MissingDeclaration(_)
-            | NotCompiled::Error { .. } => true,
-            NotCompiled::Unreadable(TaskFileError::Unreadable { .. })
-            | NotCompiled::Compiler(_) => false,
-        }
+        !matches!(
+            self,
+            NotCompiled::Unreadable(TaskFileError::Unreadable(_)) | NotCompiled::Compiler(_)
+        )
     }
 }
 

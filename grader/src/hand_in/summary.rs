@@ -49,8 +49,8 @@ impl HandIn {
     fn state(&self, file: &TaskFile, text: &Result<String, TaskFileError>) -> String {
         let text = match text {
             Ok(text) => text,
-            Err(TaskFileError::Missing(_)) => return "missing".to_owned(),
-            Err(error) => return format!("not in the archive: {error}"),
+            Err(TaskFileError::Missing) => return "missing".to_owned(),
+            Err(error) => return format!("not in the archive: {}", error.message(file.name)),
         };
         let mut errors = self.build.not_compiled.iter();
         if let Some(error) = errors.find(|error| error.file == file.name) {

@@ -1,13 +1,11 @@
 //! The reasons why a submission, or one of its files, cannot be graded.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::archive::ArchiveError;
-use super::budget::Limit;
-use super::choice::AmbiguousSource;
 use super::display_name;
+use super::limit::Limit;
 use crate::error::Error;
-use crate::handed_out::HandedOut;
 use crate::machine::files::PathError;
 
 /// The maximum number of names in a message about a submission without task files.
@@ -15,33 +13,18 @@ const MAX_NAMES: usize = 10;
 
 /// Reasons why a task file cannot be graded. The tasks of such a file score nothing; the other
 /// files are graded.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TaskFileError {
     /// The file does not exist.
-    #[error("{0} is missing")]
-    Missing(&'static str),
+    Missing,
     /// The path is a folder, a link or a device.
-    #[error("{0} is not a regular file")]
-    NotRegular(&'static str),
+    NotRegular,
     /// The file is longer than any reasonable solution.
-    #[error("{0} is longer than 1 MiB")]
-    TooLong(&'static str),
-    /// The file is not valid UTF-8.
-    #[error("{name} is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8")]
-    NotText {
-        /// The name of the task file.
-        name: &'static str,
-        /// The line of the first invalid byte, counted from 1.
-        line: usize,
-    },
-    /// The system cannot read the file.
-    #[error("cannot read {name}: {why}")]
-    Unreadable {
-        /// The name of the task file.
-        name: &'static str,
-        /// The system's message.
-        why: String,
-    },
+    TooLong,
+    /// The file is not valid UTF-8. The number is the line of the first invalid byte, counted from 1.
+    NotText(usize),
+    /// The system cannot read the file, with this message.
+    Unreadable(String),
 }
 
 /// Reasons why a path has no submission to grade. These are usage errors.
@@ -118,14 +101,16 @@ pub enum SubmissionError {
 }
 
 impl TaskFileError {
-    /// Returns the same reason for another file: the one that a copy counts as.
-    pub(super) fn of(self, name: &'static str) -> Self {
+    /// Returns the message about the task file with this name.
+    pub fn message(&self, name: &str) -> String {
         match self {
-            TaskFileError::Missing(_) => TaskFileError::Missing(name),
-            TaskFileError::NotRegular(_) => TaskFileError::NotRegular(name),
-            TaskFileError::TooLong(_) => TaskFileError::TooLong(name),
-            TaskFileError::NotText { line, .. } => TaskFileError::NotText { name, line },
-            TaskFileError::Unreadable { why, .. } => TaskFileError::Unreadable { name, why },
+            TaskFileError::Missing => format!("{name} is missing"),
+            TaskFileError::NotRegular => format!("{name} is not a regular file"),
+            TaskFileError::TooLong => format!("{name} is longer than 1 MiB"),
+            TaskFileError::NotText(line) => format!(
+                "{name} is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8"
+            ),
+            TaskFileError::Unreadable(why) => format!("cannot read {name}: {why}"),
         }
     }
 }
@@ -133,18 +118,14 @@ impl TaskFileError {
 impl SubmissionError {
     /// Returns whether the machine is at fault, and not the submission.
     pub fn is_machine_fault(&self) -> bool {
-        match self {
-            SubmissionError::Machine(_) => true,
-            SubmissionError::Archive { why, .. } => matches!(why, ArchiveError::Machine(_)),
-            SubmissionError::NotFound(_)
-            | SubmissionError::NotFileOrFolder(_)
-            | SubmissionError::NoTaskFiles { .. }
-            | SubmissionError::Link { .. }
-            | SubmissionError::Unreadable(_)
-            | SubmissionError::Ambiguous { .. }
-            | SubmissionError::StarterBesideCopies { .. }
-            | SubmissionError::TooMany(..) => false,
-        }
+        matches!(
+            self,
+            SubmissionError::Machine(_)
+                | SubmissionError::Archive {
+                    why: ArchiveError::Machine(_),
+                    ..
+                }
+        )
     }
 }
 
@@ -158,19 +139,6 @@ impl From<SubmissionError> for Error {
     }
 }
 
-/// Returns the error for a folder or archive without task files, given the names in it.
-pub(super) fn no_task_files(
-    path: &Path,
-    names: &[String],
-    handed_out: &HandedOut,
-) -> SubmissionError {
-    SubmissionError::NoTaskFiles {
-        path: path.to_owned(),
-        files: handed_out.file_list(),
-        found: names.to_vec(),
-    }
-}
-
 /// Lists the first few of these names for a message.
 pub fn listed(names: &[String]) -> String {
     let some = names.iter().take(MAX_NAMES).map(|name| display_name(name));
@@ -179,25 +147,6 @@ pub fn listed(names: &[String]) -> String {
         0 => "no files".to_owned(),
         count if count > MAX_NAMES => format!("{some} and {} more", count - MAX_NAMES),
         _ => some,
-    }
-}
-
-/// Returns the error for files of which a person has to choose one.
-pub(super) fn ambiguous(path: &Path, source: AmbiguousSource) -> SubmissionError {
-    let path = path.to_owned();
-    let shown = |paths: Vec<String>| paths.iter().map(|path| display_name(path)).collect();
-    match source {
-        AmbiguousSource::Several(copies) => SubmissionError::Ambiguous {
-            path,
-            copies: shown(copies),
-        },
-        AmbiguousSource::StarterBesideCopies { starters, copies } => {
-            SubmissionError::StarterBesideCopies {
-                path,
-                starters: shown(starters),
-                copies: shown(copies),
-            }
-        }
     }
 }
 
@@ -263,12 +212,14 @@ mod tests {
     fn the_top_of_a_submission_has_a_name() {
         let paths = [String::new(), "old".to_owned()];
         assert_eq!(places(&paths), "its top level and old");
-        let error = ambiguous("ann".as_ref(), AmbiguousSource::Several(paths.into()));
+        let error = SubmissionError::Ambiguous {
+            path: "ann".into(),
+            copies: paths.into(),
+        };
+        let message = error.to_string();
         assert!(
-            error
-                .to_string()
-                .contains("differ, in its top level and old:"),
-            "{error}"
+            message.contains("differ, in its top level and old:"),
+            "{message}"
         );
     }
 }

@@ -3,11 +3,10 @@
 //! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
 mod archive;
-mod budget;
 mod choice;
 mod error;
 mod folder;
-mod found;
+mod limit;
 mod limited_reader;
 mod names;
 mod search;
@@ -19,14 +18,13 @@ use judging::sanitize::sanitize_line;
 
 use crate::handed_out::{HandedOut, TaskFile};
 
-use choice::Lookalike;
-use error::{ambiguous, no_task_files};
+use choice::{Candidate, Lookalike};
 use search::Search;
 
 pub use archive::{Archive, ArchiveError, ArchiveLimits, Listing, Member};
-pub use budget::Limit;
 pub use choice::is_skipped_name;
 pub use error::{SubmissionError, TaskFileError, listed, places};
+pub use limit::Limit;
 pub use names::{is_archive_name, may_be_task_file};
 
 /// The maximum length of a file that is read, in bytes. The reference's files are about 10,000
@@ -56,14 +54,13 @@ impl Submission {
     /// Reads the task files of a folder or archive, at any depth, and from the archives in it. The
     /// folder in it with most of the task files counts; copies that are ignored are named in a note.
     pub fn collect(path: &Path, handed_out: &'static HandedOut) -> Result<Self, SubmissionError> {
+        let name = folder_name(path);
         if path.is_dir() {
-            let search = folder::search(path, handed_out)?;
-            return Submission::choose(&folder_name(path), path, search, handed_out);
+            return Submission::choose(name, folder::search(path, handed_out)?);
         }
         if path.is_file() {
-            let search = folder::search_archive(path, handed_out)?;
-            let name = archive::without_extension(&folder_name(path));
-            return Submission::choose(&name, path, search, handed_out);
+            let name = archive::without_extension(&name);
+            return Submission::choose(name, folder::search_archive(path, handed_out)?);
         }
         Err(match path.symlink_metadata() {
             Ok(_) => SubmissionError::NotFileOrFolder(path.to_owned()),
@@ -83,7 +80,7 @@ impl Submission {
         if files.any(|file| file.is_file()) {
             let mut search = folder::search_one(&source, handed_out)?;
             let copies = std::mem::take(&mut search.lookalikes);
-            let mut own = Submission::choose(&folder_name(path), path, search, handed_out)?;
+            let mut own = Submission::choose(folder_name(path), search)?;
             own.ignored_copies = own.notes_on_own_copies(&copies);
             return Ok(own);
         }
@@ -97,20 +94,15 @@ impl Submission {
         files: &[(String, PathBuf)],
         handed_out: &'static HandedOut,
     ) -> Result<Self, SubmissionError> {
-        let path = Path::new(name);
-        let search = folder::search_files(path, files, handed_out)?;
-        Submission::choose(name, path, search, handed_out)
+        let search = folder::search_files(Path::new(name), files, handed_out)?;
+        Submission::choose(name.to_owned(), search)
     }
 
     /// Chooses the folder that is graded.
-    fn choose(
-        name: &str,
-        path: &Path,
-        search: Search,
-        handed_out: &'static HandedOut,
-    ) -> Result<Self, SubmissionError> {
+    fn choose(name: String, search: Search) -> Result<Self, SubmissionError> {
+        let (path, handed_out) = (search.submission, search.handed_out);
         let link = |link: &String| SubmissionError::Link {
-            path: path.to_owned(),
+            path: path.clone(),
             link: display_name(link),
         };
         let (faults, errors): (Vec<_>, Vec<_>) = search
@@ -126,15 +118,18 @@ impl Submission {
             .iter()
             .map(|file| file.path.clone())
             .collect();
-        let choice = choice::choose(search.candidates, search.lookalikes, handed_out);
-        let choice = choice.map_err(|error| ambiguous(path, error))?;
+        let choice = choice::choose(&path, search.candidates, search.lookalikes, handed_out)?;
         let Some(mut choice) = choice else {
             let mut errors = errors.into_iter().map(|(_, error)| error);
             let error = errors.next().or_else(|| search.links.first().map(link));
             return Err(error.unwrap_or_else(|| {
                 found.extend(search.names);
                 found.dedup();
-                no_task_files(path, &found, handed_out)
+                SubmissionError::NoTaskFiles {
+                    path: path.clone(),
+                    files: handed_out.file_list(),
+                    found,
+                }
             }));
         };
         // A link could lead to another person's files.
@@ -156,12 +151,23 @@ impl Submission {
             let notes = errors.iter().map(|(path, error)| not_graded(path, error));
             choice.notes.extend(notes.take(MAX_NOTES));
         }
-        Ok(Submission::from_contents(
-            name.to_owned(),
-            choice.chosen.files,
-            choice.notes,
+        let Candidate {
+            mut task_files,
+            other_files,
+            ..
+        } = choice.chosen;
+        let mut text = |file: TaskFile| {
+            let bytes = task_files.remove(file.name);
+            decode(bytes.unwrap_or(Err(TaskFileError::Missing))?)
+        };
+        let files = handed_out.files.iter().map(|file| (*file, text(*file)));
+        Ok(Submission {
             handed_out,
-        ))
+            name,
+            files: files.collect(),
+            ignored_copies: choice.notes,
+            notes: notes(&other_files, handed_out),
+        })
     }
 
     /// Returns notes about copies of one's own task files, of which Cargo compiles none. Those that
@@ -190,39 +196,6 @@ impl Submission {
         let mut files = self.files.iter();
         files.all(|(file, text)| text.as_ref().is_ok_and(|text| file.is_starter(text)))
     }
-
-    fn from_contents(
-        name: String,
-        mut contents: SubmissionFiles,
-        ignored_copies: Vec<String>,
-        handed_out: &'static HandedOut,
-    ) -> Self {
-        let mut text = |file: TaskFile| {
-            let missing = || Err(TaskFileError::Missing(file.name));
-            let bytes = contents
-                .task_files
-                .remove(file.name)
-                .unwrap_or_else(missing)?;
-            decode(file.name, bytes)
-        };
-        let files = handed_out.files.iter().map(|file| (*file, text(*file)));
-        Submission {
-            handed_out,
-            name,
-            files: files.collect(),
-            ignored_copies,
-            notes: notes(&contents.other_files, handed_out),
-        }
-    }
-}
-
-/// The files found in the folder that has the task files.
-#[derive(Debug, Default)]
-struct SubmissionFiles {
-    /// The task files found, by name.
-    task_files: BTreeMap<&'static str, Result<Vec<u8>, TaskFileError>>,
-    /// Other Rust files by name, with their bytes if they are to be compared with given files.
-    other_files: BTreeMap<String, Vec<u8>>,
 }
 
 /// Returns whether a link has the name of a task file, or of a folder that people hand in.
@@ -259,14 +232,14 @@ fn folder_name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-fn decode(name: &'static str, bytes: Vec<u8>) -> Result<String, TaskFileError> {
+fn decode(bytes: Vec<u8>) -> Result<String, TaskFileError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(TaskFileError::TooLong(name));
+        return Err(TaskFileError::TooLong);
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
-        TaskFileError::NotText { name, line }
+        TaskFileError::NotText(line)
     })
 }
 

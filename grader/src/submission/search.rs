@@ -1,11 +1,14 @@
-//! The results of a search in the folders and archives of a submission.
+//! The results of a search in the folders and archives of a submission. The files of each folder are
+//! sorted by what their names resemble.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::SubmissionError;
-use super::budget::{Budget, Limit};
-use super::choice::{Candidate, Lookalike};
-use super::found::FoundFolder;
+use super::choice::{Candidate, FileContents, Lookalike, is_starter, join};
+use super::limit::Limit;
+use super::limited_reader::ByteBudget;
+use super::names::{Resemblance, may_be_task_file, resemblance};
+use super::{SubmissionError, TaskFileError};
 use crate::handed_out::HandedOut;
 
 /// The contents of a submission.
@@ -13,8 +16,12 @@ use crate::handed_out::HandedOut;
 pub(super) struct Search {
     /// The path of the submission, for messages.
     pub(super) submission: PathBuf,
-    /// The rest of the budget.
-    pub(super) budget: Budget,
+    /// The assignment.
+    pub(super) handed_out: &'static HandedOut,
+    /// The number of things of each kind that were read.
+    counts: BTreeMap<Limit, usize>,
+    /// The bytes that may still be read from archives.
+    pub(super) bytes: ByteBudget,
     /// The folders that have task files, on disk or in an archive.
     pub(super) candidates: Vec<Candidate>,
     /// The files that only resemble task files.
@@ -29,12 +36,25 @@ pub(super) struct Search {
     pub(super) archives: Vec<(String, PathBuf)>,
 }
 
+/// The files of a folder, of which some have been read.
+#[derive(Default)]
+pub(super) struct FoundFolder {
+    /// The path of the folder below the submission, with `/`. Empty for its top level.
+    pub(super) path: String,
+    /// The files that may be task files or given files, by name.
+    pub(super) read: Vec<(String, FileContents)>,
+    /// The names of the other files.
+    pub(super) others: Vec<String>,
+}
+
 impl Search {
     /// Returns a search that has found nothing yet.
-    pub(super) fn new(submission: &Path) -> Self {
+    pub(super) fn new(submission: &Path, handed_out: &'static HandedOut) -> Self {
         Search {
             submission: submission.to_owned(),
-            budget: Budget::default(),
+            handed_out,
+            counts: BTreeMap::new(),
+            bytes: ByteBudget::new(Limit::Bytes.most() as u64),
             candidates: Vec::new(),
             lookalikes: Vec::new(),
             names: Vec::new(),
@@ -44,30 +64,75 @@ impl Search {
         }
     }
 
-    /// Deducts a number of things from the budget.
-    pub(super) fn spend(&self, limit: Limit, count: usize) -> Result<(), SubmissionError> {
-        self.too_many(self.budget.spend(limit, count))
+    /// Counts things. Fails if there are more of them than may be read.
+    pub(super) fn spend(&mut self, limit: Limit, count: usize) -> Result<(), SubmissionError> {
+        let spent = self.counts.entry(limit).or_default();
+        *spent = spent.saturating_add(count);
+        if *spent > limit.most() {
+            Err(self.too_many(limit))
+        } else {
+            Ok(())
+        }
     }
 
     /// Fails if too many bytes have been read from archives.
     pub(super) fn check_bytes(&self) -> Result<(), SubmissionError> {
-        self.too_many(self.budget.check_bytes())
+        if self.bytes.is_exhausted() {
+            Err(self.too_many(Limit::Bytes))
+        } else {
+            Ok(())
+        }
     }
 
-    fn too_many(&self, spent: Result<(), Limit>) -> Result<(), SubmissionError> {
-        spent.map_err(|limit| SubmissionError::TooMany(self.submission.clone(), limit))
+    /// Returns the error if there is more than may be read.
+    pub(super) fn too_many(&self, limit: Limit) -> SubmissionError {
+        SubmissionError::TooMany(self.submission.clone(), limit)
     }
 
-    /// Adds a folder, on disk or in an archive, if it has task files or copies of them.
-    pub(super) fn add_folder(
-        &mut self,
-        folder: FoundFolder,
-        handed_out: &'static HandedOut,
-    ) -> Result<(), SubmissionError> {
-        let (candidate, lookalikes) = folder.sort(handed_out);
-        self.spend(Limit::Folders, usize::from(candidate.is_some()))?;
-        self.candidates.extend(candidate);
-        self.lookalikes.extend(lookalikes);
+    /// Returns whether the contents of a file with this name are needed.
+    pub(super) fn is_read(&self, name: &str) -> bool {
+        self.handed_out.given_file(name).is_some() || may_be_task_file(name, self.handed_out)
+    }
+
+    /// Adds a folder, on disk or in an archive: as one that could be graded, if it has task files, and
+    /// the files that only resemble task files.
+    pub(super) fn add_folder(&mut self, folder: FoundFolder) -> Result<(), SubmissionError> {
+        let FoundFolder { path, read, others } = folder;
+        let handed_out = self.handed_out;
+        let mut task_files = BTreeMap::new();
+        for file in handed_out.file_names() {
+            let resembles = |(name, contents): &(String, FileContents)| {
+                let kind = resemblance(name, file)?;
+                // A folder or a link is no copy.
+                let is_copy = *contents != Err(TaskFileError::NotRegular);
+                (kind == Resemblance::Exact || is_copy).then(|| Lookalike {
+                    path: join(&path, name),
+                    file,
+                    kind,
+                    contents: contents.clone(),
+                })
+            };
+            let mut all: Vec<Lookalike> = read.iter().filter_map(resembles).collect();
+            if let Some(index) = graded(&all, handed_out) {
+                task_files.insert(file, all.remove(index).contents);
+            }
+            self.lookalikes.extend(all);
+        }
+        if task_files.is_empty() {
+            return Ok(());
+        }
+        self.spend(Limit::Folders, 1)?;
+        let given = read
+            .into_iter()
+            .filter(|(name, _)| handed_out.given_file(name).is_some());
+        let given = given.map(|(name, contents)| (name, contents.unwrap_or_default()));
+        let others = others.into_iter().filter(|name| name.ends_with(".rs"));
+        let others = others.map(|name| (name, Vec::new()));
+        self.candidates.push(Candidate {
+            folder: path,
+            task_files,
+            other_files: given.chain(others).collect(),
+        });
         Ok(())
     }
 
@@ -86,5 +151,58 @@ impl Search {
             }
             Ok(_) => Ok(()),
         }
+    }
+}
+
+/// Returns the index of the file that counts as the task file: the one with its name, or else a copy
+/// of it, if only one file could be meant.
+fn graded(all: &[Lookalike], handed_out: &HandedOut) -> Option<usize> {
+    let of_kind = |kind: Resemblance| all.iter().position(|file| file.kind == kind);
+    if let Some(index) = of_kind(Resemblance::Exact) {
+        return Some(index);
+    }
+    let written = all
+        .iter()
+        .filter(|file| !is_starter(file.file, &file.contents, handed_out));
+    let mut written: Vec<&FileContents> = written.map(|file| &file.contents).collect();
+    written.dedup();
+    let is_meant = |file: &Lookalike| {
+        let is_only_one = written.first().is_none_or(|text| **text == file.contents);
+        file.kind == Resemblance::Copy && is_only_one
+    };
+    match written.len() {
+        0 | 1 => all
+            .iter()
+            .position(is_meant)
+            .or_else(|| of_kind(Resemblance::Copy)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handed_out::RAYS;
+
+    #[test]
+    fn as_many_as_the_limit_are_read() {
+        for (limit, most, refusal) in [
+            (Limit::Files, 50_000, "files and folders (more than 50000)"),
+            (Limit::Archives, 32, "archives (more than 32)"),
+            (Limit::Folders, 64, "folders with task files (more than 64)"),
+            (Limit::Copies, 200, "copies of task files (more than 200)"),
+        ] {
+            let mut search = Search::new("ann".as_ref(), &RAYS);
+            assert!(search.spend(limit, most).is_ok());
+            assert!(search.spend(limit, 0).is_ok());
+            let refused = search.spend(limit, 1).unwrap_err().to_string();
+            let end = ": hand in the task files without the rest";
+            assert_eq!(refused, format!("ann has too many {refusal}{end}"));
+            assert!(search.check_bytes().is_ok());
+        }
+        let bytes = "too many bytes in its archives (more than 1024 MiB)";
+        assert_eq!(Limit::Bytes.to_string(), bytes);
+        let levels = "too many files and folders inside each other";
+        assert_eq!(Limit::Levels.to_string(), levels);
     }
 }

@@ -47,6 +47,11 @@ pub(super) fn zip(files: Files, method: CompressionMethod) -> Vec<u8> {
     writer.finish().unwrap().into_inner()
 }
 
+/// Collects a folder with these files.
+pub(super) fn collected(files: Files) -> Result<Submission, SubmissionError> {
+    Submission::collect(folder(files).path(), &RAYS)
+}
+
 /// Returns what was found of a task file.
 pub(super) fn text<'a>(
     submission: &'a Submission,
@@ -93,17 +98,6 @@ fn the_files_of_a_workspace_without_a_package_are_found_as_well() {
     write_files(&folder.path().join("my/work"), "new");
     let found = Submission::collect_package(folder.path(), &RAYS).unwrap();
     assert!(found.files.iter().all(|(_, text)| text.is_ok()));
-}
-
-#[test]
-fn folders_without_end_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir_all(folder.path().join("a/".repeat(40))).unwrap();
-    let refused = Submission::collect(folder.path(), &RAYS);
-    assert!(matches!(
-        refused,
-        Err(SubmissionError::TooMany(_, Limit::Levels))
-    ));
 }
 
 /// Returns the files of a submission that have a text.
@@ -176,38 +170,37 @@ fn names_of_task_files_and_of_their_folders_may_lead_to_files() {
 
 #[test]
 fn a_file_may_be_as_long_as_the_limit() {
-    let longest = vec![b' '; 1 << 20];
-    assert!(decode("bvh.rs", longest.clone()).is_ok());
-    let longer = [longest, vec![b' ']].concat();
+    assert!(decode(vec![b' '; 1 << 20]).is_ok());
     assert_eq!(
-        decode("bvh.rs", longer),
-        Err(TaskFileError::TooLong("bvh.rs"))
+        decode(vec![b' '; (1 << 20) + 1]),
+        Err(TaskFileError::TooLong)
     );
 }
 
 #[test]
 fn the_line_of_a_byte_that_is_not_text_is_named() {
     for (bytes, line) in [(&b"ab\xffc\n"[..], 1), (b"a\nb\n\xff\n", 3)] {
-        let error = decode("bvh.rs", bytes.to_vec()).unwrap_err();
+        let error = decode(bytes.to_vec()).unwrap_err();
         let expected =
             format!("bvh.rs is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8");
-        assert_eq!(error.to_string(), expected);
+        assert_eq!(error.message("bvh.rs"), expected);
     }
 }
 
 #[test]
 fn only_given_files_that_were_changed_are_noted() {
-    let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    write("bvh (1).rs", "new");
-    write("README.md", "read me");
-    write("helper.rs", "");
-    write("main.rs", "fn main() {}");
-    write("world.rs", "mine");
     // Git may have changed the line endings.
     let library = RAYS.given_file("lib.rs").unwrap();
-    write("lib.rs", &library.text.replace('\n', "\r\n"));
-    let submission = Submission::collect(folder.path(), &RAYS).unwrap();
+    let library = library.text.replace('\n', "\r\n");
+    let submission = collected(&[
+        ("bvh (1).rs", b"new"),
+        ("README.md", b"read me"),
+        ("helper.rs", b""),
+        ("main.rs", b"fn main() {}"),
+        ("world.rs", b"mine"),
+        ("lib.rs", library.as_bytes()),
+    ])
+    .unwrap();
     assert_eq!(texts(&submission), [("bvh.rs", "new")]);
     let notes = [
         "helper.rs is not one of the task files: ignored",
@@ -277,6 +270,14 @@ fn a_path_without_a_submission_is_explained() {
         none.ends_with("in any of its folders; it has a, b.txt"),
         "{none}"
     );
+    let archive = folder.path().join("a.tar");
+    fs::write(
+        &archive,
+        tar(&[("b/c.rs", b""), ("b/d", b""), ("a.txt", b"")]),
+    )
+    .unwrap();
+    let none = error(&archive);
+    assert!(none.ends_with("it has a.txt, b"), "{none}");
     let absent = error(&folder.path().join("absent"));
     assert!(absent.starts_with("there is no "), "{absent}");
     let text = error(&folder.path().join("b.txt"));

@@ -157,7 +157,7 @@ pub fn file_line(why: &NotCompiled) -> Option<u32> {
 /// Returns the compiler's error, or why there was nothing to compile.
 pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
-        NotCompiled::Unreadable(unreadable) => unreadable.to_string(),
+        NotCompiled::Unreadable(unreadable) => unreadable.message(file),
         NotCompiled::MissingDeclaration(part) => {
             format!("{file} has no `{part}`, which other files use")
         }

@@ -4,45 +4,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::{Archive, ArchiveBytes, ArchiveError, ArchiveLimits, MAX_LEVELS, Member};
-use crate::handed_out::HandedOut;
-use crate::submission::budget::Limit;
 use crate::submission::choice::{is_skipped, join};
-use crate::submission::found::{FoundFolder, is_read};
+use crate::submission::limit::Limit;
 use crate::submission::names::is_archive_name;
-use crate::submission::search::Search;
+use crate::submission::search::{FoundFolder, Search};
 use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 
 /// The maximum size of an archive in another one, in bytes.
 const MAX_INNER_BYTES: u64 = 64 << 20;
 
-/// Adds the folders of an archive that have task files, or copies of them, to a search. `name` is put
-/// in front of their paths. An archive in it that cannot be read is one of the search's errors.
-/// Returns the names at the archive's top level.
-pub(in crate::submission) fn search(
-    bytes: ArchiveBytes,
-    name: &str,
-    search: &mut Search,
-    handed_out: &'static HandedOut,
-) -> Result<Vec<String>, SubmissionError> {
-    search_level(bytes, name, search, handed_out, 1)
-}
-
 /// Why the archives in an archive were not all read.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
 enum Stopped {
-    Archive(ArchiveError),
-    Search(SubmissionError),
-}
-
-impl From<ArchiveError> for Stopped {
-    fn from(error: ArchiveError) -> Self {
-        Stopped::Archive(error)
-    }
-}
-
-impl From<SubmissionError> for Stopped {
-    fn from(error: SubmissionError) -> Self {
-        Stopped::Search(error)
-    }
+    Archive(#[from] ArchiveError),
+    Search(#[from] SubmissionError),
 }
 
 /// Returns the bytes of an archive in an archive.
@@ -60,11 +36,13 @@ fn inner_archive(
     }
 }
 
-fn search_level(
+/// Adds the folders of an archive that have task files, or copies of them, to a search. `name` is put
+/// in front of their paths. `level` is 1 unless the archive is in another one. An archive in it that
+/// cannot be read is one of the search's errors. Returns the names at the archive's top level.
+pub(in crate::submission) fn search(
     bytes: ArchiveBytes,
     name: &str,
     search: &mut Search,
-    handed_out: &'static HandedOut,
     level: usize,
 ) -> Result<Vec<String>, SubmissionError> {
     search.spend(Limit::Archives, 1)?;
@@ -76,7 +54,7 @@ fn search_level(
         path: path.clone(),
         why,
     };
-    let limits = ArchiveLimits::submission(&search.budget.bytes);
+    let limits = ArchiveLimits::submission(&search.bytes);
     let mut archive = Archive::open_bytes(bytes, limits).map_err(rejected)?;
     let members = archive.members().map_err(rejected)?;
     search.spend(Limit::Files, members.len())?;
@@ -85,7 +63,10 @@ fn search_level(
     let mut inner = Vec::new();
     for member in &members {
         let (folder, file) = member.path.rsplit_once('/').unwrap_or(("", &member.path));
-        if folder.split('/').any(|part| is_skipped(part, handed_out)) {
+        if folder
+            .split('/')
+            .any(|part| is_skipped(part, search.handed_out))
+        {
         } else if is_archive_name(file) {
             inner.push(member);
         } else {
@@ -94,13 +75,16 @@ fn search_level(
     }
     // Everything is read at once, since each call scans a tar.
     let mut found = Vec::new();
-    let mut requested: Vec<(&Member, u64)> = Vec::new();
+    let mut requested: Vec<&Member> = Vec::new();
     let mut indices = Vec::new();
     for (folder, files) in folders {
-        let mut folder = FoundFolder::new(join(name, folder));
+        let mut folder = FoundFolder {
+            path: join(name, folder),
+            ..FoundFolder::default()
+        };
         for (file, member) in files {
-            if is_read(file, handed_out) {
-                requested.push((member, MAX_FILE_BYTES));
+            if search.is_read(file) {
+                requested.push(member);
                 indices.push((found.len(), file));
             } else {
                 folder.others.push(file.to_owned());
@@ -109,15 +93,12 @@ fn search_level(
         found.push(folder);
     }
     search.spend(Limit::Copies, requested.len())?;
-    archive
-        .read_each(&requested, |slot, bytes| {
-            let (folder, file) = indices[slot];
-            found[folder].read.push((file.to_owned(), Ok(bytes?)));
-            Ok::<_, ArchiveError>(())
-        })
-        .map_err(rejected)?;
+    let contents = archive.read(&requested, MAX_FILE_BYTES).map_err(rejected)?;
+    for ((folder, file), bytes) in indices.into_iter().zip(contents) {
+        found[folder].read.push((file.to_owned(), Ok(bytes)));
+    }
     for folder in found {
-        search.add_folder(folder, handed_out)?;
+        search.add_folder(folder)?;
     }
     let requested: Vec<(&Member, u64)> = inner
         .iter()
@@ -131,8 +112,7 @@ fn search_level(
                 path: search.submission.join(&inner),
                 why,
             });
-            let found =
-                found.and_then(|bytes| search_level(bytes, &inner, search, handed_out, level + 1));
+            let found = found.and_then(|bytes| self::search(bytes, &inner, search, level + 1));
             search.check_bytes()?;
             search.keep_error(&inner, found)?;
             Ok::<_, Stopped>(())

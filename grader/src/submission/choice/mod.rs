@@ -5,10 +5,11 @@
 //! as long as they could not be what is meant; otherwise a person has to choose.
 
 use std::cmp::Reverse;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
-use super::names::is_archive_name;
-use super::{MAX_NOTES, SubmissionFiles, TaskFileError, display_name};
+use super::names::{Resemblance, is_archive_name};
+use super::{MAX_NOTES, SubmissionError, TaskFileError, display_name};
 use crate::handed_out::HandedOut;
 
 /// Names of folders that never hold what is handed in: metadata of systems and tools, old versions
@@ -45,8 +46,10 @@ const SKIPPED: [&str; 24] = [
 pub(super) struct Candidate {
     /// The path of the folder below the submission, with `/`. Empty for its top level.
     pub(super) folder: String,
-    /// The files in it.
-    pub(super) files: SubmissionFiles,
+    /// The task files in it, by name.
+    pub(super) task_files: BTreeMap<&'static str, FileContents>,
+    /// Other Rust files by name, with their bytes if they are to be compared with given files.
+    pub(super) other_files: BTreeMap<String, Vec<u8>>,
 }
 
 /// The folder that is graded.
@@ -67,27 +70,10 @@ pub(super) struct Lookalike {
     pub(super) path: String,
     /// The name of the task file.
     pub(super) file: &'static str,
-    /// Whether the file has exactly the name of the task file.
-    pub(super) is_exact: bool,
-    /// Whether the name is that of a copy, which would count as the task file if nothing else could be
-    /// meant.
-    pub(super) is_copy: bool,
+    /// How its name resembles that of the task file.
+    pub(super) kind: Resemblance,
     /// The contents of the file.
     pub(super) contents: FileContents,
-}
-
-/// Files of which a person has to choose one.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) enum AmbiguousSource {
-    /// Two folders, or files, that could be meant.
-    Several(Vec<String>),
-    /// Files as they were handed out, and changed copies of them.
-    StarterBesideCopies {
-        /// The names of the files.
-        starters: Vec<String>,
-        /// The paths of the copies.
-        copies: Vec<String>,
-    },
 }
 
 /// Returns whether nothing in a folder of this name is handed in, whatever the assignment is.
@@ -101,21 +87,26 @@ pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
 }
 
 /// Chooses the folder with most task files that differ from the starter's. `None` if there are no
-/// candidates.
+/// candidates. `path` is that of the submission, for messages.
 ///
 /// A folder whose files are all in the chosen one as well is ignored, with a note if they differ
 /// there. A folder that has as much as the chosen one, or a file that the chosen one lacks, could
 /// be what is meant: then the result is an error. So could a changed copy of a file that is as it was
 /// handed out, in an archive or under another name; other files that resemble task files are noted.
 pub(super) fn choose(
+    path: &Path,
     mut candidates: Vec<Candidate>,
-    lookalikes: Vec<Lookalike>,
+    mut lookalikes: Vec<Lookalike>,
     handed_out: &HandedOut,
-) -> Result<Option<Choice>, AmbiguousSource> {
+) -> Result<Option<Choice>, SubmissionError> {
+    let ambiguous = |copies: &[String]| SubmissionError::Ambiguous {
+        path: path.to_owned(),
+        copies: copies.iter().map(|copy| display_name(copy)).collect(),
+    };
     candidates.sort_by_cached_key(|candidate| {
         (
             Reverse(candidate.written(handed_out).count()),
-            Reverse(candidate.files.task_files.len()),
+            Reverse(candidate.task_files.len()),
             rank(&candidate.folder, handed_out),
             candidate.folder.matches('/').count(),
             candidate.folder.clone(),
@@ -123,18 +114,19 @@ pub(super) fn choose(
     });
     let starters: BTreeSet<&str> = candidates
         .iter()
-        .flat_map(|candidate| &candidate.files.task_files)
+        .flat_map(|candidate| &candidate.task_files)
         .filter(|(name, contents)| is_starter(name, contents, handed_out))
         .map(|(name, _)| *name)
         .collect();
     let mut candidates = candidates.into_iter();
     let Some(chosen) = candidates.next() else {
-        let copies = lookalikes.into_iter().filter(|file| file.is_copy);
+        let copies = lookalikes.into_iter();
+        let copies = copies.filter(|file| file.kind == Resemblance::Copy);
         let copies: Vec<String> = copies.map(|file| file.path).collect();
         return if copies.is_empty() {
             Ok(None)
         } else {
-            Err(AmbiguousSource::Several(copies))
+            Err(ambiguous(&copies))
         };
     };
     let written: Vec<&str> = chosen.written(handed_out).map(|(name, _)| name).collect();
@@ -142,14 +134,13 @@ pub(super) fn choose(
     for other in candidates {
         let starters = chosen.archived_copies_of_starter(&other, handed_out);
         if !starters.is_empty() {
-            return Err(AmbiguousSource::StarterBesideCopies {
-                copies: starters.iter().map(|name| chosen.path_of(name)).collect(),
-                starters: starters.into_iter().map(str::to_owned).collect(),
-            });
+            let copies = starters.iter().map(|name| chosen.path_of(name));
+            let copies = copies.collect();
+            return Err(starter_beside_copies(path, starters, copies));
         }
         let files: Vec<_> = other.written(handed_out).collect();
         let differs = |(name, text): &&(&'static str, &FileContents)| {
-            chosen.files.task_files.get(name) != Some(*text)
+            chosen.task_files.get(name) != Some(*text)
         };
         let differing: Vec<&str> = files
             .iter()
@@ -161,14 +152,47 @@ pub(super) fn choose(
         }
         let is_less = files.len() < written.len() && files.iter().all(|(n, _)| written.contains(n));
         if !is_less {
-            return Err(AmbiguousSource::Several(vec![chosen.folder, other.folder]));
+            return Err(ambiguous(&[chosen.folder, other.folder]));
         }
         notes.extend(differing.into_iter().map(|name| {
             let (ignored, used) = (other.path_of(name), chosen.path_of(name));
             display_name(&format!("{ignored} differs from {used}, and is ignored"))
         }));
     }
-    notes.extend(lookalike_notes(&chosen, lookalikes, &starters, handed_out)?);
+    lookalikes.sort_by(|one, other| one.path.cmp(&other.path));
+    lookalikes.retain(|copy| {
+        let is_graded = chosen.task_files.get(copy.file) == Some(&copy.contents);
+        !is_graded && !is_starter(copy.file, &copy.contents, handed_out)
+    });
+    let is_untouched = |copy: &&Lookalike| match chosen.task_files.get(copy.file) {
+        Some(graded) => is_starter(copy.file, graded, handed_out),
+        None => starters.contains(copy.file),
+    };
+    let copies: Vec<&Lookalike> = lookalikes.iter().filter(is_untouched).collect();
+    if !copies.is_empty() {
+        let starters = copies.iter().map(|copy| copy.file).collect();
+        let copies = copies.iter().map(|copy| copy.path.clone()).collect();
+        return Err(starter_beside_copies(path, starters, copies));
+    }
+    let is_missing = |copy: &&Lookalike| !chosen.task_files.contains_key(copy.file);
+    let missing = |copy: &&Lookalike| is_missing(copy) && copy.kind == Resemblance::Copy;
+    if let Some(copy) = lookalikes.iter().find(missing) {
+        let all = lookalikes.iter().filter(|other| other.file == copy.file);
+        let all: Vec<String> = all.map(|copy| copy.path.clone()).collect();
+        return Err(ambiguous(&all));
+    }
+    notes.extend(lookalikes.iter().map(|copy| {
+        let Lookalike { path, file, .. } = copy;
+        let end = if is_missing(&copy) {
+            format!(
+                "is not graded, since its name is not {file}: this costs {} points",
+                points(file, handed_out)
+            )
+        } else {
+            format!("differs from {}, and is ignored", chosen.path_of(file))
+        };
+        display_name(&format!("{path} {end}"))
+    }));
     let more = notes.len().saturating_sub(MAX_NOTES);
     if more > 0 {
         notes.truncate(MAX_NOTES);
@@ -186,53 +210,18 @@ pub(super) fn choose(
 /// The bytes of a task file, or the reason why it has none.
 pub(super) type FileContents = Result<Vec<u8>, TaskFileError>;
 
-/// Returns notes about files that resemble task files, and differ from those of the chosen folder.
-/// `starters` are the task files that are as they were handed out in any folder.
-fn lookalike_notes(
-    chosen: &Candidate,
-    mut lookalikes: Vec<Lookalike>,
-    starters: &BTreeSet<&str>,
-    handed_out: &HandedOut,
-) -> Result<Vec<String>, AmbiguousSource> {
-    lookalikes.sort_by(|one, other| one.path.cmp(&other.path));
-    lookalikes.retain(|copy| {
-        let is_graded = chosen.files.task_files.get(copy.file) == Some(&copy.contents);
-        !is_graded && !is_starter(copy.file, &copy.contents, handed_out)
-    });
-    let is_untouched = |copy: &&Lookalike| match chosen.files.task_files.get(copy.file) {
-        Some(graded) => is_starter(copy.file, graded, handed_out),
-        None => starters.contains(copy.file),
-    };
-    let copies: Vec<&Lookalike> = lookalikes.iter().filter(is_untouched).collect();
-    if !copies.is_empty() {
-        let starters: BTreeSet<&str> = copies.iter().map(|copy| copy.file).collect();
-        let copies: BTreeSet<&str> = copies.iter().map(|copy| copy.path.as_str()).collect();
-        return Err(AmbiguousSource::StarterBesideCopies {
-            starters: starters.into_iter().map(str::to_owned).collect(),
-            copies: copies.into_iter().map(str::to_owned).collect(),
-        });
+/// Returns the error for task files that are as they were handed out, and changed copies of them. Each
+/// is named once.
+fn starter_beside_copies(
+    path: &Path,
+    starters: BTreeSet<&str>,
+    copies: BTreeSet<String>,
+) -> SubmissionError {
+    SubmissionError::StarterBesideCopies {
+        path: path.to_owned(),
+        starters: starters.into_iter().map(display_name).collect(),
+        copies: copies.iter().map(|copy| display_name(copy)).collect(),
     }
-    let is_missing = |copy: &&Lookalike| !chosen.files.task_files.contains_key(copy.file);
-    let missing = |copy: &&Lookalike| is_missing(copy) && copy.is_copy;
-    if let Some(copy) = lookalikes.iter().find(missing) {
-        let all = lookalikes.iter().filter(|other| other.file == copy.file);
-        return Err(AmbiguousSource::Several(
-            all.map(|copy| copy.path.clone()).collect(),
-        ));
-    }
-    let note = |copy: &Lookalike| {
-        let Lookalike { path, file, .. } = copy;
-        let end = if is_missing(&copy) {
-            format!(
-                "is not graded, since its name is not {file}: this costs {} points",
-                points(file, handed_out)
-            )
-        } else {
-            format!("differs from {}, and is ignored", chosen.path_of(file))
-        };
-        display_name(&format!("{path} {end}"))
-    };
-    Ok(lookalikes.iter().map(note).collect())
 }
 
 /// Returns the points of the tasks in a file.
@@ -250,7 +239,7 @@ impl Candidate {
         &'a self,
         handed_out: &'a HandedOut,
     ) -> impl Iterator<Item = (&'static str, &'a FileContents)> {
-        let files = self.files.task_files.iter();
+        let files = self.task_files.iter();
         files
             .filter(|(name, contents)| !is_starter(name, contents, handed_out))
             .map(|(name, contents)| (*name, contents))
@@ -262,13 +251,12 @@ impl Candidate {
         &self,
         other: &Candidate,
         handed_out: &HandedOut,
-    ) -> Vec<&'static str> {
+    ) -> BTreeSet<&'static str> {
         if !self.is_in_archive() || other.is_in_archive() {
-            return Vec::new();
+            return BTreeSet::new();
         }
-        let other = &other.files.task_files;
         let is_starter = |name: &&'static str| {
-            let contents = other.get(name);
+            let contents = other.task_files.get(name);
             contents.is_some_and(|contents| is_starter(name, contents, handed_out))
         };
         let written = self.written(handed_out).map(|(name, _)| name);

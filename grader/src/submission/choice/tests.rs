@@ -16,7 +16,7 @@ fn candidate(folder: &str, files: &[(usize, &str)]) -> Candidate {
         let file = RAYS.files[*index];
         let text = if text.is_empty() { file.starter } else { text };
         let bytes = Ok(text.as_bytes().to_vec());
-        candidate.files.task_files.insert(file.name, bytes);
+        candidate.task_files.insert(file.name, bytes);
     }
     candidate
 }
@@ -25,69 +25,78 @@ fn all(text: &str) -> Vec<(usize, &str)> {
     (0..RAYS.files.len()).map(|index| (index, text)).collect()
 }
 
+/// Chooses among these folders.
+fn chosen(candidates: Vec<Candidate>) -> Result<Option<Choice>, SubmissionError> {
+    choose("hw".as_ref(), candidates, Vec::new(), &RAYS)
+}
+
 /// Returns the chosen folder and the notes, or the folders that could be meant.
 fn choice(candidates: Vec<Candidate>) -> Result<(String, Vec<String>), Vec<String>> {
-    match choose(candidates, Vec::new(), &RAYS) {
+    match chosen(candidates) {
         Ok(choice) => Ok(choice
             .map(|c| (c.chosen.folder, c.notes))
             .unwrap_or_default()),
-        Err(AmbiguousSource::Several(folders)) => Err(folders),
+        Err(SubmissionError::Ambiguous { copies, .. }) => Err(copies),
         Err(other) => panic!("{other:?}"),
     }
 }
 
 #[test]
-fn a_stray_copy_is_ignored_with_a_note() {
-    let found = choice(vec![
-        candidate("", &[(4, "old")]),
-        candidate("student/src", &all("new")),
-    ]);
+fn the_folder_with_most_that_is_written_is_chosen_and_the_assignments_is_preferred() {
     let file = RAYS.files[4].name;
     let note = format!("{file} differs from student/src/{file}, and is ignored");
-    assert_eq!(found, Ok(("student/src".to_owned(), vec![note])));
+    for (candidates, folder, notes) in [
+        (
+            vec![
+                candidate("", &[(4, "old")]),
+                candidate("student/src", &all("new")),
+            ],
+            "student/src",
+            vec![note],
+        ),
+        // Files as handed out count as absent.
+        (
+            vec![
+                candidate("", &all("")),
+                candidate("my/deep/solution", &[(0, "new"), (1, ""), (2, "new")]),
+            ],
+            "my/deep/solution",
+            Vec::new(),
+        ),
+        // Equal copies are no choice.
+        (
+            vec![
+                candidate("backup", &all("new")),
+                candidate("a/student/src", &all("new")),
+                candidate("student/src", &all("new")),
+            ],
+            "student/src",
+            Vec::new(),
+        ),
+    ] {
+        assert_eq!(choice(candidates), Ok((folder.to_owned(), notes)));
+    }
 }
 
 #[test]
-fn files_as_handed_out_count_as_absent() {
-    let found = choice(vec![
-        candidate("", &all("")),
-        candidate("my/deep/solution", &[(0, "new"), (1, ""), (2, "new")]),
-    ]);
-    assert_eq!(found, Ok(("my/deep/solution".to_owned(), vec![])));
-}
-
-#[test]
-fn equal_copies_are_no_choice_and_the_assignments_folder_is_preferred() {
-    let found = choice(vec![
-        candidate("backup", &all("new")),
-        candidate("a/student/src", &all("new")),
-        candidate("student/src", &all("new")),
-    ]);
-    assert_eq!(found, Ok(("student/src".to_owned(), vec![])));
-}
-
-#[test]
-fn two_complete_sets_that_differ_are_ambiguous() {
-    let found = choice(vec![
-        candidate("src", &all("new")),
-        candidate("old", &all("old")),
-    ]);
-    assert_eq!(found, Err(vec!["src".to_owned(), "old".to_owned()]));
-}
-
-#[test]
-fn a_file_that_only_the_smaller_folder_has_is_ambiguous() {
-    let found = choice(vec![
-        candidate("src", &[(0, "a"), (1, "b"), (2, "")]),
-        candidate("", &[(2, "c")]),
-    ]);
-    assert_eq!(found, Err(vec!["src".to_owned(), String::new()]));
-    // The smaller folder also has another one, which both have.
-    let found = choice(vec![
-        candidate("src", &[(0, "a"), (1, "b"), (2, "c")]),
-        candidate("", &[(0, "x"), (3, "d")]),
-    ]);
-    assert_eq!(found, Err(vec!["src".to_owned(), String::new()]));
+fn two_folders_that_both_have_something_are_ambiguous() {
+    for [one, other] in [
+        [("src", all("new")), ("old", all("old"))],
+        // A file that only the smaller folder has.
+        [
+            ("src", vec![(0, "a"), (1, "b"), (2, "")]),
+            ("", vec![(2, "c")]),
+        ],
+        // The smaller folder also has another one, which both have.
+        [
+            ("src", vec![(0, "a"), (1, "b"), (2, "c")]),
+            ("", vec![(0, "x"), (3, "d")]),
+        ],
+    ] {
+        let folders = vec![one.0.to_owned(), other.0.to_owned()];
+        let candidates = [one, other].map(|(folder, files)| candidate(folder, &files));
+        assert_eq!(choice(candidates.into()), Err(folders));
+    }
 }
 
 prop_compose! {
@@ -120,10 +129,10 @@ proptest! {
 
     #[test]
     fn no_written_file_is_lost_silently(folders in any_candidates()) {
-        let Ok(Some(choice)) = choose(built(&folders), Vec::new(), &RAYS) else { return Ok(()) };
+        let Ok(Some(choice)) = chosen(built(&folders)) else { return Ok(()) };
         for other in built(&folders) {
             for (name, text) in other.written(&RAYS) {
-                let is_used = choice.chosen.files.task_files.get(name) == Some(text);
+                let is_used = choice.chosen.task_files.get(name) == Some(text);
                 let path = format!("{} differs", other.path_of(name));
                 let is_noted = choice.notes.iter().any(|note| note.starts_with(&path));
                 prop_assert!(is_used || is_noted, "{}", path);
@@ -160,7 +169,7 @@ fn the_assignments_folders_come_before_those_below_another_and_these_before_the_
 #[test]
 fn a_choice_is_complete_if_every_file_was_written() {
     let is_complete = |files: &[(usize, &str)]| {
-        let choice = choose(vec![candidate("src", files)], Vec::new(), &RAYS).unwrap();
+        let choice = chosen(vec![candidate("src", files)]).unwrap();
         choice.unwrap().is_complete
     };
     assert!(is_complete(&all("new")));
@@ -168,11 +177,7 @@ fn a_choice_is_complete_if_every_file_was_written() {
     let mut files = all("new");
     files[0].1 = "";
     assert!(!is_complete(&files), "one file is the starter's");
-}
-
-#[test]
-fn without_task_files_there_is_no_choice() {
-    assert!(choose(Vec::new(), Vec::new(), &RAYS).unwrap().is_none());
+    assert!(chosen(Vec::new()).unwrap().is_none(), "there are no files");
 }
 
 #[test]

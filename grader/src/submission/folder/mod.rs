@@ -8,29 +8,24 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::archive::{self, ArchiveBytes};
-use super::budget::Limit;
-use super::choice::{self, join};
-use super::found::{FoundFolder, is_read};
+use super::choice::{self, FileContents, join};
+use super::limit::Limit;
 use super::names::is_archive_name;
-use super::search::Search;
+use super::search::{FoundFolder, Search};
 use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, display_name};
 use crate::handed_out::HandedOut;
 use crate::machine::disk::{self, Operation};
 use crate::machine::files::{PathError, is_about_file};
 use crate::machine::system::{self, EntryKind, Folder};
 
-/// The maximum number of levels of folders that are searched.
-const MAX_DEPTH: usize = 12;
-
 /// Looks for task files in a folder and everything below it, and in the archives there.
 pub(super) fn search(
     path: &Path,
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let folder = Folder::open(path).map_err(|error| unreadable(path, error))?;
-    let mut search = Search::new(path);
-    search.visit(&folder, "", handed_out)?;
-    search.open_archives(handed_out)?;
+    let mut search = Search::new(path, handed_out);
+    search.visit(&open_folder(path)?, "")?;
+    search.open_archives()?;
     Ok(search)
 }
 
@@ -39,13 +34,10 @@ pub(super) fn search_one(
     path: &Path,
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let io = |error: io::Error| unreadable(path, error);
-    let folder = Folder::open(path).map_err(io)?;
-    let names = list(&folder, path).map_err(io)?;
-    let mut search = Search::new(path);
-    search.names = names.iter().map(|name| shown(name)).collect();
-    let open = |name: &OsStr| open(&folder, path, name);
-    search.read_folder("", &names, open, handed_out)?;
+    let mut search = Search::new(path, handed_out);
+    let folder = open_folder(path)?;
+    let names = list(&folder, path)?;
+    search.read_folder("", &names, |name| open(&folder, path, name))?;
     Ok(search)
 }
 
@@ -56,7 +48,7 @@ pub(super) fn search_files(
     files: &[(String, PathBuf)],
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let mut search = Search::new(path);
+    let mut search = Search::new(path, handed_out);
     search.names = files.iter().map(|(name, _)| name.clone()).collect();
     // Of several files with the same name, the last one counts.
     let open = |name: &OsStr| {
@@ -69,12 +61,12 @@ pub(super) fn search_files(
     let names: BTreeSet<OsString> = files.iter().map(|(name, _)| name.into()).collect();
     let names: Vec<OsString> = names.into_iter().collect();
     search.spend(Limit::Files, files.len())?;
-    search.read_folder("", &names, open, handed_out)?;
+    search.read_folder("", &names, open)?;
     let archives = files
         .iter()
         .filter(|(name, path)| is_archive_name(name) && path.is_file());
     search.archives = archives.cloned().collect();
-    search.open_archives(handed_out)?;
+    search.open_archives()?;
     Ok(search)
 }
 
@@ -83,59 +75,49 @@ pub(super) fn search_archive(
     path: &Path,
     handed_out: &'static HandedOut,
 ) -> Result<Search, SubmissionError> {
-    let mut search = Search::new(path);
-    search.names = search.open_archive("", path, handed_out)?;
+    let mut search = Search::new(path, handed_out);
+    search.names = search.open_archive("", path)?;
     Ok(search)
 }
 
 impl Search {
     /// Opens the archives that were found.
-    fn open_archives(&mut self, handed_out: &'static HandedOut) -> Result<(), SubmissionError> {
+    fn open_archives(&mut self) -> Result<(), SubmissionError> {
         let mut archives = std::mem::take(&mut self.archives);
         archives.sort();
         for (name, path) in archives {
-            let found = self.open_archive(&name, &path, handed_out);
+            let found = self.open_archive(&name, &path);
             self.keep_error(&name, found)?;
         }
         Ok(())
     }
 
-    fn open_archive(
-        &mut self,
-        name: &str,
-        path: &Path,
-        handed_out: &'static HandedOut,
-    ) -> Result<Vec<String>, SubmissionError> {
+    fn open_archive(&mut self, name: &str, path: &Path) -> Result<Vec<String>, SubmissionError> {
         let read = disk::before(Operation::Read(path));
         read.map_err(|error| unreadable(path, error))?;
-        let found = archive::search(ArchiveBytes::File(path.to_owned()), name, self, handed_out);
+        let found = archive::search(ArchiveBytes::File(path.to_owned()), name, self, 1);
         self.check_bytes()?;
         found
     }
 
     /// Looks for task files in a folder, whose path is `below` the submission's, and everything
     /// below it.
-    fn visit(
-        &mut self,
-        folder: &Folder,
-        below: &str,
-        handed_out: &'static HandedOut,
-    ) -> Result<(), SubmissionError> {
+    fn visit(&mut self, folder: &Folder, below: &str) -> Result<(), SubmissionError> {
         let path = self.submission.join(below);
-        let io = |error: io::Error| unreadable(&path, error);
-        let names = list(folder, &path).map_err(io)?;
+        let names = list(folder, &path)?;
         self.spend(Limit::Files, names.len())?;
         let mut files = Vec::new();
         for name in &names {
             let shown = shown(name);
             let below = join(below, &shown);
-            match folder.kind(name).map_err(io)? {
+            let kind = folder.kind(name);
+            match kind.map_err(|error| unreadable(&path, error))? {
                 EntryKind::Link => {
                     self.links.push(below);
                     files.push(name.clone());
                 }
-                EntryKind::Folder if !choice::is_skipped(&shown, handed_out) => {
-                    self.visit_subfolder(folder, name, &below, handed_out)?;
+                EntryKind::Folder if !choice::is_skipped(&shown, self.handed_out) => {
+                    self.visit_subfolder(folder, name, &below)?;
                     files.push(name.clone());
                 }
                 EntryKind::File if is_archive_name(&shown) => {
@@ -148,8 +130,7 @@ impl Search {
         if below.is_empty() {
             self.names = names.iter().map(|name| shown(name)).collect();
         }
-        let open = |name: &OsStr| open(folder, &path, name);
-        self.read_folder(below, &files, open, handed_out)
+        self.read_folder(below, &files, |name| open(folder, &path, name))
     }
 
     fn visit_subfolder(
@@ -157,16 +138,12 @@ impl Search {
         folder: &Folder,
         name: &OsStr,
         path: &str,
-        handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        let found = if path.matches('/').count() >= MAX_DEPTH {
-            Err(SubmissionError::TooMany(
-                self.submission.clone(),
-                Limit::Levels,
-            ))
+        let found = if path.matches('/').count() >= Limit::Levels.most() {
+            Err(self.too_many(Limit::Levels))
         } else {
             match folder.subfolder(name) {
-                Ok(Some(subfolder)) => return self.visit(&subfolder, path, handed_out),
+                Ok(Some(subfolder)) => return self.visit(&subfolder, path),
                 Ok(None) => Ok(()),
                 Err(error) => Err(unreadable(Path::new(path), error)),
             }
@@ -180,27 +157,24 @@ impl Search {
         path: &str,
         names: &[OsString],
         open: impl Fn(&OsStr) -> io::Result<Option<File>>,
-        handed_out: &'static HandedOut,
     ) -> Result<(), SubmissionError> {
-        let mut folder = FoundFolder::new(path.to_owned());
+        let mut folder = FoundFolder {
+            path: path.to_owned(),
+            ..FoundFolder::default()
+        };
         for name in names {
             let shown = shown(name);
             if is_archive_name(&shown) {
-            } else if is_read(&shown, handed_out) {
+            } else if self.is_read(&shown) {
                 self.spend(Limit::Copies, 1)?;
-                let read = read_file(
-                    open(name),
-                    handed_out
-                        .task_file(&shown)
-                        .map_or("a copy", |file| file.name),
-                );
+                let read = read_file(open(name));
                 let read = read.map_err(|error| unreadable(&self.submission.join(path), error))?;
                 folder.read.push((shown, read));
             } else {
                 folder.others.push(shown);
             }
         }
-        self.add_folder(folder, handed_out)
+        self.add_folder(folder)
     }
 }
 
@@ -209,9 +183,13 @@ fn shown(name: &OsStr) -> String {
     name.to_string_lossy().into_owned()
 }
 
-fn list(folder: &Folder, path: &Path) -> io::Result<Vec<OsString>> {
-    disk::before(Operation::List(path))?;
-    folder.names()
+fn open_folder(path: &Path) -> Result<Folder, SubmissionError> {
+    Folder::open(path).map_err(|error| unreadable(path, error))
+}
+
+fn list(folder: &Folder, path: &Path) -> Result<Vec<OsString>, SubmissionError> {
+    let names = disk::before(Operation::List(path)).and_then(|()| folder.names());
+    names.map_err(|error| unreadable(path, error))
 }
 
 fn open(folder: &Folder, path: &Path, name: &OsStr) -> io::Result<Option<File>> {
@@ -233,23 +211,19 @@ fn unreadable(path: &Path, error: io::Error) -> SubmissionError {
 }
 
 /// Reads a file. The outer error is the machine's; the inner one costs the file's points.
-fn read_file(
-    opened: io::Result<Option<File>>,
-    name: &'static str,
-) -> io::Result<Result<Vec<u8>, TaskFileError>> {
+fn read_file(opened: io::Result<Option<File>>) -> io::Result<FileContents> {
     let read = || {
         let Some(file) = opened? else {
-            return Ok(Err(TaskFileError::NotRegular(name)));
+            return Ok(Err(TaskFileError::NotRegular));
         };
         let mut bytes = Vec::new();
         file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
         Ok(Ok(bytes))
     };
     match read() {
-        Err(error) if is_about_file(&error) => Ok(Err(TaskFileError::Unreadable {
-            name,
-            why: error.kind().to_string(),
-        })),
+        Err(error) if is_about_file(&error) => {
+            Ok(Err(TaskFileError::Unreadable(error.kind().to_string())))
+        }
         read => read,
     }
 }

@@ -23,7 +23,7 @@ fn faults() -> [(Fault, Verdict); 4] {
 /// Every reason why a file is not compiled.
 fn reasons() -> [NotCompiled; 4] {
     [
-        NotCompiled::Unreadable(TaskFileError::Missing("bbox.rs")),
+        NotCompiled::Unreadable(TaskFileError::Missing),
         NotCompiled::MissingDeclaration("struct BBox"),
         NotCompiled::Error {
             text: "error: a\tmistake\u{1b}".to_owned(),

@@ -130,10 +130,7 @@ fn limits_how_much_an_archive_bomb_inflates() {
     let files: Files = &[("bvh.rs", &zeros), ("sphere.rs", b"fine")];
     for bomb in [zip(files), gzip(&tar(files))] {
         let submission = collect("bomb", &bomb).unwrap();
-        assert_eq!(
-            *text(&submission, "bvh.rs"),
-            Err(TaskFileError::TooLong("bvh.rs"))
-        );
+        assert_eq!(*text(&submission, "bvh.rs"), Err(TaskFileError::TooLong));
         assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
     }
     // Members of a tar are inflated even if they are not requested. A gzip file may consist of several

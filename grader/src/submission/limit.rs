@@ -1,0 +1,57 @@
+//! The limits on what collecting one submission may read, in total, over all of its folders and
+//! archives, and archives in archives. They are numbers of files and bytes, and not times, so that they
+//! do not depend on the machine.
+
+use std::fmt;
+
+/// A limited quantity of a submission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Limit {
+    /// Files and folders, in folders and in archives.
+    Files,
+    /// Levels of folders inside each other.
+    Levels,
+    /// Archives.
+    Archives,
+    /// Folders with task files.
+    Folders,
+    /// Files whose names resemble those of task files.
+    Copies,
+    /// Bytes that are read from archives, compressed and inflated.
+    Bytes,
+}
+
+impl Limit {
+    /// Returns how much may be read.
+    pub(super) fn most(self) -> usize {
+        match self {
+            Limit::Files => 50_000,
+            Limit::Levels => 12,
+            Limit::Archives => 32,
+            Limit::Folders => 64,
+            Limit::Copies => 200,
+            Limit::Bytes => 1 << 30,
+        }
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let most = self.most();
+        let things = match self {
+            Limit::Files => "files and folders",
+            Limit::Levels => return f.write_str("too many files and folders inside each other"),
+            Limit::Archives => "archives",
+            Limit::Folders => "folders with task files",
+            Limit::Copies => "copies of task files",
+            Limit::Bytes => {
+                let mebibytes = most >> 20;
+                return write!(
+                    f,
+                    "too many bytes in its archives (more than {mebibytes} MiB)"
+                );
+            }
+        };
+        write!(f, "too many {things} (more than {most})")
+    }
+}

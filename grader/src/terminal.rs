@@ -12,6 +12,7 @@ use crate::grade::report_files::ReportFiles;
 use crate::grade::{GradedSubmission, Prepared, default_folder, grade_prepared};
 use crate::machine::desktop;
 use crate::machine::printing::{print, print_commands, print_line};
+use crate::report::html::Reload;
 use crate::report::next_step::next_step;
 use crate::report::text::report;
 use crate::workspace::book::Book;
@@ -78,7 +79,7 @@ fn find_cached_report(
         return Ok(None);
     }
     let folder = default_folder(&prepared.workspace, &prepared.submission);
-    let files = ReportFiles::without_reload(&folder);
+    let files = ReportFiles::new(&folder, Reload::Never);
     // The submission is compared first because it changes most often: after an edit, the slower
     // steps below are skipped.
     let cached = CachedReport::read(&files).filter(|cached| cached.is_for(&prepared.submission));

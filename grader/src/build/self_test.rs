@@ -2,15 +2,13 @@
 //! that submissions get, instead of querying the system's features. A sandbox that cannot be tested
 //! counts as unavailable.
 
-use std::io;
-
 use tempfile::TempDir;
 
 use crate::build::Builder;
 use crate::build::build_dir::BuildDir;
 use crate::build::source_crate::{CompileOutcome, CrateKind};
 use crate::build::trial;
-use crate::machine::files::{self, PathError};
+use crate::machine::files;
 use crate::machine::system;
 
 /// Source of a program that attempts what no submission may do.
@@ -23,39 +21,36 @@ const SECRET: &str = "a secret that no submission may read";
 /// The reason why an isolation level is not available.
 #[derive(Debug, thiserror::Error)]
 pub enum SelfTestError {
-    /// A file of the test cannot be written.
-    #[error(transparent)]
-    File(#[from] PathError),
-    /// A part of the sandbox cannot be set up.
+    /// A part of the sandbox cannot be set up, or a file of the test cannot be written.
     #[error("{0}")]
-    Setup(io::Error),
+    Setup(String),
     /// The compiler fails in the sandbox.
     #[error("cannot compile and statically link a program in the sandbox: {0}")]
     NotCompiled(String),
-    /// The compiler can read files that it must not read.
-    #[error("the compiler can read files that submissions must not see")]
-    CompilerCanRead,
-    /// A program can do something that it must not do.
-    #[error("a submission can {0}")]
-    ProgramCan(String),
-    /// The attacking program did not finish.
-    #[error("the program that tests the sandbox did not finish: {0}")]
-    Incomplete(String),
+    /// The compiler or a program can do what it must not do, or the test did not finish.
+    #[error("{0}")]
+    Unsafe(String),
+}
+
+impl SelfTestError {
+    fn setup(error: impl ToString) -> Self {
+        SelfTestError::Setup(error.to_string())
+    }
 }
 
 impl Builder {
     /// Tests the sandbox in which submissions are compiled and run.
     pub fn test_sandbox(&self) -> Result<(), SelfTestError> {
-        let work = BuildDir::new_in(&self.folder)?;
+        let work = BuildDir::new_in(&self.folder).map_err(SelfTestError::setup)?;
         // This folder contains a file that every user of the machine can read without a sandbox.
-        let public_folder = TempDir::new().map_err(SelfTestError::Setup)?;
+        let public_folder = TempDir::new().map_err(SelfTestError::setup)?;
         let key = public_folder.path().join("key");
-        system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::Setup)?;
-        files::write(&key, SECRET)?;
+        system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::setup)?;
+        files::write(&key, SECRET).map_err(SelfTestError::setup)?;
 
         let compile = |name, text: &str, kind| {
             let compiled = self.rustc.compile_text(work.path(), name, text, kind);
-            compiled.map_err(SelfTestError::Setup)
+            compiled.map_err(SelfTestError::setup)
         };
         let program = compile("attempts", ATTACK_PROGRAM, CrateKind::Program)?;
         let program = program.into_result().map_err(SelfTestError::NotCompiled)?;
@@ -63,18 +58,19 @@ impl Builder {
         match compile("reads", &reads, CrateKind::Library)? {
             CompileOutcome::Errors(errors) if !errors[0].text().contains(SECRET) => {}
             CompileOutcome::Done(_) | CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
-                return Err(SelfTestError::CompilerCanRead);
+                let why = "the compiler can read files that submissions must not see";
+                return Err(SelfTestError::Unsafe(why.to_owned()));
             }
         }
         let input = format!("{}\n", key.display());
         let output = trial::run(&self.rustc.sandbox, &program, &input);
-        let output = output.map_err(SelfTestError::Setup)?;
-        match output.lines().next() {
-            Some(END) => Ok(()),
-            Some(what) if output.ends_with("end\n") => {
-                Err(SelfTestError::ProgramCan(what.to_owned()))
+        let output = output.map_err(SelfTestError::setup)?;
+        Err(SelfTestError::Unsafe(match output.lines().next() {
+            Some(END) => return Ok(()),
+            Some(what) if output.ends_with("end\n") => format!("a submission can {what}"),
+            Some(_) | None => {
+                format!("the program that tests the sandbox did not finish: {output}")
             }
-            Some(_) | None => Err(SelfTestError::Incomplete(output)),
-        }
+        }))
     }
 }

@@ -9,7 +9,6 @@
 
 use std::fs;
 use std::io;
-use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -29,18 +28,14 @@ const AROUND: &str = "around.rs";
 const PROBE: &str = "probe.rs";
 
 /// The compiled parts, and the sources that connect a submission to them.
+///
+/// The sources of the two crates that are built around a submission's file are kept with the reference
+/// and not embedded in this program, because students have the grader's sources, and the code that
+/// replaces functions of the file must stay hidden.
 #[derive(Clone, Debug)]
 pub struct ReferenceParts {
     spec: &'static SubstitutedFile,
     folder: PathBuf,
-    scaffold: Scaffold,
-}
-
-/// Sources of the two crates that are built around a submission's file. They are kept with the
-/// reference and not embedded in this program, because students have the grader's sources, and the
-/// code that replaces functions of the file must stay hidden.
-#[derive(Clone, Debug)]
-struct Scaffold {
     /// The root of the crate that contains the submission's file.
     root: String,
     /// The root of the crate that answers questions, compiled separately from the submission.
@@ -63,23 +58,17 @@ impl ReferenceParts {
             sandbox: Sandbox::none(),
             ..rustc.clone()
         };
-        let texts = spec.parts.iter();
-        let texts = texts.map(|name| files::read_to_string(reference.join(name)));
-        let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
-        let parts: Vec<(&str, &str)> = iter::zip(spec.parts.iter().copied(), &texts)
-            .map(|(name, text)| (name, text.as_str()))
-            .collect();
+        let read = |name: &&'static str| Ok((*name, files::read_to_string(reference.join(name))?));
+        let parts = spec.parts.iter().map(read);
+        let parts: Vec<(&str, String)> = parts.collect::<Result<_, Error>>()?;
         let scaffold = reference.join("..").join(spec.folder());
         let root = parts_root(spec);
-        let parts_folder = cache.join(cache_key(&parts, &root, rustc));
         let parts_of_file = ReferenceParts {
             spec,
-            folder: parts_folder,
-            scaffold: Scaffold {
-                root: files::read_to_string(scaffold.join(AROUND))?,
-                probe: files::read_to_string(scaffold.join(PROBE))?,
-                wrapper: files::read_to_string(scaffold.join(spec.file))?,
-            },
+            folder: cache.join(cache_key(&parts, &root, rustc)),
+            root: files::read_to_string(scaffold.join(AROUND))?,
+            probe: files::read_to_string(scaffold.join(PROBE))?,
+            wrapper: files::read_to_string(scaffold.join(spec.file))?,
         };
         let folder = &parts_of_file.folder;
         if folder.is_dir() {
@@ -98,14 +87,11 @@ impl ReferenceParts {
 
     /// Returns a hash of everything that the parts and the scaffold depend on.
     pub fn content_hash(&self) -> ContentHash {
-        let folder = ContentHash::default().with(self.folder.as_os_str().as_encoded_bytes());
-        let Scaffold {
-            root,
-            probe,
-            wrapper,
-        } = &self.scaffold;
-        let texts = [root, probe, wrapper].into_iter();
-        texts.fold(folder, |content, text| content.with(text.as_bytes()))
+        ContentHash::default()
+            .with(self.folder.as_os_str().as_encoded_bytes())
+            .with(self.root.as_bytes())
+            .with(self.probe.as_bytes())
+            .with(self.wrapper.as_bytes())
     }
 
     /// Returns the name of the submission's file.
@@ -136,7 +122,7 @@ fn parts_root(spec: &SubstitutedFile) -> String {
 }
 
 /// Returns a hash of everything that the parts depend on: their sources and the compiler.
-fn cache_key(parts: &[(&str, &str)], root: &str, rustc: &Rustc) -> String {
+fn cache_key(parts: &[(&str, String)], root: &str, rustc: &Rustc) -> String {
     let compiler_and_root = ContentHash::default()
         .with(rustc.identity())
         .with(root.as_bytes());
@@ -149,14 +135,15 @@ fn cache_key(parts: &[(&str, &str)], root: &str, rustc: &Rustc) -> String {
 }
 
 fn compile_parts(
-    parts: &[(&str, &str)],
+    parts: &[(&str, String)],
     root: &str,
     folder: &Path,
     rustc: &Rustc,
 ) -> Result<(), Error> {
-    for (name, text) in parts.iter().chain([&("parts.rs", root)]) {
+    for (name, text) in parts {
         files::write(folder.join(name), text)?;
     }
+    files::write(folder.join("parts.rs"), root)?;
     let library = Crate::new("parts", CrateKind::Library, folder, "parts.rs");
     let compiled = rustc.compile(&library).at("compile in", folder)?;
     let message = "the reference does not compile: see `cargo check -p reference`";
@@ -202,25 +189,20 @@ impl Substitution {
 
     fn compile(&self) -> io::Result<Option<PathBuf>> {
         let content = self.parts.content_hash().with(self.source.as_bytes());
-        Ok(
-            match self
-                .rustc
-                .compile_cached(&content, || self.compile_uncached())?
-            {
-                CompileOutcome::Done(program) => Some(program),
-                CompileOutcome::Errors(errors)
-                    if errors
-                        .iter()
-                        .any(|error| error.blamed_file(self.handed_out.files).is_some()) =>
-                {
-                    None
-                }
-                CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
-                    self.starter_program()?;
-                    None
-                }
-            },
-        )
+        let compiled = self
+            .rustc
+            .compile_cached(&content, || self.compile_uncached());
+        let is_explained = match compiled? {
+            CompileOutcome::Done(program) => return Ok(Some(program)),
+            CompileOutcome::Errors(errors) => errors
+                .iter()
+                .any(|error| error.blamed_file(self.handed_out.files).is_some()),
+            CompileOutcome::Failed(_) => false,
+        };
+        if !is_explained {
+            self.starter_program()?;
+        }
+        Ok(None)
     }
 
     /// Compiles the starter's file with the parts, if no error explains why the submission's file does
@@ -247,15 +229,11 @@ impl Substitution {
 
     fn compile_uncached(&self) -> io::Result<CompileOutcome> {
         fs::create_dir_all(&self.folder)?;
-        let Scaffold {
-            root,
-            probe,
-            wrapper,
-        } = &self.parts.scaffold;
-        fs::write(self.folder.join(AROUND), root)?;
+        let parts = &self.parts;
+        fs::write(self.folder.join(AROUND), &parts.root)?;
         fs::write(self.folder.join(self.file.name), &self.source)?;
         let submission = self.rustc.compile(&Crate {
-            links: &[("parts", &self.parts.metadata())],
+            links: &[("parts", &parts.metadata())],
             ..Crate::new("submission", CrateKind::Library, &self.folder, AROUND)
         })?;
         let submission = match submission {
@@ -266,17 +244,14 @@ impl Substitution {
         let joined = self.folder.join("joined");
         fs::create_dir_all(&joined)?;
         let given = self.handed_out.given.iter();
-        let given = given.filter(|file| self.parts.spec.given.contains(&file.name));
-        let scaffold = [(PROBE, probe.as_str()), (self.file.name, wrapper.as_str())];
+        let given = given.filter(|file| parts.spec.given.contains(&file.name));
+        let scaffold = [(PROBE, &*parts.probe), (self.file.name, &*parts.wrapper)];
         for (name, text) in given.map(|file| (file.name, file.text)).chain(scaffold) {
             fs::write(joined.join(name), text)?;
         }
         self.rustc.compile(&Crate {
-            links: &[
-                ("submission", &submission),
-                ("parts", &self.parts.library()),
-            ],
-            dependency_folder: Some(&self.parts.folder),
+            links: &[("submission", &submission), ("parts", &parts.library())],
+            dependency_folder: Some(&parts.folder),
             ..Crate::new("probe", CrateKind::Program, &joined, PROBE)
         })
     }

@@ -75,10 +75,8 @@ fn classroom50_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
 fn grader_zip_problems(contents: &PackageContents, handed_out: &HandedOut) -> Vec<String> {
     let mut problems = contents.damage_problems();
     problems.extend(contents.empty_folder_problems(&REQUIRED_FOLDERS, "classroom50"));
-    match (
-        contents.bytes_of(POLICY),
-        ExamSource::Practice.load(handed_out),
-    ) {
+    let practice = ExamSource::Practice.load(handed_out);
+    match (contents.inspected.get(POLICY), practice) {
         (Some(policy), Ok(practice)) => problems.extend(policy_problem(policy, &practice.exam)),
         (_, Err(error)) => problems.push(error.to_string()),
         (None, _) => problems.push(format!(

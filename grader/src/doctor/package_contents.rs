@@ -82,11 +82,6 @@ impl PackageContents {
         damaged.collect()
     }
 
-    /// Returns the contents of an inspected file.
-    pub(super) fn bytes_of(&self, name: &str) -> Option<&[u8]> {
-        self.inspected.get(name).map(Vec::as_slice)
-    }
-
     /// Returns whether this folder has any entries.
     pub(super) fn has_files_in(&self, folder: &str) -> bool {
         let mut names = self.permissions.keys();

@@ -148,14 +148,8 @@ fn checkout() -> PathBuf {
 /// Returns the folder of the task files relative to the checkout. The result is empty if the files are
 /// not below the checkout.
 fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut) -> String {
-    let folders = handed_out.assignment.folders.iter();
-    let mut folders = folders.map(|folder| submitted.join(folder));
-    let has_task_files = |folder: &PathBuf| {
-        let mut files = handed_out.files.iter();
-        files.any(|file| folder.join(file.name).symlink_metadata().is_ok())
-    };
-    let folder = folders.find(has_task_files);
-    let folder = folder.and_then(|folder| folder.canonicalize().ok());
+    let below = handed_out.folders_in(submitted).next();
+    let folder = below.and_then(|below| submitted.join(below).canonicalize().ok());
     let relative = folder.and_then(|folder| {
         let relative = folder.strip_prefix(checkout.canonicalize().ok()?).ok()?;
         let relative = relative.to_string_lossy().replace('\\', "/");
@@ -193,22 +187,18 @@ mod tests {
     /// The folder with the starter's files, relative to the package, in which Cargo runs the tests.
     const STARTER: &str = "starter";
 
-    fn specs(formats: &[&str]) -> Vec<OutputSpec> {
-        formats.iter().map(|text| text.parse().unwrap()).collect()
-    }
-
     fn outputs(formats: &[&str], folder: &Path) -> Outputs {
         let starter = Path::new(env!("CARGO_MANIFEST_DIR")).join(STARTER);
         let submission = Submission::collect(&starter, &RAYS).unwrap();
-        let hints = HintDetail::Nudge;
-        Outputs::new(
-            &specs(formats),
+        let specs: Vec<_> = formats.iter().map(|text| text.parse().unwrap()).collect();
+        let outputs = Outputs::new(
+            &specs,
             folder,
             STARTER.as_ref(),
             &submission,
-            hints,
-        )
-        .unwrap()
+            HintDetail::Nudge,
+        );
+        outputs.unwrap()
     }
 
     #[test]
@@ -230,9 +220,8 @@ mod tests {
     fn without_outputs_no_view_is_made() {
         let outputs = Outputs::default();
         assert!(outputs.is_empty());
-        outputs
-            .write(&|| panic!("nothing is to be written"))
-            .unwrap();
+        let view = || panic!("nothing is to be written");
+        outputs.write(&view).unwrap();
     }
 
     #[test]
@@ -339,11 +328,8 @@ mod tests {
     #[test]
     fn each_method_of_a_file_has_its_line() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(
-            folder.path().join("sphere.rs"),
-            "impl Sphere {\n  pub fn hit(&self) {}\n}",
-        )
-        .unwrap();
+        let sphere = "impl Sphere {\n  pub fn hit(&self) {}\n}";
+        fs::write(folder.path().join("sphere.rs"), sphere).unwrap();
         let submission = Submission::collect(folder.path(), &RAYS).unwrap();
         let methods = find_methods(&submission);
         let lines: Vec<Option<u32>> = methods.values().map(|method| method.line).collect();

@@ -3,7 +3,7 @@
 use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::format::item_view::{ItemView, shows_everything};
-use crate::format::sentence::{Disclosure, Sentence};
+use crate::format::sentence::sentence;
 use crate::policy::Visibility;
 use crate::score::rerun_command::RerunCommand;
 use crate::score::{
@@ -67,44 +67,42 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
 /// decided who may see it.
 pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
     let verdict = without_hidden_id(&item.verdict, hidden);
-    let sentence = match Disclosure::new(&verdict, item.carried_forward, visibility) {
-        Disclosure::Everything => {
+    let sentence = sentence(&verdict, item.carried_forward);
+    match visibility {
+        Visibility::All => {
             let names_hidden = hidden.iter().any(|id| item.message.contains(id));
-            let sentence = Sentence::new(&verdict, item.carried_forward).to_string();
             let message = if names_hidden {
-                sentence
+                &sentence
             } else {
-                item.message.clone()
+                &item.message
             };
-            return ItemScore {
-                message: sanitize(&message, usize::MAX),
+            ItemScore {
+                message: sanitize(message, usize::MAX),
                 verdict,
                 evidence: item.evidence.as_ref().map(sanitized_evidence),
                 staff: None,
                 ..item.clone()
-            };
+            }
         }
-        Disclosure::Points => return redact_to_points(item),
-        Disclosure::Feedback(sentence) => sentence.to_string(),
-    };
-    let has_wrong_answer = verdict.kind() == VerdictKind::Failed;
-    ItemScore {
-        id: item.id.clone(),
-        title: item.title.clone(),
-        points: item.points,
-        max_points: item.max_points,
-        verdict,
-        message: sentence,
-        at: None,
-        look: item.look.clone().filter(|_| has_wrong_answer),
-        // The program can choose which of them it gets.
-        clue: None,
-        section: item.section.clone(),
-        hints: item.hints.clone(),
-        evidence: None,
-        carried_forward: item.carried_forward,
-        pictures: Vec::new(),
-        staff: None,
+        Visibility::Points | Visibility::Hidden => redact_to_points(item),
+        Visibility::Feedback | Visibility::AfterDue | Visibility::AfterPublished => ItemScore {
+            id: item.id.clone(),
+            title: item.title.clone(),
+            points: item.points,
+            max_points: item.max_points,
+            message: sentence,
+            at: None,
+            look: (item.look.clone()).filter(|_| verdict.kind() == VerdictKind::Failed),
+            verdict,
+            // The program can choose which of them it gets.
+            clue: None,
+            section: item.section.clone(),
+            hints: item.hints.clone(),
+            evidence: None,
+            carried_forward: item.carried_forward,
+            pictures: Vec::new(),
+            staff: None,
+        },
     }
 }
 
@@ -148,19 +146,17 @@ fn without_hidden_id(verdict: &Verdict, hidden: &[String]) -> Verdict {
 /// Keeps only the id, the title and the points of an item, with a verdict that follows from the
 /// points.
 fn redact_to_points(item: &ItemScore) -> ItemScore {
+    let is_pending = item.verdict == Verdict::Pending;
     ItemScore {
         points: item.points,
-        verdict: if item.verdict == Verdict::Pending {
-            Verdict::Pending
-        } else {
-            verdict_from_points(item.points, item.max_points)
-        },
+        verdict: verdict_from_points(is_pending, item.points, item.max_points),
         ..ItemScore::pending(&item.id, &item.title, item.max_points)
     }
 }
 
-fn verdict_from_points(points: u32, max_points: u32) -> Verdict {
+fn verdict_from_points(is_pending: bool, points: u32, max_points: u32) -> Verdict {
     match points {
+        _ if is_pending => Verdict::Pending,
         0 => Verdict::Wrong,
         _ if points < max_points => Verdict::Partial,
         _ => Verdict::Pass,
@@ -188,12 +184,8 @@ fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
         },
         points,
         max_points,
-        verdict: if is_pending {
-            Verdict::Pending
-        } else {
-            verdict_from_points(points, max_points)
-        },
-        ..redact_to_points(first)
+        verdict: verdict_from_points(is_pending, points, max_points),
+        ..ItemScore::pending(&first.id, &first.title, max_points)
     });
     items
 }
@@ -238,23 +230,14 @@ mod tests {
         assert_eq!(view.visible.rerun_command, RerunCommand::default());
     }
 
+    /// Students know the others.
     #[test]
-    fn a_hidden_item_is_named_by_its_task() {
-        let view = sample::restricted();
-        let blocked = item(&view, "traverse.closest_hit");
-        let by = "bbox".to_owned();
-        assert_eq!(blocked.verdict, Verdict::Blocked { by });
-        assert_eq!(blocked.message, "depends on bbox: fix that first");
-        let carried = item(&view, "traverse.any_hit");
-        assert!(!carried.message.contains("bbox") && !carried.message.is_empty());
-        // Only hidden ones: students know the others.
-        let by_other = Verdict::Blocked {
-            by: "sphere.near_side".to_owned(),
-        };
-        assert_eq!(
-            without_hidden_id(&by_other, &["bbox.flat".to_owned()]),
-            by_other
-        );
+    fn only_a_hidden_item_is_named_by_its_task() {
+        let hidden = ["bbox.flat".to_owned()];
+        for (id, named) in [("bbox.flat", "bbox"), ("bbox.slabs", "bbox.slabs")] {
+            let [blocked, expected] = [id, named].map(|by| Verdict::Blocked { by: by.to_owned() });
+            assert_eq!(without_hidden_id(&blocked, &hidden), expected);
+        }
     }
 
     /// Printed text may repeat the questions of any item.
@@ -273,36 +256,24 @@ mod tests {
 
     #[test]
     fn a_verdict_follows_from_points() {
-        let verdicts = [0, 1, 2, 3].map(|points| verdict_from_points(points, 3));
+        let verdicts = [0, 1, 2, 3].map(|points| verdict_from_points(false, points, 3));
         let partial = Verdict::Partial;
-        assert_eq!(
-            verdicts,
-            [Verdict::Wrong, partial.clone(), partial, Verdict::Pass]
-        );
-        assert_eq!(verdict_from_points(0, 0), Verdict::Wrong);
+        let expected = [Verdict::Wrong, partial.clone(), partial, Verdict::Pass];
+        assert_eq!(verdicts, expected);
+        assert_eq!(verdict_from_points(false, 0, 0), Verdict::Wrong);
     }
 
     #[test]
     fn points_alone_still_tell_that_an_item_is_not_graded() {
-        let shown = |level: &str| {
+        for (level, id, verdict) in [
+            ("points", "traverse.any_hit", Verdict::Pending),
+            ("points", "traverse.closest_hit", Verdict::Wrong),
+            ("hidden", "traverse.not_shown", Verdict::Pending),
+        ] {
             let policy = format!("[visibility.items]\ntraverse = '{level}'");
-            sample::view(
-                &sample::of_final_exam(sample::unfinished_score()),
-                &policy,
-                0,
-            )
-        };
-        let points = shown("points");
-        assert_eq!(item(&points, "traverse.any_hit").verdict, Verdict::Pending);
-        assert_eq!(
-            item(&points, "traverse.closest_hit").verdict,
-            Verdict::Wrong
-        );
-        let hidden = shown("hidden");
-        assert_eq!(
-            item(&hidden, "traverse.not_shown").verdict,
-            Verdict::Pending
-        );
+            let score = sample::of_final_exam(sample::unfinished_score());
+            assert_eq!(item(&sample::view(&score, &policy, 0), id).verdict, verdict);
+        }
     }
 
     #[test]
@@ -312,20 +283,14 @@ mod tests {
             sample::view(&sample::of_final_exam(score), policy, 0)
         };
         let perfect = hidden(sample::perfect_score());
-        assert!(
-            perfect
-                .visible
-                .items()
-                .all(|item| item.verdict == Verdict::Pass)
-        );
+        let mut all = perfect.visible.items();
+        assert!(all.all(|item| item.verdict == Verdict::Pass));
         let partial = hidden(sample::score());
         let verdict = |id| item(&partial, id).verdict.clone();
         assert_eq!(verdict("sphere.not_shown"), Verdict::Partial);
         assert_eq!(verdict("triangle.not_shown"), Verdict::Wrong);
-        assert_eq!(
-            item(&partial, "bbox.not_shown").title,
-            "one item that is not shown"
-        );
+        let bbox = item(&partial, "bbox.not_shown");
+        assert_eq!(bbox.title, "one item that is not shown");
         let sphere = item(&partial, "sphere.not_shown");
         assert_eq!(sphere.title, "3 items that are not shown");
         assert_eq!((sphere.points, sphere.max_points), (3, 5));

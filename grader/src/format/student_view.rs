@@ -122,17 +122,14 @@ mod tests {
 
     #[test]
     fn a_task_is_open_only_if_all_of_its_items_are() {
-        let view = view("'triangle.edge' = 'points'");
-        assert_eq!(visibility(&view, "triangle.edge"), Visibility::Points);
-        assert_eq!(visibility(&view, "triangle.inside"), Visibility::Feedback);
-        assert_eq!(visibility(&view, "camera.corners"), Visibility::All);
-    }
-
-    #[test]
-    fn items_that_are_not_open_anyway_stay_as_they_are() {
-        let view = view("triangle = 'points'\n'triangle.edge' = 'hidden'");
-        assert_eq!(visibility(&view, "triangle.inside"), Visibility::Points);
-        assert_eq!(visibility(&view, "triangle.edge"), Visibility::Hidden);
+        let one = view("'triangle.edge' = 'points'");
+        assert_eq!(visibility(&one, "triangle.edge"), Visibility::Points);
+        assert_eq!(visibility(&one, "triangle.inside"), Visibility::Feedback);
+        assert_eq!(visibility(&one, "camera.corners"), Visibility::All);
+        // Items that are not open anyway stay as they are.
+        let all = view("triangle = 'points'\n'triangle.edge' = 'hidden'");
+        assert_eq!(visibility(&all, "triangle.inside"), Visibility::Points);
+        assert_eq!(visibility(&all, "triangle.edge"), Visibility::Hidden);
     }
 
     #[test]
@@ -154,40 +151,19 @@ mod tests {
     }
 
     #[test]
-    fn points_that_count_as_earned_need_no_explanation() {
-        assert_eq!(view("").counted_text(), None);
-        let late = sample::late().counted_text().unwrap();
-        assert!(late.starts_with("16 of 56 points count"), "{late}");
-    }
-
-    #[test]
     fn a_notice_counts_graded_items_only_if_none_is_hidden() {
         let notice = |policy: &str| {
             let score = sample::of_final_exam(sample::unfinished_score());
             sample::view(&score, policy, 0).unfinished_notice()
         };
-        let of = |count: &str| {
-            Some(format!(
-                "UNFINISHED: {count} items are graded; the others have no points yet"
-            ))
-        };
-        assert_eq!(notice(""), of("13 of 14"));
-        assert_eq!(
-            notice("[visibility.items]\nbbox = 'hidden'"),
-            of("only some")
-        );
-        assert_eq!(view("").unfinished_notice(), None);
-    }
-
-    #[test]
-    fn one_file_that_compiles_is_enough_to_be_graded() {
-        assert!(!view("").nothing_compiled());
-        let mut score = sample::score();
-        for task in &mut score.tasks {
-            for item in &mut task.items {
-                item.verdict = Verdict::NotCompiled;
-            }
+        for (policy, count) in [
+            ("", "13 of 14"),
+            ("[visibility.items]\nbbox = 'hidden'", "only some"),
+        ] {
+            let end = "items are graded; the others have no points yet";
+            let expected = format!("UNFINISHED: {count} {end}");
+            assert_eq!(notice(policy), Some(expected));
         }
-        assert!(sample::view(&score, "", 0).nothing_compiled());
+        assert_eq!(view("").unfinished_notice(), None);
     }
 }

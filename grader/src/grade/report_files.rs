@@ -51,11 +51,6 @@ impl ReportFiles {
         }
     }
 
-    /// Returns the report files in a folder, with a page that does not reload itself.
-    pub fn without_reload(folder: &Path) -> Self {
-        ReportFiles::new(folder, Reload::Never)
-    }
-
     /// Returns the paths of all files.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let own = [self.score.as_path(), self.page.as_path()];

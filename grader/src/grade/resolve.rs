@@ -25,13 +25,10 @@ pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Erro
 
 /// Returns how late the submission is, if the options name the platform's metadata.
 pub(super) fn lateness(options: &GradeOptions, policy: &Policy) -> Result<Lateness, Error> {
-    let submission_time = options
-        .gradescope_metadata
-        .as_deref()
-        .map(SubmissionTime::read);
-    let lateness = submission_time
-        .map(|read| read.map(|submission_time| policy.lateness_of(&submission_time)));
-    lateness.unwrap_or(Ok(Lateness::NONE))
+    Ok(match &options.gradescope_metadata {
+        Some(path) => policy.lateness_of(&SubmissionTime::read(path)?),
+        None => Lateness::NONE,
+    })
 }
 
 /// Returns the default folder for a submission's score.

@@ -9,6 +9,7 @@ mod rays;
 mod tokens;
 
 use std::fmt;
+use std::path::Path;
 
 use judging::assignment::{Assignment, TaskInfo};
 
@@ -132,6 +133,18 @@ impl HandedOut {
             Some((last, others)) => format!("{} and {last}", others.join(", ")),
             None => String::new(),
         }
+    }
+
+    /// Returns the folders, relative to a submission's, in which the assignment expects task files and
+    /// there are some.
+    pub fn folders_in(&self, submission: &Path) -> impl Iterator<Item = &'static str> {
+        let has_task_file = move |below: &&str| {
+            let folder = submission.join(below);
+            let mut names = self.file_names();
+            names.any(|name| folder.join(name).symlink_metadata().is_ok())
+        };
+        let folders = self.assignment.folders.iter().copied();
+        folders.filter(has_task_file)
     }
 
     /// Returns the given methods of a task file that differ from the starter in `text`. They are

@@ -9,7 +9,7 @@ use judging::exam_file::{self, ExamFile};
 
 use crate::error::Error;
 use crate::handed_out::HandedOut;
-use crate::machine::files::{self, AtPath, PathError};
+use crate::machine::files::{self, AtPath};
 
 /// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
 const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -71,13 +71,8 @@ impl ExamSource {
             ExamSource::Practice => Cow::Borrowed(handed_out.practice_exam.as_bytes()),
             ExamSource::StandardInput => Cow::Owned(read(Path::new("-"), io::stdin())?),
             ExamSource::File(path) => {
-                let file = files::open(path).map_err(|error| {
-                    Error::user(PathError {
-                        action: ACTION,
-                        ..error
-                    })
-                })?;
-                Cow::Owned(read(path, file)?)
+                let file = files::open(path).map_err(|error| error.of_action(ACTION));
+                Cow::Owned(read(path, file.map_err(Error::user)?)?)
             }
         })
     }

@@ -38,6 +38,11 @@ impl<T> AtPath<T> for io::Result<T> {
 }
 
 impl PathError {
+    /// Returns the error with other words between "cannot" and the path.
+    pub fn of_action(self, action: &'static str) -> Self {
+        PathError { action, ..self }
+    }
+
     /// Returns the system's message in the style of other messages: it starts in lower case and has
     /// no number. It also lacks the random name that the crate `tempfile` adds to it.
     pub fn reason(&self) -> String {
@@ -77,9 +82,16 @@ pub fn is_about_file(error: &io::Error) -> bool {
     )
 }
 
+/// Asks the disk, and then does something with a file or a folder.
+fn with_disk<T>(operation: Operation, act: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
+    disk::before(operation)?;
+    act()
+}
+
 /// Reads a file.
 pub fn read(path: impl AsRef<Path>) -> Result<Vec<u8>, PathError> {
-    read_file(path.as_ref()).at("read", path)
+    let path = path.as_ref();
+    with_disk(Operation::Read(path), || fs::read(path)).at("read", path)
 }
 
 /// Reads a text file.
@@ -98,40 +110,30 @@ pub fn read_if_exists(path: impl AsRef<Path>) -> Result<Option<String>, PathErro
 /// Opens a file for reading.
 pub fn open(path: impl AsRef<Path>) -> Result<File, PathError> {
     let path = path.as_ref();
-    let opened = disk::before(Operation::Read(path)).and_then(|()| File::open(path));
-    opened.at("read", path)
-}
-
-fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    disk::before(Operation::Read(path))?;
-    fs::read(path)
+    with_disk(Operation::Read(path), || File::open(path)).at("read", path)
 }
 
 fn read_text(path: &Path) -> io::Result<String> {
-    disk::before(Operation::Read(path))?;
-    fs::read_to_string(path)
+    with_disk(Operation::Read(path), || fs::read_to_string(path))
 }
 
 /// Returns the paths of a folder's entries, sorted.
 pub fn read_dir(folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, PathError> {
-    let list = || {
-        disk::before(Operation::List(folder.as_ref()))?;
-        let entries = fs::read_dir(&folder)?;
+    let folder = folder.as_ref();
+    let listed = with_disk(Operation::List(folder), || {
+        let entries = fs::read_dir(folder)?;
         entries.map(|entry| Ok(entry?.path())).collect()
-    };
-    let listed: io::Result<Vec<PathBuf>> = list();
-    let mut paths = listed.at("read", &folder)?;
+    });
+    let mut paths: Vec<PathBuf> = listed.at("read", folder)?;
     paths.sort();
     Ok(paths)
 }
 
 /// Writes a file into an existing folder.
 pub fn write(path: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), PathError> {
-    let write = |path: &Path, contents: &[u8]| {
-        disk::before(Operation::Write(path, contents))?;
-        fs::write(path, contents)
-    };
-    write(path.as_ref(), contents.as_ref()).at("write", path)
+    let (path, contents) = (path.as_ref(), contents.as_ref());
+    let operation = Operation::Write(path, contents);
+    with_disk(operation, || fs::write(path, contents)).at("write", path)
 }
 
 /// Writes a file, and creates its folder if it does not exist.
@@ -152,20 +154,15 @@ pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), PathErro
 
 /// Creates a folder, and those around it, if they do not exist.
 pub fn create_dir_all(folder: impl AsRef<Path>) -> Result<(), PathError> {
-    let create = |folder: &Path| {
-        disk::before(Operation::CreateFolder(folder))?;
-        fs::create_dir_all(folder)
-    };
-    create(folder.as_ref()).at("create", folder)
+    let folder = folder.as_ref();
+    let operation = Operation::CreateFolder(folder);
+    with_disk(operation, || fs::create_dir_all(folder)).at("create", folder)
 }
 
 /// Removes a file if it exists.
 pub fn remove_if_exists(path: impl AsRef<Path>) -> Result<(), PathError> {
-    let remove = |path: &Path| {
-        disk::before(Operation::Remove(path))?;
-        fs::remove_file(path)
-    };
-    match remove(path.as_ref()) {
+    let path = path.as_ref();
+    match with_disk(Operation::Remove(path), || fs::remove_file(path)) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
         removed => removed.at("remove", path),
     }
@@ -177,20 +174,19 @@ mod tests {
 
     fn message(source: &str) -> String {
         let failed: io::Result<()> = Err(io::Error::other(source));
-        failed
-            .at("write", "out/score.json")
-            .unwrap_err()
-            .to_string()
+        let error = failed.at("write", "out/score.json").unwrap_err();
+        let message = error.to_string();
+        let reason = message.strip_prefix("cannot write out/score.json: ");
+        reason.expect("it names the action and the path").to_owned()
     }
 
     #[test]
     fn names_the_action_and_the_path() {
         let error = read_to_string("nowhere/scene.json").unwrap_err();
+        let message = error.to_string();
         assert!(
-            error
-                .to_string()
-                .starts_with("cannot read nowhere/scene.json: "),
-            "{error}"
+            message.starts_with("cannot read nowhere/scene.json: "),
+            "{message}"
         );
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("file");
@@ -202,27 +198,22 @@ mod tests {
 
     #[test]
     fn messages_are_in_lower_case_without_numbers_and_names_of_temporary_files() {
-        assert_eq!(
-            message("No space left on device (os error 28)"),
-            "cannot write out/score.json: no space left on device"
-        );
-        assert_eq!(
-            message("Permission denied (os error 13) at path \"/out/.tmpZ5\""),
-            "cannot write out/score.json: permission denied"
-        );
-        assert_eq!(
-            message("I/O error (os error 5)"),
-            "cannot write out/score.json: I/O error"
-        );
-    }
-
-    #[test]
-    fn messages_of_our_own_are_unchanged() {
-        for own in [
-            "Cargo.toml is missing",
-            "cannot mount /x (os error 1): use another level",
+        let mount = "cannot mount /x (os error 1): use another level";
+        for (system, shown) in [
+            (
+                "No space left on device (os error 28)",
+                "no space left on device",
+            ),
+            (
+                "Permission denied (os error 13) at path \"/out/.tmpZ5\"",
+                "permission denied",
+            ),
+            ("I/O error (os error 5)", "I/O error"),
+            // Those of our own are unchanged.
+            ("Cargo.toml is missing", "Cargo.toml is missing"),
+            (mount, mount),
         ] {
-            assert_eq!(message(own), format!("cannot write out/score.json: {own}"));
+            assert_eq!(message(system), shown);
         }
     }
 

@@ -143,63 +143,37 @@ impl CountedPoints {
 
 #[cfg(test)]
 mod tests {
+    use super::CountedPoints;
     use crate::policy::{Lateness, Policy};
-
-    /// Returns the explanation for 90 of 100 points, this many hours late.
-    fn explanation(policy: &str, hours: u64) -> String {
-        counted(policy, 90, 0, hours).explanation()
-    }
-
-    #[test]
-    fn explains_each_consequence_of_being_late() {
-        let late = |rules: &str| explanation(&format!("[late]\n{rules}"), 47);
-        insta::assert_snapshot!(
-            [
-                explanation("[points]\nout_of = 50", 0),
-                late(""),
-                late("free_days = 2\npercent_per_day = 10"),
-                late("free_days = 1\npercent_per_day = 10"),
-                late("percent_per_day = 10\npercent_of = 'possible'"),
-                late("percent_per_day = 10\nmost_percent = 50"),
-                late("closed_after_days = 1"),
-                late("closed_after_days = 0"),
-            ]
-            .join("\n")
-        );
-    }
 
     /// Returns the points of a submission that earned this many of 100, which its staff changed by
     /// `manual`, and which was handed in this many hours late.
-    fn counted(policy: &str, earned: u32, manual: i32, hours: u64) -> super::CountedPoints {
+    fn counted(policy: &str, earned: u32, manual: i32, hours: u64) -> CountedPoints {
         let policy: Policy = toml::from_str(policy).unwrap();
         let late = Lateness::of_seconds(hours * 60 * 60);
         policy.counted_points_with(earned, 100, manual, late)
     }
 
     #[test]
-    fn names_the_points_given_by_hand() {
-        let explanation = |manual| counted("", 90, manual, 0).explanation();
-        insta::assert_snapshot!([1, 2, -1, -2].map(explanation).join("\n"), @r"
-        91 of 100 points count towards the grade: 90 of 100 points earned, 1 point added by hand.
-        92 of 100 points count towards the grade: 90 of 100 points earned, 2 points added by hand.
-        89 of 100 points count towards the grade: 90 of 100 points earned, 1 point taken off by hand.
-        88 of 100 points count towards the grade: 90 of 100 points earned, 2 points taken off by hand.
-        ");
-    }
-
-    #[test]
-    fn names_days_in_the_singular_and_in_the_plural() {
-        let late = |rules: &str, hours| explanation(&format!("[late]\n{rules}"), hours);
-        let texts = [
-            late("percent_per_day = 10", 1),
-            late("percent_per_day = 10\nfree_days = 2", 49),
-            late("closed_after_days = 2", 49),
+    fn explains_what_staff_changed_and_each_consequence_of_being_late() {
+        let out_of_50 = counted("[points]\nout_of = 50", 90, 0, 0);
+        let by_hand = [1, 2, -1, -2].map(|manual| counted("", 90, manual, 0));
+        let late = [
+            ("", 47),
+            ("free_days = 2\npercent_per_day = 10", 47),
+            ("free_days = 1\npercent_per_day = 10", 47),
+            ("percent_per_day = 10\npercent_of = 'possible'", 47),
+            ("percent_per_day = 10\nmost_percent = 50", 47),
+            ("closed_after_days = 1", 47),
+            ("closed_after_days = 0", 47),
+            ("percent_per_day = 10", 1),
+            ("percent_per_day = 10\nfree_days = 2", 49),
+            ("closed_after_days = 2", 49),
         ];
-        insta::assert_snapshot!(texts.join("\n"), @r"
-        81 of 100 points count towards the grade: 90 of 100 points earned, handed in 1 day late, so 10 % of the points earned are deducted.
-        81 of 100 points count towards the grade: 90 of 100 points earned, handed in 3 days late; after 2 free days, 10 % of the points earned are deducted.
-        0 of 100 points count towards the grade: 90 of 100 points earned, handed in 3 days late, and nothing counts after 2 days.
-        ");
+        let late = late.map(|(rules, hours)| counted(&format!("[late]\n{rules}"), 90, 0, hours));
+        let all = [out_of_50].into_iter().chain(late).chain(by_hand);
+        let lines: Vec<String> = all.map(|points| points.explanation()).collect();
+        insta::assert_snapshot!("explanations", lines.join("\n"));
     }
 
     #[test]
@@ -222,22 +196,19 @@ mod tests {
 
     #[test]
     fn rules_do_not_tell_the_points_of_a_submission() {
-        let rules = |policy: &str, hours| counted(policy, 90, 5, hours).rules();
-        assert_eq!(rules("", 0), None);
-        assert_eq!(
-            rules("[points]\nout_of = 50", 0).as_deref(),
-            Some("Towards the grade: 100 points count as 50.")
-        );
-        assert_eq!(
-            rules("", 25).as_deref(),
-            Some("Towards the grade: handed in 2 days late, which costs nothing.")
-        );
-        assert_eq!(
-            rules("[points]\nout_of = 50\n[late]\npercent_per_day = 10", 1).as_deref(),
-            Some(
-                "Towards the grade: 100 points count as 50; handed in 1 day late, so 10 % of the \
-                 points earned are deducted."
-            )
-        );
+        assert_eq!(counted("", 90, 5, 0).rules(), None);
+        for (policy, hours, rules) in [
+            ("[points]\nout_of = 50", 0, "100 points count as 50."),
+            ("", 25, "handed in 2 days late, which costs nothing."),
+            (
+                "[points]\nout_of = 50\n[late]\npercent_per_day = 10",
+                1,
+                "100 points count as 50; handed in 1 day late, so 10 % of the points earned are \
+                 deducted.",
+            ),
+        ] {
+            let expected = format!("Towards the grade: {rules}");
+            assert_eq!(counted(policy, 90, 5, hours).rules(), Some(expected));
+        }
     }
 }

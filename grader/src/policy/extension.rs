@@ -110,13 +110,11 @@ mod tests {
             "0026-11-24T12:00:00Z",
         ] {
             let text = format!("[late.extensions]\nann = {bad}");
-            let error = toml::from_str::<Policy>(&text).unwrap_err();
-            assert!(
-                error.to_string().contains("a number of days, or"),
-                "{error}"
-            );
+            let error = toml::from_str::<Policy>(&text).unwrap_err().to_string();
+            assert!(error.contains("a number of days, or"), "{error}");
         }
     }
+
     #[test]
     fn an_extension_of_days_ends_at_the_same_time_of_day() {
         let text = "[late]\ndue = 2026-10-23T23:59:00+02:00\ntimezone = 'Europe/Berlin'";
@@ -131,12 +129,16 @@ mod tests {
     fn an_extension_is_at_most_half_a_year_from_the_due_time() {
         let due = "2026-10-23T23:59:00Z".parse().ok();
         let until = |text: &str| Extension::Until(text.parse().unwrap());
-        assert!(!Extension::Days(183).is_far_from(None));
-        // Spreadsheets write a date as the number of days since 1899.
-        assert!(Extension::Days(46318).is_far_from(None));
-        assert!(until("2025-10-25T23:59:00Z").is_far_from(due));
-        assert!(until("2027-10-25T23:59:00Z").is_far_from(due));
-        assert!(!until("2026-10-01T23:59:00Z").is_far_from(due));
-        assert!(!until("2025-10-25T23:59:00Z").is_far_from(None));
+        for (extension, due, is_far) in [
+            (Extension::Days(183), None, false),
+            // Spreadsheets write a date as the number of days since 1899.
+            (Extension::Days(46318), None, true),
+            (until("2025-10-25T23:59:00Z"), due, true),
+            (until("2027-10-25T23:59:00Z"), due, true),
+            (until("2026-10-01T23:59:00Z"), due, false),
+            (until("2025-10-25T23:59:00Z"), None, false),
+        ] {
+            assert_eq!(extension.is_far_from(due), is_far, "{extension:?}");
+        }
     }
 }

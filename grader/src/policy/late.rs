@@ -158,124 +158,103 @@ mod tests {
         Lateness::of_seconds(hours * 60 * 60)
     }
 
-    fn counts(text: &str, points: u32, late: Lateness) -> u32 {
-        policy(text).counted_points(points, 100, late).points
-    }
-
+    /// Each row has a policy, points of 100, hours after the due time, and the points that count.
     #[test]
-    fn default_policy_ignores_lateness() {
-        for late in [Lateness::NONE, hours(1000)] {
-            assert_eq!(counts("", 87, late), 87);
-        }
-    }
-
-    #[test]
-    fn fractions_are_rounded_once_as_configured() {
+    fn points_are_scaled_reduced_for_lateness_and_rounded_once() {
         let out_of = |rounding: &str| format!("[points]\nout_of = 50\nrounding = '{rounding}'");
-        assert_eq!(counts(&out_of("down"), 87, Lateness::NONE), 43);
-        assert_eq!(counts(&out_of("nearest"), 87, Lateness::NONE), 44);
-        assert_eq!(counts(&out_of("up"), 87, Lateness::NONE), 44);
-        assert_eq!(counts(&out_of("up"), 100, Lateness::NONE), 50);
-        // 10 % of 87 is 8.7, which leaves 78.3, and half of that is 39.15. Nothing is rounded in
-        // between.
-        let late = out_of("down") + "\n[late]\npercent_per_day = 10";
-        assert_eq!(counts(&late, 87, hours(1)), 39);
-    }
-
-    #[test]
-    fn each_started_day_costs_a_percentage() {
-        assert_eq!(counts("[late]\npercent_per_day = 10", 80, hours(25)), 64);
-        let possible = "[late]\npercent_per_day = 10\npercent_of = 'possible'";
-        assert_eq!(counts(possible, 80, hours(25)), 60);
-        assert_eq!(counts(possible, 10, hours(25)), 0);
-        assert_eq!(counts("[late]\npercent_per_day = 60", 80, hours(25)), 0);
-    }
-
-    #[test]
-    fn grace_and_free_days_cost_nothing() {
-        let late = "[late]\npercent_per_day = 10\ngrace_minutes = 60";
-        assert_eq!(counts(late, 100, hours(1)), 100);
-        assert_eq!(counts(late, 100, hours(2)), 90);
-        let late = "[late]\npercent_per_day = 10\nfree_days = 2\nmost_percent = 50";
-        assert_eq!(counts(late, 100, hours(48)), 100);
-        assert_eq!(counts(late, 100, hours(49)), 50);
+        let late = |rules: &str| format!("[late]\npercent_per_day = 10\n{rules}");
+        let (possible, grace) = (late("percent_of = 'possible'"), late("grace_minutes = 60"));
+        let free = late("free_days = 2\nmost_percent = 50");
+        for (text, points, hours_late, counted) in [
+            (String::new(), 87, 0, 87),
+            (String::new(), 87, 1000, 87),
+            (out_of("down"), 87, 0, 43),
+            (out_of("nearest"), 87, 0, 44),
+            (out_of("up"), 87, 0, 44),
+            (out_of("up"), 100, 0, 50),
+            // 10 % of 87 is 8.7, which leaves 78.3, and half of that is 39.15. Nothing is rounded in
+            // between.
+            (format!("{}\n{}", out_of("down"), late("")), 87, 1, 39),
+            (late(""), 80, 25, 64),
+            (possible.clone(), 80, 25, 60),
+            (possible, 10, 25, 0),
+            ("[late]\npercent_per_day = 60".to_owned(), 80, 25, 0),
+            (grace.clone(), 100, 1, 100),
+            (grace, 100, 2, 90),
+            (free.clone(), 100, 48, 100),
+            (free, 100, 49, 50),
+        ] {
+            let found = policy(&text).counted_points(points, 100, hours(hours_late));
+            assert_eq!(found.points, counted, "{text}");
+        }
     }
 
     #[test]
     fn nothing_counts_after_the_last_day() {
         let policy = policy("[late]\nfree_days = 5\nclosed_after_days = 2");
-        let last = policy.counted_points(70, 100, hours(48));
-        assert_eq!(
-            (last.points, last.deduction, last.late_days),
-            (70, Deduction::FreeDays, 2)
-        );
-        let later = policy.counted_points(70, 100, hours(49));
-        assert_eq!(
-            (later.points, later.deduction, later.late_days),
-            (0, Deduction::Closed { after_days: 2 }, 3)
-        );
+        let closed = Deduction::Closed { after_days: 2 };
+        for (late, expected) in [(48, (70, Deduction::FreeDays, 2)), (49, (0, closed, 3))] {
+            let found = policy.counted_points(70, 100, hours(late));
+            assert_eq!((found.points, found.deduction, found.late_days), expected);
+        }
     }
 
     #[test]
     fn points_given_by_hand_count_up_to_the_maximum() {
-        let sum = |points, manual| {
-            let counted =
-                Policy::default().counted_points_with(points, 100, manual, Lateness::NONE);
-            assert_eq!((counted.earned, counted.manual), (points, manual));
-            counted.points
-        };
-        assert_eq!(sum(90, 7), 97);
-        assert_eq!(sum(90, 30), 100);
-        assert_eq!(sum(5, -7), 0);
-    }
-
-    #[test]
-    fn an_exam_without_points_counts_for_nothing() {
-        assert_eq!(
-            Policy::default()
-                .counted_points(0, 0, Lateness::NONE)
-                .points,
-            0
-        );
+        for (points, of, manual, sum) in [
+            (90, 100, 7, 97),
+            (90, 100, 30, 100),
+            (5, 100, -7, 0),
+            // An exam without points counts for nothing.
+            (0, 0, 0, 0),
+        ] {
+            let counted = Policy::default().counted_points_with(points, of, manual, Lateness::NONE);
+            let CountedPoints {
+                earned,
+                manual: by_hand,
+                points: found,
+                ..
+            } = counted;
+            assert_eq!((earned, by_hand, found), (points, manual, sum));
+        }
     }
 
     #[test]
     fn due_times_are_compared_across_time_zones() {
-        let due = |text: &str| policy(&format!("[late]\ndue = {text}"));
         // `date -d 2026-11-20T23:59:59+01:00 +%s`
-        let at = |seconds: i64| Timestamp::from_second(seconds).unwrap();
         let time = 1_795_215_599;
+        let late = |policy: &Policy, after: i64| {
+            let submitted = Timestamp::from_second(time + after).unwrap();
+            policy.lateness(submitted, &[])
+        };
         for same in ["2026-11-20T23:59:59+01:00", "2026-11-20T22:59:59Z"] {
-            let due = due(same);
-            assert_eq!(due.lateness(at(time), &[]), Some(Lateness::NONE), "{same}");
-            assert_eq!(
-                due.lateness(at(time - 9), &[]),
-                Some(Lateness::NONE),
-                "{same}"
-            );
-            assert_eq!(
-                due.lateness(at(time + 9), &[]),
-                Some(Lateness::of_seconds(9))
-            );
+            let due = policy(&format!("[late]\ndue = {same}"));
+            assert_eq!(late(&due, 0), Some(Lateness::NONE), "{same}");
+            assert_eq!(late(&due, -9), Some(Lateness::NONE), "{same}");
+            assert_eq!(late(&due, 9), Some(Lateness::of_seconds(9)), "{same}");
         }
-        assert_eq!(Policy::default().lateness(at(time), &[]), None);
+        assert_eq!(late(&Policy::default(), 0), None);
     }
 
     #[test]
     fn a_limit_is_named_only_if_it_costs_points() {
-        let on_time = policy("").counted_points(100, 100, Lateness::NONE);
-        assert_eq!(on_time.deduction, Deduction::None);
-        let deduction = |text: &str| policy(text).counted_points(100, 100, hours(1)).deduction;
-        assert_eq!(deduction(""), Deduction::None);
-        assert_eq!(deduction("[late]\nmost_percent = 99"), Deduction::Limit(99));
         let percent = Deduction::Percent {
             percent: 10,
             of: PercentBase::Earned,
             free_days: 0,
         };
-        assert_eq!(
-            deduction("[late]\npercent_per_day = 10\nmost_percent = 90"),
-            percent
-        );
+        for (text, late, deduction) in [
+            ("", 0, Deduction::None),
+            ("", 1, Deduction::None),
+            ("[late]\nmost_percent = 99", 1, Deduction::Limit(99)),
+            (
+                "[late]\npercent_per_day = 10\nmost_percent = 90",
+                1,
+                percent,
+            ),
+        ] {
+            let found = policy(text).counted_points(100, 100, hours(late));
+            assert_eq!(found.deduction, deduction, "{text}");
+        }
     }
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 use toml::value::Datetime;
 
 use crate::error::Error;
-use crate::machine::files::{self, PathError};
+use crate::machine::files;
 use crate::policy::Policy;
 use crate::policy::written_time::has_plausible_year;
 
@@ -24,10 +24,7 @@ impl Policy {
     /// Reads the text of the policy at `path`, which need not be valid.
     pub fn read_text(path: &Path) -> Result<String, Error> {
         files::read_to_string(path).map_err(|error| {
-            let error = PathError {
-                action: "read the policy",
-                ..error
-            };
+            let error = error.of_action("read the policy");
             Error::User(format!(
                 "{error}; `cargo grade --policy-default` prints one to start from"
             ))
@@ -175,18 +172,13 @@ mod tests {
             line.split_once(" = ").map(|_| line.to_owned())
         };
         let lines = DEFAULT.lines();
-        let lines_with_examples = lines.map(|line| shown(line).unwrap_or_else(|| line.to_owned()));
-        let lines_with_examples: Vec<String> = lines_with_examples.collect();
-        let policy = Policy::parse(&lines_with_examples.join("\n")).ok().unwrap();
+        let lines = lines.map(|line| shown(line).unwrap_or_else(|| line.to_owned()));
+        let with_examples = lines.collect::<Vec<_>>().join("\n");
+        let policy = Policy::parse(&with_examples).ok().unwrap();
         assert_eq!(policy.points.out_of, Some(50));
         assert!(policy.late.due.is_some() && policy.late.closed_after_days.is_some());
         assert_eq!(policy.late.extensions.len(), 2);
         assert_eq!(policy.visibility.items.len(), 2);
-    }
-
-    fn error(text: &str) -> String {
-        let error = Policy::from_text(Path::new("policy.toml"), text).unwrap_err();
-        error.to_string()
     }
 
     #[test]
@@ -208,7 +200,8 @@ mod tests {
             "[visibility.items]\nbuild = 'secret'",
         ];
         let first_lines = texts.map(|text| {
-            let error = error(text);
+            let error = Policy::from_text(Path::new("policy.toml"), text).unwrap_err();
+            let error = error.to_string();
             let end = "\n`cargo grade --policy-default` prints all keys with explanations";
             error.strip_suffix(end).unwrap().to_owned()
         });
@@ -249,15 +242,9 @@ mod tests {
             let policy = Policy::from_text(path, &text).unwrap();
             policy.check(path, &exam).map_err(|error| error.to_string())
         };
-        assert_eq!(check("sphere.uv"), Ok(()));
-        assert_eq!(check("sphere"), Ok(()));
-        assert_eq!(
-            check("sphere.vu"),
-            Err(
-                "the policy policy.toml: [visibility.items] names `sphere.vu`, but the exam `small` \
-                 has no task or item of that name: correct it or remove the line"
-                    .to_owned()
-            )
-        );
+        assert_eq!([check("sphere.uv"), check("sphere")], [Ok(()), Ok(())]);
+        let error = "the policy policy.toml: [visibility.items] names `sphere.vu`, but the exam \
+                     `small` has no task or item of that name: correct it or remove the line";
+        assert_eq!(check("sphere.vu"), Err(error.to_owned()));
     }
 }

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use serde::Deserialize;
 
 use crate::error::Error;
-use crate::machine::files::{self, PathError};
+use crate::machine::files;
 use crate::policy::written_time::read_time;
 use crate::policy::{Extension, Lateness, Policy};
 
@@ -45,10 +45,8 @@ struct Assignment {
 impl SubmissionTime {
     /// Reads Gradescope's file at `path`.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = files::read_to_string(path).map_err(|error| PathError {
-            action: "read Gradescope's",
-            ..error
-        })?;
+        let text = files::read_to_string(path);
+        let text = text.map_err(|error| error.of_action("read Gradescope's"))?;
         SubmissionTime::parse(&text).map_err(|why| {
             Error::Machine(format!(
                 "{} has no valid submission time and due date ({why}); without \
@@ -104,32 +102,27 @@ mod tests {
 
     #[test]
     fn platform_due_date_applies_without_a_policy_due_date() {
-        let submission = parse_with_due(r#""2026-11-20T23:00:00.000000-08:00""#).unwrap();
-        let silent = Policy::default();
-        assert_eq!(silent.lateness_of(&submission), Lateness::of_seconds(10));
-        let own: Policy = toml::from_str("[late]\ndue = 2026-11-21T07:00:05Z").unwrap();
-        assert_eq!(own.lateness_of(&submission), Lateness::of_seconds(5));
-        let without = parse_with_due("null").unwrap();
-        assert_eq!(silent.lateness_of(&without), Lateness::NONE);
-        let early = parse_with_due(r#""2026-11-22T00:00:00.000000-08:00""#).unwrap();
-        assert_eq!(silent.lateness_of(&early), Lateness::NONE);
+        let before = r#""2026-11-20T23:00:00.000000-08:00""#;
+        let own = "[late]\ndue = 2026-11-21T07:00:05Z";
+        for (due, policy, seconds) in [
+            (before, "", 10),
+            (before, own, 5),
+            ("null", "", 0),
+            (r#""2026-11-22T00:00:00.000000-08:00""#, "", 0),
+        ] {
+            let policy: Policy = toml::from_str(policy).unwrap();
+            let lateness = policy.lateness_of(&parse_with_due(due).unwrap());
+            assert_eq!(lateness, Lateness::of_seconds(seconds), "{due}");
+        }
     }
 
     #[test]
     fn reports_an_invalid_time() {
-        assert_eq!(
-            parse_with_due(r#""tomorrow""#),
-            Err(
-                "\"tomorrow\": it is not a date and time in a known form, such as 2026-11-20 \
-                 23:59:59 +0100"
-                    .to_owned()
-            )
-        );
-        assert!(
-            SubmissionTime::parse("{}")
-                .unwrap_err()
-                .contains("created_at")
-        );
+        let expected = "\"tomorrow\": it is not a date and time in a known form, such as 2026-11-20 \
+                        23:59:59 +0100";
+        assert_eq!(parse_with_due(r#""tomorrow""#), Err(expected.to_owned()));
+        let error = SubmissionTime::parse("{}").unwrap_err();
+        assert!(error.contains("created_at"), "{error}");
     }
 
     #[test]
@@ -145,10 +138,8 @@ mod tests {
         assert_eq!(read.submitted.to_string(), "2026-11-20T23:00:10Z");
         std::fs::write(&path, "{}").unwrap();
         let error = SubmissionTime::read(&path).unwrap_err().to_string();
-        assert!(
-            error.contains("submission_metadata.json has no valid submission time"),
-            "{error}"
-        );
+        let expected = "submission_metadata.json has no valid submission time";
+        assert!(error.contains(expected), "{error}");
     }
 
     #[test]

@@ -76,42 +76,33 @@ mod tests {
     }
 
     #[test]
-    fn answers_are_shown_only_for_the_practice_exam_by_default() {
-        assert_eq!(of("", "practice", "bbox.flat"), Visibility::All);
-        assert_eq!(of("", "final", "bbox.flat"), Visibility::Feedback);
-    }
-
-    #[test]
-    fn item_exception_overrides_task_exception() {
-        let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
-        assert_eq!(of(policy, "final", "bbox.flat"), Visibility::Hidden);
-        assert_eq!(of(policy, "final", "bbox.inside"), Visibility::Points);
-        assert_eq!(of(policy, "final", "sphere.miss"), Visibility::Feedback);
+    fn an_exception_for_an_item_counts_before_one_for_its_task_and_before_the_exams() {
+        let exceptions = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
+        for (policy, exam, item, visibility) in [
+            ("", "practice", "bbox.flat", Visibility::All),
+            ("", "final", "bbox.flat", Visibility::Feedback),
+            (exceptions, "final", "bbox.flat", Visibility::Hidden),
+            (exceptions, "final", "bbox.inside", Visibility::Points),
+            (exceptions, "final", "sphere.miss", Visibility::Feedback),
+        ] {
+            assert_eq!(of(policy, exam, item), visibility, "{exam}, {item}");
+        }
     }
 
     #[test]
     fn reports_an_exception_that_matches_nothing() {
         let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
         let policy: Policy = toml::from_str(policy).unwrap();
-        let items = ["bbox.flat", "sphere.miss"];
-        assert_eq!(policy.unmatched_exception(items.into_iter()), None);
-        assert_eq!(
-            policy.unmatched_exception(["bbox.x"].into_iter()),
-            Some("bbox.flat")
-        );
+        let unmatched = |items: [&'static str; 2]| policy.unmatched_exception(items.into_iter());
+        assert_eq!(unmatched(["bbox.flat", "sphere.miss"]), None);
+        assert_eq!(unmatched(["bbox.x", "sphere.miss"]), Some("bbox.flat"));
     }
 
     #[test]
     fn only_what_is_not_hidden_is_shown_now() {
-        for shown in [Visibility::All, Visibility::Feedback, Visibility::Points] {
-            assert!(shown.is_shown_now(), "{shown:?}");
-        }
-        for hidden in [
-            Visibility::AfterDue,
-            Visibility::AfterPublished,
-            Visibility::Hidden,
-        ] {
-            assert!(!hidden.is_shown_now(), "{hidden:?}");
-        }
+        use Visibility::{AfterDue, AfterPublished, All, Feedback, Hidden, Points};
+        let is_shown = |all: [Visibility; 3]| all.map(Visibility::is_shown_now);
+        assert_eq!(is_shown([All, Feedback, Points]), [true; 3]);
+        assert_eq!(is_shown([AfterDue, AfterPublished, Hidden]), [false; 3]);
     }
 }

@@ -26,14 +26,7 @@ impl SourceFolder {
                 folder.display()
             )));
         }
-        let folders = handed_out.assignment.folders.iter();
-        let found: Vec<&str> = folders
-            .filter(|below| {
-                let mut files = handed_out.file_names();
-                files.any(|file| exists(&folder.join(below).join(file)))
-            })
-            .copied()
-            .collect();
+        let found: Vec<&str> = handed_out.folders_in(folder).collect();
         match found[..] {
             [] => Err(Error::User(format!(
                 "{} has none of {}: name the folder with the task files, such as `student`",
@@ -60,7 +53,7 @@ impl SourceFolder {
     pub(super) fn read(&self, file: &TaskFile) -> Result<Option<Vec<u8>>, Error> {
         let path = self.path.join(file.name);
         refuse_link(&path)?;
-        if !exists(&path) {
+        if fs::symlink_metadata(&path).is_err() {
             return Ok(None);
         }
         let opened = system::open_regular_file(&path).at("read", &path)?;
@@ -74,11 +67,6 @@ impl SourceFolder {
         opened.read_to_end(&mut bytes).at("read", &path)?;
         Ok(Some(bytes))
     }
-}
-
-/// Returns whether there is a file, a folder or a link at the path.
-fn exists(path: &Path) -> bool {
-    fs::symlink_metadata(path).is_ok()
 }
 
 fn refuse_link(path: &Path) -> Result<(), Error> {

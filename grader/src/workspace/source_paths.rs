@@ -16,20 +16,9 @@ pub struct SourcePaths {
 impl SourcePaths {
     /// Finds the folder of the task files of a submission.
     pub fn of(submission: &Path, handed_out: &'static HandedOut) -> Self {
-        let folders = handed_out.assignment.folders.iter();
-        let has_a_task_file = |folder: &PathBuf| {
-            let mut names = handed_out.file_names();
-            names.any(|name| folder.join(name).is_file())
-        };
+        let below = handed_out.folders_in(submission).next();
         SourcePaths {
-            folder: folders
-                .map(|below| {
-                    submission
-                        .components()
-                        .chain(Path::new(below).components())
-                        .collect()
-                })
-                .find(has_a_task_file),
+            folder: below.map(|below| submission.join(below).components().collect()),
             handed_out,
         }
     }

@@ -22,6 +22,13 @@ fn json(id: &str, view: &StudentView) -> Value {
     serde_json::from_str(&rendered(id, view)).unwrap()
 }
 
+/// Returns check50's result of the item with this id.
+fn check50_result(view: &StudentView, id: &str) -> Value {
+    let results = json("check50", view)["results"].take();
+    let mut results = results.as_array().unwrap().iter();
+    results.find(|result| result["name"] == id).unwrap().clone()
+}
+
 /// Returns the sum of a number over the tests of a file. A test without the number counts nothing.
 fn sum(file: &Value, key: &str) -> u64 {
     let tests = file["tests"].as_array().unwrap().iter();
@@ -37,42 +44,32 @@ fn column(list: &Value, key: &str) -> Vec<String> {
     list.as_array().unwrap().iter().map(text).collect()
 }
 
+/// Each format with its file, the number of variables that it needs of the runner, the variable with the
+/// path of a file to append to, and whether it is rendered for students.
 #[test]
 fn each_format_has_its_own_name_and_file() {
-    let files = FORMATS.map(|format| (format.id, format.file));
+    let formats = FORMATS.map(|format| {
+        let (shared, variables) = (format.shared_file, format.variables.len());
+        (
+            format.id,
+            format.file,
+            variables,
+            shared,
+            format.render.is_some(),
+        )
+    });
     let expected = [
-        ("json", "score.json"),
-        ("text", "report.txt"),
-        ("html", "feedback.html"),
-        ("gradescope", "gradescope.json"),
-        ("classroom50", "classroom50.json"),
-        ("junit", "junit.xml"),
-        ("github", "github.md"),
-        ("check50", "check50.json"),
-        ("prairielearn", "prairielearn.json"),
+        ("json", "score.json", 0, None, false),
+        ("text", "report.txt", 0, None, true),
+        ("html", "feedback.html", 0, None, true),
+        ("gradescope", "gradescope.json", 0, None, true),
+        ("classroom50", "classroom50.json", 9, None, true),
+        ("junit", "junit.xml", 0, None, true),
+        ("github", "github.md", 0, Some("GITHUB_STEP_SUMMARY"), true),
+        ("check50", "check50.json", 0, None, true),
+        ("prairielearn", "prairielearn.json", 0, None, true),
     ];
-    assert_eq!(files, expected);
-}
-
-#[test]
-fn only_classroom50_needs_variables_of_its_runner() {
-    let with_variables = FORMATS.into_iter().filter(|f| !f.variables.is_empty());
-    let ids: Vec<&str> = with_variables.map(|f| f.id).collect();
-    assert_eq!(ids, ["classroom50"]);
-    assert_eq!(format("classroom50").variables.len(), 9);
-}
-
-#[test]
-fn files_that_a_platform_shares_between_commands_are_appended_to() {
-    let shared = FORMATS.map(|format| format.shared_file);
-    let shared: Vec<&str> = shared.into_iter().flatten().collect();
-    assert_eq!(shared, ["GITHUB_STEP_SUMMARY"]);
-}
-
-#[test]
-fn only_the_score_file_is_not_rendered() {
-    let not_rendered = FORMATS.into_iter().filter(|f| f.render.is_none());
-    assert_eq!(not_rendered.map(|f| f.id).collect::<Vec<_>>(), ["json"]);
+    assert_eq!(formats, expected);
 }
 
 /// The texts of all formats but the page, whose style is long.
@@ -116,13 +113,14 @@ fn platforms_get_the_points_that_count() {
 fn the_points_of_all_tests_are_those_earned() {
     let views = [sample::open(), sample::late(), sample::restricted()];
     for view in views {
-        let points = |format: &str, points: &str, max_points: &str| {
+        for (format, points, max_points) in [
+            ("gradescope", "score", "max_score"),
+            ("classroom50", "score", "max-score"),
+            ("prairielearn", "points", "max_points"),
+        ] {
             let file = json(format, &view);
-            (sum(&file, points), sum(&file, max_points))
-        };
-        assert_eq!(points("gradescope", "score", "max_score"), (9, 28));
-        assert_eq!(points("classroom50", "score", "max-score"), (9, 28));
-        assert_eq!(points("prairielearn", "points", "max_points"), (9, 28));
+            assert_eq!((sum(&file, points), sum(&file, max_points)), (9, 28));
+        }
         let rows = rendered("github", &view);
         let row = rows.lines().find(|row| row.contains("spheres")).unwrap();
         assert_eq!(row, "| Task 2: spheres | 3 | 5 |");
@@ -172,28 +170,21 @@ fn a_check_that_was_not_run_has_neither_passed_nor_failed() {
 
 #[test]
 fn a_dependency_is_named_only_if_it_is_shown() {
-    let blocked = |view: &StudentView| {
-        let results = json("check50", view)["results"].take();
-        let names = column(&results, "name");
-        let index = names.iter().position(|name| name == "traverse.closest_hit");
-        results[index.unwrap()]["dependency"].clone()
-    };
-    assert_eq!(blocked(&sample::open()), "bbox.flat");
-    assert_eq!(blocked(&sample::restricted()), Value::Null);
+    let blocked = |view: &StudentView| check50_result(view, "traverse.closest_hit");
+    assert_eq!(blocked(&sample::open())["dependency"], "bbox.flat");
+    assert_eq!(blocked(&sample::restricted())["dependency"], Value::Null);
 }
 
 #[test]
 fn a_check_without_a_message_is_explained_by_its_verdict() {
     let points_only = sample::view(&sample::of_final_exam(sample::score()), RESTRICTED, 0);
-    let results = json("check50", &points_only)["results"].take();
-    let cause = |name: &str| {
-        let index = column(&results, "name")
-            .iter()
-            .position(|other| other == name);
-        results[index.unwrap()]["cause"]["rationale"].clone()
-    };
-    assert_eq!(cause("sphere.far_root"), "partial");
-    assert_eq!(cause("sphere.from_inside"), "wrong");
+    for (id, verdict) in [
+        ("sphere.far_root", "partial"),
+        ("sphere.from_inside", "wrong"),
+    ] {
+        let result = check50_result(&points_only, id);
+        assert_eq!(result["cause"]["rationale"], verdict);
+    }
 }
 
 #[test]

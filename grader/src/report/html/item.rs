@@ -4,24 +4,18 @@ use judging::describe;
 use judging::exam::Item;
 use maud::{Markup, PreEscaped, html};
 
+use super::Page;
 use super::elements::{command, evidence_table, plain_text};
 use super::pictures;
 use super::prose::prose;
 use crate::drawing;
 use crate::report::answers::ReportAnswers;
-use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Verdict, VerdictKind};
 use crate::workspace::book::Book;
 
 /// Renders an item that lost points: what happened, where to look, and how to run the item again.
-pub(super) fn failing(
-    score: &ItemScore,
-    item: Option<&Item>,
-    answers: &ReportAnswers,
-    rerun: Option<&RerunCommand>,
-    book: Option<&Book>,
-    is_open: bool,
-) -> Markup {
+pub(super) fn failing(page: &Page, score: &ItemScore, is_open: bool) -> Markup {
+    let item = exam_item(page, score);
     html! {
         details .item id=(score.id) open[is_open] {
             summary {
@@ -35,15 +29,15 @@ pub(super) fn failing(
             div .body {
                 @if !score.message.is_empty() { p { (plain_text(&score.message)) } }
                 (evidence(score, item))
-                (figure(score, item, answers))
-                (look(score, book))
+                (figure(score, item, page.answers))
+                (look(score, page.book))
                 (hints(score))
-                @if let Some(rerun) = rerun {
+                @if let Some(rerun) = page.rerun {
                     p .rerun { "Run it again: " (command(&score.rerun_command(rerun))) }
                     @if let Some(view) = score.view_command(rerun) {
                         p .rerun { "See what your code does: " (command(&view)) }
                     }
-                    @if let Some(item) = item { (pictures::failing(item, answers, rerun)) }
+                    @if let Some(item) = item { (pictures::failing(item, page.answers, rerun)) }
                 }
             }
         }
@@ -51,15 +45,20 @@ pub(super) fn failing(
 }
 
 /// Renders an item with full points.
-pub(super) fn passed(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
+pub(super) fn passed(page: &Page, score: &ItemScore) -> Markup {
     html! {
         (plain_text(&score.title)) " "
         span .facts {
             span .points { (score.points) " / " (score.max_points) } " "
             code { (plain_text(&score.id)) }
         }
-        @if let Some(item) = item { (pictures::passed(item, answers)) }
+        @if let Some(item) = exam_item(page, score) { (pictures::passed(item, page.answers)) }
     }
+}
+
+/// Returns the item of the exam, if the reader may see it.
+fn exam_item<'a>(page: &Page<'a>, score: &ItemScore) -> Option<&'a Item> {
+    page.exam.items.iter().find(|item| item.id == score.id)
 }
 
 /// Renders the verdict, both as a symbol and as text.
@@ -79,48 +78,40 @@ fn verdict(score: &ItemScore) -> Markup {
 fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
     match (&score.evidence, item) {
         (Some(evidence), _) => evidence_table(&evidence.asked, &evidence.got, &evidence.wanted),
-        (None, Some(item)) => {
-            let (asked, got, wanted) = missing_evidence(score, item);
-            evidence_table(&asked, &got, &wanted)
-        }
+        (None, Some(item)) => missing_evidence(score, item),
         (None, None) => html! {},
     }
 }
 
-/// Returns the three rows for an item without evidence, which explain why there is none.
-fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) {
-    let count = item.count();
+/// Renders the three rows for an item without evidence, which explain why there is none.
+fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
     let first = item.questions.first();
     let first = first.filter(|question| question.question.count() > 0);
-    let rows = |asked: &str, got: &str, wanted: &str| {
-        (asked.to_owned(), got.to_owned(), wanted.to_owned())
-    };
-    let all = format!("{count} questions, one after the other");
+    let all = format!("{} questions, one after the other", item.count());
     match &score.verdict {
-        // The first question shows what the code should do.
-        Verdict::Unimplemented => match first {
-            Some(first) => (
-                describe::element(&first.question, 0),
-                "no answer: it is not written yet".to_owned(),
-                describe::answer::wanted(first, 0).join(", or "),
-            ),
-            None => rows(
-                &all,
-                "no answer: it is not written yet",
-                "an answer to each",
-            ),
-        },
-        Verdict::NotCompiled => rows(
+        Verdict::Unimplemented => {
+            let got = "no answer: it is not written yet";
+            // The first question shows what the code should do.
+            match first {
+                Some(first) => evidence_table(
+                    &describe::element(&first.question, 0),
+                    got,
+                    &describe::answer::wanted(first, 0).join(", or "),
+                ),
+                None => evidence_table(&all, got, "an answer to each"),
+            }
+        }
+        Verdict::NotCompiled => evidence_table(
             "nothing: the file is not part of the program",
             "no answer",
             "a file that compiles",
         ),
-        Verdict::Blocked { by } => rows(
+        Verdict::Blocked { by } => evidence_table(
             &all,
             &format!("answers that depend on {by}, so they cannot be judged yet"),
             &format!("fix {by} first"),
         ),
-        Verdict::Pending => rows("nothing yet", "no answer", "a run that is not stopped"),
+        Verdict::Pending => evidence_table("nothing yet", "no answer", "a run that is not stopped"),
         Verdict::Pass
         | Verdict::Partial
         | Verdict::Wrong
@@ -128,11 +119,10 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> (String, String, String) 
         | Verdict::TimedOut
         | Verdict::OutOfMemory
         | Verdict::Crashed
-        | Verdict::Protocol => (
-            all,
-            format!("no answer: {}", score.message),
-            "an answer to each".to_owned(),
-        ),
+        | Verdict::Protocol => {
+            let got = format!("no answer: {}", score.message);
+            evidence_table(&all, &got, "an answer to each")
+        }
     }
 }
 

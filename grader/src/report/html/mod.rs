@@ -20,6 +20,7 @@ use crate::inputs::exam_source::PRACTICE_ID;
 use crate::report::answers::ReportAnswers;
 use crate::score::Score;
 use crate::score::rerun_command::RerunCommand;
+use crate::workspace::book::Book;
 
 use elements::plain_text;
 use judging::exam::Exam;
@@ -43,9 +44,29 @@ pub enum Reload {
     WhileUnfocused,
 }
 
+/// What a page shows.
+struct Page<'a> {
+    score: &'a Score,
+    /// The exam, of which readers may see the items that it has.
+    exam: &'a Exam,
+    /// The submitted answers.
+    answers: &'a ReportAnswers,
+    /// The commands to grade again, for readers who can run them.
+    rerun: Option<&'a RerunCommand>,
+    /// The handout on the reader's machine.
+    book: Option<&'a Book>,
+}
+
 /// Renders the page of a score. `answers` are the submitted answers to show.
 pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload) -> String {
-    render_page(score, exam, answers, Some(&score.rerun_command), reload)
+    let page = Page {
+        score,
+        exam,
+        answers,
+        rerun: Some(&score.rerun_command),
+        book: score.book.as_ref(),
+    };
+    page.render(reload)
 }
 
 /// Renders the page for students who do not have the exam. The page shows only `score`, from which
@@ -58,59 +79,80 @@ pub fn feedback(score: &Score) -> String {
         mistakes: Vec::new(),
         items: Vec::new(),
     };
-    render_page(
+    let page = Page {
         score,
-        &unseen,
-        &ReportAnswers::default(),
-        None,
-        Reload::Never,
-    )
+        exam: &unseen,
+        answers: &ReportAnswers::default(),
+        rerun: None,
+        book: None,
+    };
+    page.render(Reload::Never)
 }
 
-/// Renders a page. `rerun` gives the commands to grade again, for readers who can run them.
-fn render_page(
-    score: &Score,
-    exam: &Exam,
-    answers: &ReportAnswers,
-    rerun: Option<&RerunCommand>,
-    reload: Reload,
-) -> String {
-    let book = rerun.and(score.book.as_ref());
-    let title = format!(
-        "{}: {} of {} points, {}",
-        score.assignment_title, score.points, score.max_points, score.submission
-    );
-    let title = title.trim_start_matches(": ");
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(content_security_policy());
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (plain_text(title)) }
-                style { (PreEscaped(STYLE)) }
+impl Page<'_> {
+    fn render(&self, reload: Reload) -> String {
+        let score = self.score;
+        let title = format!(
+            "{}: {} of {} points, {}",
+            score.assignment_title, score.points, score.max_points, score.submission
+        );
+        let title = title.trim_start_matches(": ");
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta http-equiv="Content-Security-Policy" content=(content_security_policy());
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    title { (plain_text(title)) }
+                    style { (PreEscaped(STYLE)) }
+                }
+                body data-reload[reload == Reload::WhileUnfocused] {
+                    a .skip href="#next" { "Skip to what to do next" }
+                    (summary::header(score))
+                    main {
+                        (summary::next_step(self))
+                        (task::files(score))
+                        @for task in &score.tasks { (task::section(self, task)) }
+                    }
+                    (self.footer())
+                    // The script writes here what a button has done, so that screen readers announce
+                    // it.
+                    p #status .quiet role="status" {}
+                    script { (PreEscaped(SCRIPT)) }
+                }
             }
-            body data-reload[reload == Reload::WhileUnfocused] {
-                a .skip href="#next" { "Skip to what to do next" }
-                (summary::header(score))
-                main {
-                    (summary::next_step(score, exam, answers, rerun))
-                    (task::files(score))
-                    @for task in &score.tasks {
-                        (task::section(task, exam, answers, rerun, book))
+        };
+        page.into_string()
+    }
+
+    fn footer(&self) -> Markup {
+        let score = self.score;
+        html! {
+            footer {
+                @if self.rerun.is_some() {
+                    p {
+                        "Exam " code { (plain_text(&score.exam.id)) } ", "
+                        code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) }
+                        @if let Some(version) = &score.bundle {
+                            ", version " code { (plain_text(version)) } " of the assignment"
+                        }
+                        ". "
+                        "For programs, " code { "score.json" } " beside this page has the same data."
+                    }
+                    @if score.exam.id != PRACTICE_ID {
+                    p {
+                        strong { "Not for students:" }
+                        " this page shows the exam’s questions and answers. Give students "
+                        code { "feedback.html" } " instead, which " code { "cargo class" } " and "
+                        code { "cargo grade --format html" } " write."
+                    }
                     }
                 }
-                (footer(score, rerun))
-                // The script writes here what a button has done, so that screen readers announce
-                // it.
-                p #status .quiet role="status" {}
-                script { (PreEscaped(SCRIPT)) }
             }
         }
-    };
-    page.into_string()
+    }
 }
 
 /// Returns a policy that allows the page's own script and style, embedded images, and nothing else.
@@ -119,32 +161,6 @@ fn content_security_policy() -> String {
         "default-src 'none'; img-src data:; style-src '{STYLE_HASH}'; script-src '{SCRIPT_HASH}'; \
          base-uri 'none'; form-action 'none'"
     )
-}
-
-fn footer(score: &Score, rerun: Option<&RerunCommand>) -> Markup {
-    html! {
-        footer {
-            @if rerun.is_some() {
-                p {
-                    "Exam " code { (plain_text(&score.exam.id)) } ", "
-                    code { (plain_text(score.exam.hash.get(..12).unwrap_or_default())) }
-                    @if let Some(version) = &score.bundle {
-                        ", version " code { (plain_text(version)) } " of the assignment"
-                    }
-                    ". "
-                    "For programs, " code { "score.json" } " beside this page has the same data."
-                }
-            }
-            @if rerun.is_some() && score.exam.id != PRACTICE_ID {
-                p {
-                    strong { "Not for students:" }
-                    " this page shows the exam’s questions and answers. Give students "
-                    code { "feedback.html" } " instead, which " code { "cargo class" } " and "
-                    code { "cargo grade --format html" } " write."
-                }
-            }
-        }
-    }
 }
 
 #[cfg(test)]

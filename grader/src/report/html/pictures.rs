@@ -8,7 +8,7 @@ use judging::describe;
 use judging::exam::{Exam, Item};
 use judging::picture::{self, LayerComparison, Picture, WorstPixel};
 use maud::{Markup, html};
-use protocol::Question;
+use protocol::{Answer, Question};
 
 use super::elements::{command, evidence_table, plain_text};
 use super::mask;
@@ -32,7 +32,7 @@ pub(super) fn failing(item: &Item, answers: &ReportAnswers, rerun: &RerunCommand
             question,
             picture: picture::compare(&item.questions[question], answer)?,
             rerun,
-            describe_got: |element| describe::answer::got(answer, element),
+            answer,
         })
     });
     html! {
@@ -82,17 +82,17 @@ pub(super) fn beside_the_references(exam: &Exam, answers: &ReportAnswers) -> Mar
     }
 }
 
-/// A wrong picture, with its item and question. `describe_got` formats the submitted answer for an
-/// element.
-struct WrongPicture<'a, F: Fn(usize) -> String> {
+/// A wrong picture, with its item and question.
+struct WrongPicture<'a> {
     item: &'a Item,
     question: usize,
     picture: Picture,
     rerun: &'a RerunCommand,
-    describe_got: F,
+    /// The submitted answer.
+    answer: &'a Answer,
 }
 
-impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
+impl WrongPicture<'_> {
     fn render(&self) -> Markup {
         let picture = &self.picture;
         html! {
@@ -186,7 +186,7 @@ impl<F: Fn(usize) -> String> WrongPicture<'_, F> {
                                 summary { (spot_label(spot)) }
                                 (evidence_table(
                                     &describe::element(&question.question, spot.element),
-                                    &(self.describe_got)(spot.element),
+                                    &describe::answer::got(self.answer, spot.element),
                                     &describe::answer::wanted(question, spot.element).join(", or "),
                                 ))
                                 p .rerun {

@@ -1,14 +1,13 @@
 //! Renders the top of the page: the points, and what to do next.
 
-use judging::exam::Exam;
 use maud::{Markup, html};
 
+use super::Page;
 use super::counted;
 use super::elements::{command, plain_text};
 use super::pictures;
 use super::prose::prose;
 use crate::inputs::exam_source::PRACTICE_ID;
-use crate::report::answers::ReportAnswers;
 use crate::report::failing_items::most_telling_first;
 use crate::sandbox::Isolation;
 use crate::score::rerun_command::RerunCommand;
@@ -83,22 +82,17 @@ fn bar(task: &TaskScore) -> Markup {
 }
 
 /// Renders what to do next: fix the first failing item, in lecture order.
-pub(super) fn next_step(
-    score: &Score,
-    exam: &Exam,
-    answers: &ReportAnswers,
-    rerun: Option<&RerunCommand>,
-) -> Markup {
+pub(super) fn next_step(page: &Page) -> Markup {
     let first_of = |task| most_telling_first(task).first().copied();
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
-            @match score.tasks.iter().find_map(first_of) {
+            @match page.score.tasks.iter().find_map(first_of) {
                 None => {
-                    (all_passed(score))
-                    (pictures::beside_the_references(exam, answers))
+                    (all_passed(page.score))
+                    (pictures::beside_the_references(page.exam, page.answers))
                 }
-                Some(item) => (first_failure(item, rerun)),
+                Some(item) => (first_failure(item, page.rerun)),
             }
         }
     }

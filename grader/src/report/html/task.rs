@@ -1,15 +1,12 @@
 //! Renders the section of a task, and the section about the submitted files.
 
-use judging::exam::Exam;
 use maud::{Markup, html};
 
+use super::Page;
 use super::elements::plain_text;
 use super::item;
-use crate::report::answers::ReportAnswers;
 use crate::report::failing_items::most_telling_first;
-use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore};
-use crate::workspace::book::Book;
 
 /// Renders the files that did not compile, and the notes. Returns nothing if there are neither.
 pub(super) fn files(score: &Score) -> Markup {
@@ -34,17 +31,10 @@ pub(super) fn files(score: &Score) -> Markup {
 }
 
 /// Renders one task: failing items first, then the printed output, then the passed items.
-pub(super) fn section(
-    task: &TaskScore,
-    exam: &Exam,
-    answers: &ReportAnswers,
-    rerun: Option<&RerunCommand>,
-    book: Option<&Book>,
-) -> Markup {
+pub(super) fn section(page: &Page, task: &TaskScore) -> Markup {
     let failing = most_telling_first(task);
     let is_passed = |item: &&ItemScore| item.points == item.max_points;
     let passed: Vec<&ItemScore> = task.items.iter().filter(is_passed).collect();
-    let exam_item = |score: &ItemScore| exam.items.iter().find(|item| item.id == score.id);
     html! {
         section aria-labelledby=(task.id) {
             h2 #(task.id) {
@@ -53,7 +43,7 @@ pub(super) fn section(
             }
             @for (index, score) in failing.iter().enumerate() {
                 // The first is enough to start with.
-                (item::failing(score, exam_item(score), answers, rerun, book, index == 0))
+                (item::failing(page, score, index == 0))
             }
             @if let Some(printed) = &task.printed {
                 details #(format!("{}-printed", task.id)) .printed {
@@ -66,7 +56,7 @@ pub(super) fn section(
                     summary { "✓ " (passed.len()) " passed" }
                     ul {
                         @for score in &passed {
-                            li { (item::passed(score, exam_item(score), answers)) }
+                            li { (item::passed(page, score)) }
                         }
                     }
                 }

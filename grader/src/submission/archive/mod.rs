@@ -276,6 +276,10 @@ impl Archive {
     }
 }
 
+fn damaged(error: impl fmt::Display) -> ArchiveError {
+    ArchiveError::Damaged(display_name(&error.to_string()))
+}
+
 fn io_error(error: io::Error) -> ArchiveError {
     let why = error.kind().to_string();
     if is_about_file(&error) {

@@ -8,8 +8,8 @@ use flate2::read::MultiGzDecoder;
 use tar::{Archive, EntryType};
 
 use super::{
-    ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member,
-    display_name, io_error, normalize_path,
+    ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member, damaged,
+    io_error, normalize_path,
 };
 
 /// The offset and the bytes of the magic number in a tar header.
@@ -30,7 +30,7 @@ impl Tarball {
         let read = reader.take(512).read_to_end(&mut head);
         let (offset, magic) = MAGIC;
         match (read, head.get(offset..offset + magic.len())) {
-            (Err(error), _) => Err(ArchiveError::Damaged(display_name(&error.to_string()))),
+            (Err(error), _) => Err(damaged(error)),
             (Ok(_), Some(found)) if found == magic => Ok(tarball),
             // An empty tar consists of zeros.
             (Ok(512), _) if head.iter().all(|byte| *byte == 0) => Err(ArchiveError::Empty),
@@ -94,7 +94,7 @@ impl Tarball {
             };
             let mut bytes = Vec::new();
             let read = entry.take(longest + 1).read_to_end(&mut bytes);
-            read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
+            read.map_err(damaged)?;
             each(*slot, Ok(bytes))
         })
     }
@@ -114,7 +114,7 @@ impl Tarball {
             if budget.is_exhausted() {
                 ArchiveError::TooLarge(self.limits.tar_bytes)
             } else {
-                ArchiveError::Damaged(display_name(&error.to_string()))
+                damaged(error)
             }
         };
         let mut archive = Archive::new(reader);

@@ -8,7 +8,7 @@ use rawzip::ReaderAt;
 use crate::machine::zipfile::{EntryKind, Zip, ZipError};
 
 use super::{
-    ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member,
+    ArchiveBytes, ArchiveError, ArchiveLimits, ByteBudget, LimitedReader, Listing, Member, damaged,
     display_name, normalize_path,
 };
 
@@ -66,7 +66,7 @@ impl ZipReader {
         let entry = entry.map_err(|error| archive_error(&error, &member.path))?;
         let read = entry.take(longest + 1).read_to_end(&mut bytes);
         self.budget.spend(bytes.len() as u64);
-        read.map_err(|error| ArchiveError::Damaged(display_name(&error.to_string())))?;
+        read.map_err(damaged)?;
         Ok(bytes)
     }
 }
@@ -77,8 +77,6 @@ fn archive_error(error: &ZipError, path: &str) -> ArchiveError {
         ZipError::Encrypted => ArchiveError::Encrypted(display_name(path)),
         ZipError::UnsupportedMethod => ArchiveError::UnsupportedCompression(display_name(path)),
         ZipError::TooManyEntries(most) => ArchiveError::TooManyFiles(*most),
-        ZipError::Damaged(_) | ZipError::WrongCount => {
-            ArchiveError::Damaged(display_name(&error.to_string()))
-        }
+        ZipError::Damaged(_) | ZipError::WrongCount => damaged(error),
     }
 }

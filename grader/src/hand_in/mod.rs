@@ -1,17 +1,18 @@
 //! Makes the archive that a student hands in, and checks it as the grader will read it.
 
 mod archive;
-mod cli;
-mod former;
 mod summary;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
 
 use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::options::GradeOptions;
 use crate::grade::{Prepared, build_report};
 use crate::handed_out::HandedOut;
+use crate::machine::backup;
 use crate::machine::files;
 use crate::report::atomic_write;
 use crate::score::BuildReport;
@@ -19,11 +20,24 @@ use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 pub use archive::archive_bytes;
-pub use cli::HandInArguments;
-use former::FormerArchive;
 
 /// The name of the archive, in the workspace's root.
 const ARCHIVE: &str = "handin.zip";
+
+/// Makes the archive to hand in, checks it as the grader will, and says what it holds
+///
+/// Exit codes: 0 made; 1 made, but a file does not compile, or nothing is written yet; 2 invalid
+/// command line or folder; 3 the machine failed.
+#[derive(Clone, Debug, Default, Parser)]
+#[command(name = "cargo handin", bin_name = "cargo handin", version)]
+pub struct HandInArguments {
+    /// The folder with the task files; default: student
+    pub folder: Option<PathBuf>,
+
+    /// The archive to write; default: handin.zip in the assignment's folder
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
 
 /// An archive that was made and checked.
 #[derive(Debug)]
@@ -75,7 +89,7 @@ impl HandIn {
         }
         let bytes = archive_bytes(&original)
             .map_err(|error| Error::Machine(format!("cannot create the archive: {error}")))?;
-        let kept = former::keep_lost_work(&archive, &original)?;
+        let kept = keep_lost_work(&archive, &original)?;
         atomic_write::write(&bytes, &archive)?;
 
         let submission = read_back(&archive, &original, &bytes)?;
@@ -101,12 +115,37 @@ impl HandIn {
     }
 }
 
+/// A former archive that was kept.
+#[derive(Debug)]
+struct FormerArchive {
+    /// The path of the copy.
+    copy: PathBuf,
+    /// The task files that it holds work in, while the new ones are missing or as they were handed out.
+    files: Vec<&'static str>,
+}
+
+/// Copies the archive at this path if it holds work in a file that is now missing or as it was handed
+/// out. Anything that cannot be read as an archive of the task files is replaced, since it is no work.
+fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<FormerArchive>, Error> {
+    let Ok(former) = Submission::collect(archive, now.handed_out) else {
+        return Ok(None);
+    };
+    let pairs = former.files.iter().zip(&now.files);
+    let lost = pairs.filter(|((file, before), (_, after))| {
+        let had_work = before.as_ref().is_ok_and(|text| !file.is_starter(text));
+        let has_work = after.as_ref().is_ok_and(|text| !file.is_starter(text));
+        had_work && !has_work
+    });
+    let files: Vec<&str> = lost.map(|((file, _), _)| file.name).collect();
+    if files.is_empty() {
+        return Ok(None);
+    }
+    let copy = backup::keep(archive, &files::read(archive)?)?;
+    Ok(Some(FormerArchive { copy, files }))
+}
+
 /// Reads the archive as the grader will, and compares it with the original.
-fn read_back(
-    archive: &std::path::Path,
-    original: &Submission,
-    bytes: &[u8],
-) -> Result<Submission, Error> {
+fn read_back(archive: &Path, original: &Submission, bytes: &[u8]) -> Result<Submission, Error> {
     let changed = || {
         Error::Machine(format!(
             "{} changed while it was checked, or the disk is damaged: run `cargo handin` again",
@@ -117,11 +156,8 @@ fn read_back(
         return Err(changed());
     }
     let submission = Submission::collect(archive, original.handed_out)?;
-    let pairs = submission.files.iter().zip(&original.files);
-    let is_same = pairs
-        .into_iter()
-        .all(|((_, read), (_, written))| read.as_ref().ok() == written.as_ref().ok());
-    if is_same {
+    let mut pairs = submission.files.iter().zip(&original.files);
+    if pairs.all(|((_, read), (_, written))| read.as_ref().ok() == written.as_ref().ok()) {
         Ok(submission)
     } else {
         Err(changed())

@@ -7,7 +7,6 @@
 
 mod counted;
 mod elements;
-mod item;
 mod mask;
 mod pictures;
 mod prose;

@@ -9,7 +9,7 @@ use super::Reload;
 use crate::handed_out::RAYS;
 use crate::inputs::exam_source::ExamSource;
 use crate::report::answers::ReportAnswers;
-use crate::score::{Evidence, FileReport, Hint, Score, Verdict};
+use crate::score::{Evidence, FileReport, Hint, ItemScore, Score, Verdict};
 use crate::verdict::pending_score;
 
 /// Text that attacks the page. The tests use it for every text that a submission can write.
@@ -37,9 +37,16 @@ fn page(score: &Score, exam: &Exam, answers: &ReportAnswers) -> String {
     page.replace(super::STYLE, "").replace(super::SCRIPT, "")
 }
 
+/// Returns the page of a submission of which all items passed except the item `id`, which `change`
+/// adjusts.
+fn page_of(id: &str, change: impl Fn(&mut ItemScore)) -> String {
+    let (exam, score) = all_passed_except(id, change);
+    page(&score, &exam, &ReportAnswers::default())
+}
+
 /// Returns an exam, and a score for it in which all items passed except the item `id`, which
 /// `change` adjusts.
-fn all_passed_except(id: &str, change: impl Fn(&mut crate::score::ItemScore)) -> (Exam, Score) {
+fn all_passed_except(id: &str, change: impl Fn(&mut ItemScore)) -> (Exam, Score) {
     let exam = exam();
     let mut score = sample_pending_score(&exam, "alice");
     score.complete = true;
@@ -76,21 +83,18 @@ fn escapes_everything_that_a_submission_can_write() {
             line.verdict = Verdict::Panicked;
             line.message = HOSTILE.to_owned();
             line.look = Some(HOSTILE.to_owned());
-            line.hints = vec![Hint {
-                nudge: HOSTILE.to_owned(),
-                hint: HOSTILE.to_owned(),
-            }];
+            let [nudge, hint, asked, got, wanted] = [HOSTILE; 5].map(str::to_owned);
+            line.hints = vec![Hint { nudge, hint }];
             line.evidence = Some(Evidence {
                 number: 1,
-                asked: HOSTILE.to_owned(),
-                got: HOSTILE.to_owned(),
-                wanted: HOSTILE.to_owned(),
+                asked,
+                got,
+                wanted,
             });
             let item = exam.items.iter().find(|item| item.id == line.id).unwrap();
-            let panics = item
-                .questions
-                .iter()
-                .map(|asked| Answer::Hits(vec![panic.clone(); asked.question.count()]));
+            let panics = item.questions.iter();
+            let panics =
+                panics.map(|asked| Answer::Hits(vec![panic.clone(); asked.question.count()]));
             answers.record(item, line, panics.collect());
         }
     }
@@ -105,59 +109,46 @@ fn escapes_everything_that_a_submission_can_write() {
 
 #[test]
 fn hides_staff_notes() {
-    let (exam, score) = all_passed_except("sphere.normal", |item| {
+    let page = page_of("sphere.normal", |item| {
         item.verdict = Verdict::Wrong;
         item.staff = Some("answers like sphere.inward".to_owned());
     });
-    let page = page(&score, &exam, &ReportAnswers::default());
     assert!(page.contains("sphere.normal") && !page.contains("sphere.inward"));
 }
 
 #[test]
 fn explains_missing_evidence_in_the_same_three_rows() {
+    let by = "triangle.inside".to_owned();
     for (verdict, why) in [
         (Verdict::Unimplemented, "it is not written yet"),
         (Verdict::NotCompiled, "a file that compiles"),
         (Verdict::TimedOut, "no answer: stopped"),
-        (
-            Verdict::Blocked {
-                by: "triangle.inside".to_owned(),
-            },
-            "fix triangle.inside first",
-        ),
+        (Verdict::Blocked { by }, "fix triangle.inside first"),
     ] {
-        let (exam, score) = all_passed_except("bbox.flat", |item| {
+        let page = page_of("bbox.flat", |item| {
             item.verdict = verdict.clone();
             item.message = "stopped".to_owned();
         });
-        let page = page(&score, &exam, &ReportAnswers::default());
         assert_eq!(page.matches("<table class=\"rows\">").count(), 1);
-        for row in ["asked", "got", "wanted"] {
-            assert!(
-                page.contains(&format!("<th scope=\"row\">{row}</th>")),
-                "{row}"
-            );
-        }
-        assert!(page.contains(why), "{why}");
+        let rows = ["asked", "got", "wanted"].map(|row| format!("<th scope=\"row\">{row}</th>"));
+        assert!(
+            rows.iter().all(|row| page.contains(row)) && page.contains(why),
+            "{why}"
+        );
     }
 }
 
 #[test]
 fn suggests_the_first_failing_item() {
-    let (exam, score) = all_passed_except("sphere.far_root", |item| item.verdict = Verdict::Wrong);
-    let page = page(&score, &exam, &ReportAnswers::default());
+    let page = page_of("sphere.far_root", |item| item.verdict = Verdict::Wrong);
     let next = page.split("What to do next").nth(1).unwrap();
-    assert!(
-        next.trim_start_matches("</h2><p>")
-            .starts_with("<a href=\"#sphere.far_root\">")
-    );
+    assert!(next.starts_with("</h2><p><a href=\"#sphere.far_root\">"));
     assert!(next.contains("cargo grade --task sphere"));
 }
 
 #[test]
 fn full_practice_points_promise_nothing_about_the_final_exam() {
-    let (exam, score) = all_passed_except("no item", |_| {});
-    let page = page(&score, &exam, &ReportAnswers::default());
+    let page = page_of("no item", |_| {});
     assert!(page.contains("passes everything that this exam tests"));
     assert!(page.contains("with other numbers"));
 }
@@ -193,14 +184,7 @@ fn only_a_watched_page_reloads_itself() {
 #[test]
 fn the_content_security_policy_has_the_hashes_of_style_and_script() {
     let name = |text: &str| format!("sha256-{}", STANDARD.encode(Sha256::digest(text)));
-    assert_eq!(
-        super::STYLE_HASH,
-        name(super::STYLE),
-        "of page.css, in mod.rs"
-    );
-    assert_eq!(
-        super::SCRIPT_HASH,
-        name(super::SCRIPT),
-        "of page.js, in mod.rs"
-    );
+    let [style, script] = [super::STYLE, super::SCRIPT].map(name);
+    assert_eq!(super::STYLE_HASH, style, "of page.css, in mod.rs");
+    assert_eq!(super::SCRIPT_HASH, script, "of page.js, in mod.rs");
 }

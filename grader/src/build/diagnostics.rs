@@ -55,27 +55,32 @@ impl Diagnostic {
     /// a given file, it is the task file that the message refers to ("method not found for this
     /// struct") or, if there is none, the one whose name appears first in the line of the error.
     pub fn blamed_file(&self, task_files: &[TaskFile]) -> Option<&'static str> {
-        let primary = || self.spans.iter().filter(|span| span.is_primary);
+        let mut spans = self.spans_in_order();
+        let named =
+            spans.find_map(|span| task_files.iter().find(|file| file.name == span.file_name));
+        named.map(|file| file.name).or_else(|| {
+            let mut lines = self.primary().flat_map(|span| &span.text);
+            lines.find_map(|line| called_file(&line.text, task_files))
+        })
+    }
+
+    /// Returns the places of the error.
+    fn primary(&self) -> impl Iterator<Item = &Span> {
+        self.spans.iter().filter(|span| span.is_primary)
+    }
+
+    /// Returns all places that the message refers to: those of the error first, and those that only
+    /// explain it last.
+    fn spans_in_order(&self) -> impl Iterator<Item = &Span> {
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
         let explaining = self.children.iter().flat_map(|child| &child.spans);
-        primary()
-            .chain(secondary)
-            .chain(explaining)
-            .find_map(|span| task_files.iter().find(|file| file.name == span.file_name))
-            .map(|file| file.name)
-            .or_else(|| {
-                primary()
-                    .flat_map(|span| &span.text)
-                    .find_map(|line| called_file(&line.text, task_files))
-            })
+        self.primary().chain(secondary).chain(explaining)
     }
 
     /// Returns the 1-based line number of the error if it is in this file, or else that of the first
     /// line in this file that the message refers to.
     pub fn line_in(&self, file: &str) -> Option<u32> {
-        let primary = self.spans.iter().filter(|span| span.is_primary);
-        let children = self.children.iter().flat_map(|child| &child.spans);
-        let mut spans = primary.chain(&self.spans).chain(children);
+        let mut spans = self.spans_in_order();
         spans.find(|span| span.file_name == file)?.line_start
     }
 
@@ -85,15 +90,13 @@ impl Diagnostic {
         /// Codes of unresolved imports and paths.
         const UNRESOLVED: [&str; 2] = ["E0432", "E0433"];
         let code = self.code.as_ref().map(|code| code.code.as_str());
-        let mut primary = self.spans.iter().filter(|span| span.is_primary);
-        primary.any(|span| span.file_name == file)
+        self.primary().any(|span| span.file_name == file)
             && code.is_none_or(|code| !UNRESOLVED.contains(&code))
     }
 
     /// Returns whether the message is about source code, and not about the linker or the machine.
     pub fn is_about_source(&self) -> bool {
-        let explaining = self.children.iter().flat_map(|child| &child.spans);
-        self.spans.iter().chain(explaining).next().is_some()
+        self.spans_in_order().next().is_some()
     }
 
     /// Returns the whole message as the compiler prints it.
@@ -139,21 +142,17 @@ mod tests {
     const IN_WORLD: &str = r#"{"file_name":"world.rs","is_primary":true}"#;
 
     #[test]
-    fn blames_the_file_with_the_error() {
-        assert_eq!(blame_one(IN_SPHERE, ""), Some("sphere.rs"));
-    }
-
-    #[test]
-    fn blames_the_file_that_an_error_in_a_given_file_points_to() {
+    fn blames_the_file_with_the_error_or_else_the_one_that_a_given_file_points_to_or_calls() {
         let child = r#"{"message":"defined here","level":"note","spans":[{"file_name":"bvh.rs","is_primary":true}]}"#;
-        assert_eq!(blame_one(IN_WORLD, child), Some("bvh.rs"));
-        assert_eq!(blame_one(IN_WORLD, ""), None);
-    }
-
-    #[test]
-    fn blames_the_file_called_on_the_error_line() {
-        let span = r#"{"file_name":"primitive.rs","is_primary":true,"text":[{"text":"Primitive::Triangle(triangle) => triangle.bbox(),"}]}"#;
-        assert_eq!(blame_one(span, ""), Some("triangle.rs"));
+        let call = r#"{"file_name":"primitive.rs","is_primary":true,"text":[{"text":"Primitive::Triangle(triangle) => triangle.bbox(),"}]}"#;
+        for (span, child, file) in [
+            (IN_SPHERE, "", Some("sphere.rs")),
+            (IN_WORLD, child, Some("bvh.rs")),
+            (IN_WORLD, "", None),
+            (call, "", Some("triangle.rs")),
+        ] {
+            assert_eq!(blame_one(span, child), file, "{span}");
+        }
     }
 
     #[test]

@@ -107,7 +107,8 @@ fn is_wrapper(program: &Path) -> bool {
     WRAPPERS.iter().any(|wrapper| name == *wrapper)
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use std::fs;
 

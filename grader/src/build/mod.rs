@@ -24,6 +24,7 @@ mod verified_copy;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
+use std::time::Instant;
 
 use judging::content_hash::ContentHash;
 
@@ -169,6 +170,7 @@ impl Builder {
         submission: &Submission,
         mut report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
     ) -> Result<Build, Error> {
+        let started_at = Instant::now();
         let build_dir = BuildDir::new_in(&self.folder)?;
         let rustc = &self.rustc.for_submission();
         let handed_out = submission.handed_out;
@@ -230,6 +232,7 @@ impl Builder {
             substitutions: self.substitutions(submission, &not_compiled, rustc, build_dir.path()),
             probe,
             not_compiled,
+            took: started_at.elapsed(),
             interrupt: Interrupt::default(),
             unstartable: Mutex::default(),
             rustc: self.rustc.clone(),

@@ -25,6 +25,8 @@ pub struct Build {
     pub probe: Option<PathBuf>,
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
+    /// How long the build took.
+    pub took: Duration,
     /// Ends the programs' answers early.
     pub interrupt: Interrupt,
     pub(super) substitutions: Vec<Substitution>,
@@ -52,6 +54,12 @@ impl Build {
     /// Returns the isolation level at which the submission was compiled and will run.
     pub fn isolation(&self) -> Isolation {
         self.rustc.sandbox.level()
+    }
+
+    /// Returns whether building again would give the same result.
+    pub fn is_reproducible(&self) -> bool {
+        let mut why = self.not_compiled.values();
+        why.all(NotCompiled::is_reproducible)
     }
 
     /// Returns an error unless an honest program can be compiled and run: then the machine is not the

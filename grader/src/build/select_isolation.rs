@@ -1,8 +1,6 @@
 //! Selects the isolation level for grading. If the requested level is not available, nothing is
 //! graded.
 
-use std::fmt::Write;
-
 use crate::build::{Builder, SelfTestError};
 use crate::error::Error;
 use crate::sandbox::{Isolation, Sandbox};
@@ -42,15 +40,11 @@ pub fn with_requested_level(builder: Builder, request: IsolationRequest) -> Resu
 /// people's code.
 pub fn with_best_level(builder: &Builder) -> Result<Builder, Error> {
     let mut missing = String::new();
-    for level in Isolation::ALL
-        .into_iter()
-        .filter(|level| *level >= MIN_FOR_UNTRUSTED)
-    {
+    let levels = Isolation::ALL.into_iter();
+    for level in levels.filter(|level| *level >= MIN_FOR_UNTRUSTED) {
         match with_level(builder, level) {
             Ok(builder) => return Ok(builder),
-            Err(why) => {
-                writeln!(missing, "  {level}: {why}").expect("writing to a string succeeds")
-            }
+            Err(why) => missing += &format!("  {level}: {why}\n"),
         }
     }
     Err(Error::Isolation(format!(

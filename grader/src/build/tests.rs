@@ -1,5 +1,7 @@
 //! A build for the tests of other modules.
 
+use std::time::Duration;
+
 use super::*;
 use crate::build::linker::SystemLinker;
 use crate::handed_out::RAYS;
@@ -23,6 +25,7 @@ impl Build {
             handed_out: &RAYS,
             probe: None,
             not_compiled,
+            took: Duration::ZERO,
             interrupt: Interrupt::default(),
             substitutions: Vec::new(),
             unstartable: Mutex::default(),

@@ -1,6 +1,5 @@
 //! The grader of submissions: exam, builder and policy, prepared once.
 
-use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 use std::thread::{self, ScopedJoinHandle};
@@ -10,13 +9,12 @@ use judging::exam::Exam;
 use judging::exam_file::{ExamFile, ExamName};
 
 use super::build_report::build_report;
-use super::prepared::Prepared;
-use super::print_compile_errors;
-use super::resolve::{
-    builder, collect, default_folder, lateness, policy, source_paths, submission_path,
+use super::prepared::{
+    Prepared, builder, collect, default_folder, lateness, policy, source_paths, submission_path,
 };
+use super::print_compile_errors;
 use crate::build::select_isolation::{IsolationRequest, with_requested_level};
-use crate::build::{Build, Builder, NotCompiled};
+use crate::build::{Build, Builder};
 use crate::error::Error;
 use crate::format::StudentView;
 use crate::format::outputs::Outputs;
@@ -24,7 +22,6 @@ use crate::grade::options::GradeOptions;
 use crate::grade::report_files::ReportFiles;
 use crate::handed_out::HandedOut;
 use crate::policy::{Lateness, Policy};
-use crate::probe::Interrupt;
 use crate::report::answers::ReportAnswers;
 use crate::report::html::Reload;
 use crate::run_exam::run_exam;
@@ -51,54 +48,13 @@ pub struct Grader<'a> {
     builder: Builder,
 }
 
-/// A submission that has been built.
-pub struct BuiltSubmission {
-    build: Build,
-    took: Duration,
-}
-
-impl BuiltSubmission {
-    /// Builds a submission. Files that do not compile are replaced by the starter's.
-    /// `report_errors` is called with these files as soon as they are known.
-    fn new(
-        builder: &Builder,
-        submission: &Submission,
-        report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
-    ) -> Result<Self, Error> {
-        let started_at = Instant::now();
-        let build = builder.build_with_progress(submission, report_errors)?;
-        Ok(BuiltSubmission {
-            build,
-            took: started_at.elapsed(),
-        })
-    }
-
-    /// Returns what ends the answers of the submission's programs early.
-    pub fn interrupt(&self) -> &Interrupt {
-        &self.build.interrupt
-    }
-
-    /// Returns how long the build took.
-    pub(super) fn took(&self) -> Duration {
-        self.took
-    }
-
-    /// Returns whether building again would give the same result.
-    pub(super) fn is_reproducible(&self) -> bool {
-        let mut why = self.build.not_compiled.values();
-        why.all(NotCompiled::is_reproducible)
-    }
-}
-
 impl<'a> Grader<'a> {
     /// Loads the exam, prepares the builder and builds the submission. Reading the exam takes a tenth
     /// as long as compiling, and is done in parallel with it.
-    pub(super) fn build_prepared(
-        prepared: &mut Prepared<'a>,
-    ) -> Result<(Self, BuiltSubmission), Error> {
+    pub(super) fn build_prepared(prepared: &mut Prepared<'a>) -> Result<(Self, Build), Error> {
         let options = prepared.options;
         let report_errors = print_compile_errors(prepared.source_paths());
-        let (builder, built, file) = thread::scope(|scope| {
+        let (builder, build, file) = thread::scope(|scope| {
             let reading = scope.spawn(|| options.exam.load(options.handed_out));
             let read = |reading: ScopedJoinHandle<'_, _>| {
                 reading.join().expect("reading the exam does not panic")
@@ -108,20 +64,17 @@ impl<'a> Grader<'a> {
             let submission = &prepared.submission;
             // In the first run, preparing the builder takes longer than reading the exam. Then an
             // invalid exam is reported before the submission is compiled.
-            let (built, file) = if reading.is_finished() {
+            let build = || builder.build_with_progress(submission, report_errors);
+            let (build, file) = if reading.is_finished() {
                 let file = read(reading)?;
-                (
-                    BuiltSubmission::new(&builder, submission, report_errors)?,
-                    file,
-                )
+                (build()?, file)
             } else {
-                let built = BuiltSubmission::new(&builder, submission, report_errors)?;
-                (built, read(reading)?)
+                (build()?, read(reading)?)
             };
-            Ok::<_, Error>((builder, built, file))
+            Ok::<_, Error>((builder, build, file))
         })?;
         let grader = Grader::new(options, prepared.workspace.clone(), builder, file)?;
-        Ok((grader, built))
+        Ok((grader, build))
     }
 
     /// Loads the exam, and prepares the builder.
@@ -216,12 +169,12 @@ impl<'a> Grader<'a> {
     }
 
     /// Builds a submission. Files that do not compile are replaced by the starter's.
-    pub fn build(&self, submission: &Submission) -> Result<BuiltSubmission, Error> {
-        BuiltSubmission::new(&self.builder, submission, |_| {})
+    pub fn build(&self, submission: &Submission) -> Result<Build, Error> {
+        self.builder.build(submission)
     }
 
     /// Returns the score before any item is graded.
-    pub fn pending_score(&self, submission: &Submission, built: &BuiltSubmission) -> Score {
+    pub fn pending_score(&self, submission: &Submission, build: &Build) -> Score {
         let mut score = pending_score(
             &self.exam,
             self.exam_name.clone(),
@@ -231,19 +184,19 @@ impl<'a> Grader<'a> {
         score.rerun_command = RerunCommand {
             submission: self.options.submission.clone(),
             exam: self.options.exam.option().map(Path::to_owned),
-            is_untrusted: match self.options.isolation {
-                IsolationRequest::OwnWork | IsolationRequest::Level(Isolation::None) => false,
-                IsolationRequest::Untrusted | IsolationRequest::Level(_) => true,
-            },
+            is_untrusted: !matches!(
+                self.options.isolation,
+                IsolationRequest::OwnWork | IsolationRequest::Level(Isolation::None)
+            ),
         };
         score.book = Book::find(&self.workspace);
-        score.isolation = built.build.isolation();
-        score.build = build_report(submission, &built.build);
+        score.isolation = build.isolation();
+        score.build = build_report(submission, build);
         let notes = &mut score.build.notes;
         notes.extend(mixed_versions(&self.workspace));
         notes.extend(given_files::changed(self.workspace.root()));
-        score.timings.build_ms = millis(built.took);
-        score.timings.stages.build = built.took;
+        score.timings.build_ms = millis(build.took);
+        score.timings.stages.build = build.took;
         score
     }
 
@@ -252,13 +205,13 @@ impl<'a> Grader<'a> {
     pub fn run_exam<E: From<io::Error>>(
         &self,
         exam: &Exam,
-        built: &BuiltSubmission,
+        build: &Build,
         score: &mut Score,
         mut progress: impl FnMut(&Score, &ReportAnswers) -> Result<(), E>,
     ) -> Result<(), E> {
         let started_at = Instant::now();
         let budget = self.options.budget;
-        run_exam(exam, &built.build, budget, score, |score, answers| {
+        run_exam(exam, build, budget, score, |score, answers| {
             score.timings.exam_ms = millis(started_at.elapsed());
             progress(score, answers)
         })

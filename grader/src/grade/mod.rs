@@ -6,7 +6,6 @@ mod grader;
 pub mod options;
 mod prepared;
 pub mod report_files;
-mod resolve;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
@@ -24,9 +23,8 @@ use crate::verdict::{file_line, file_message};
 use crate::workspace::source_paths::SourcePaths;
 
 pub use build_report::build_report;
-pub use grader::{BuiltSubmission, Grader};
-pub use prepared::Prepared;
-pub use resolve::default_folder;
+pub use grader::Grader;
+pub use prepared::{Prepared, default_folder};
 
 /// The score of a submission, and the files to which it was written.
 #[derive(Debug)]
@@ -58,24 +56,24 @@ pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
 
 /// Grades a submission that has been read, and writes its reports.
 pub fn grade_prepared(prepared: &mut Prepared) -> Result<GradedSubmission, Error> {
-    let (grader, built) = Grader::build_prepared(prepared)?;
+    let (grader, build) = Grader::build_prepared(prepared)?;
     let (options, submission) = (prepared.options, &prepared.submission);
-    let preparation = prepared.started_at.elapsed().saturating_sub(built.took());
+    let preparation = prepared.started_at.elapsed().saturating_sub(build.took);
     let exam = grader.exam();
     let mut files = grader.files(submission, Reload::Never);
     if let Some(files) = &mut files {
         files.outputs = grader.outputs(submission, &files.folder)?;
     }
-    let mut score = grader.pending_score(submission, &built);
+    let mut score = grader.pending_score(submission, &build);
     let key = CacheKey::new(
         options,
         submission,
         &score.exam.hash,
         &grader.builder_identity(),
     );
-    let key = key.filter(|_| built.is_reproducible());
+    let key = key.filter(|_| build.is_reproducible());
     let mut writing = Duration::ZERO;
-    grader.run_exam(exam, &built, &mut score, |score, answers| {
+    grader.run_exam(exam, &build, &mut score, |score, answers| {
         let started_at = Instant::now();
         let files = files.as_mut();
         let written = files.map_or(Ok(()), |files| {

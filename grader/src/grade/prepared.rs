@@ -1,11 +1,16 @@
-//! Everything that a command finds before it grades a submission, each found once.
+//! Everything that a command finds before it grades a submission: the files and settings that the
+//! options refer to.
 
+use std::path::PathBuf;
 use std::time::Instant;
 
-use super::resolve::{builder, collect, source_paths};
+use judging::exam::Exam;
+use judging::sanitize::safe_folder_name;
+
 use crate::build::Builder;
 use crate::error::Error;
-use crate::grade::options::GradeOptions;
+use crate::grade::options::{Dependents, GradeOptions};
+use crate::policy::{Lateness, Policy, SubmissionTime};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
 use crate::workspace::source_paths::SourcePaths;
@@ -50,5 +55,88 @@ impl<'a> Prepared<'a> {
     /// Returns the paths of the submission's task files.
     pub fn source_paths(&self) -> SourcePaths {
         source_paths(self.options, &self.workspace)
+    }
+}
+
+/// Returns the policy that the options name, or the default.
+pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Error> {
+    let Some(path) = &options.policy else {
+        return Ok(Policy::default());
+    };
+    let policy = Policy::read(path)?;
+    policy.check(path, exam)?;
+    Ok(policy)
+}
+
+/// Returns how late the submission is, if the options name the platform's metadata.
+pub(super) fn lateness(options: &GradeOptions, policy: &Policy) -> Result<Lateness, Error> {
+    Ok(match &options.gradescope_metadata {
+        Some(path) => policy.lateness_of(&SubmissionTime::read(path)?),
+        None => Lateness::NONE,
+    })
+}
+
+/// Returns the default folder for a submission's score.
+pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf {
+    workspace
+        .output_folder()
+        .join(safe_folder_name(&submission.name))
+}
+
+/// Returns the builder. It uses the reference's parts if they exist and are wanted.
+pub(super) fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, Error> {
+    let builder = Builder::prepare(workspace)?;
+    match workspace.reference(options.handed_out) {
+        Some(reference) if options.dependents == Dependents::SubstituteReference => {
+            builder.with_reference(&reference, options.handed_out, workspace)
+        }
+        Some(_) | None => Ok(builder),
+    }
+}
+
+/// Reads the submission that the options name.
+pub(super) fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
+    let path = submission_path(options, workspace);
+    Ok(match &options.submission {
+        Some(_) => Submission::collect(&path, options.handed_out)?,
+        None => Submission::collect_package(&path, options.handed_out)?,
+    })
+}
+
+/// Returns the path of the submission that the options name.
+pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> PathBuf {
+    match &options.submission {
+        Some(path) => workspace.resolve(path),
+        None => workspace.root().join(options.handed_out.student),
+    }
+}
+
+/// Returns the paths of the task files of the submission that the options name.
+pub(super) fn source_paths(options: &GradeOptions, workspace: &Workspace) -> SourcePaths {
+    SourcePaths::of(&submission_path(options, workspace), options.handed_out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handed_out::RAYS;
+
+    #[test]
+    fn no_name_leads_out_of_the_output_folder_or_into_the_caches() {
+        let workspace = Workspace::find().unwrap();
+        // These include `...zip` without its extension, and the name of the cache folder.
+        for name in ["..", ".", "", "../..", "/etc", ".cache", "a/b"] {
+            let submission = Submission {
+                handed_out: &RAYS,
+                name: name.to_owned(),
+                files: Vec::new(),
+                ignored_copies: Vec::new(),
+                notes: Vec::new(),
+            };
+            let folder = default_folder(&workspace, &submission);
+            let parent = folder.parent().unwrap();
+            assert_eq!(parent, workspace.output_folder(), "{name}");
+            assert_ne!(folder, workspace.cache_folder(), "{name}");
+        }
     }
 }

@@ -13,10 +13,11 @@ use std::thread;
 
 use judging::exam::Exam;
 
+use crate::build::Build;
 use crate::error::Error;
 use crate::grade::options::GradeOptions;
 use crate::grade::report_files::ReportFiles;
-use crate::grade::{BuiltSubmission, Grader, Prepared};
+use crate::grade::{Grader, Prepared};
 use crate::handed_out::HandedOut;
 use crate::machine::desktop;
 use crate::report::html::Reload;
@@ -67,7 +68,7 @@ fn grade_version(
         Some(last) => screen.show(last, Phase::Compiling, &all_items(last))?,
         None => screen.announce(&submission.name)?,
     }
-    let built = grader.build(submission)?;
+    let build = grader.build(submission)?;
     let is_done = AtomicBool::new(false);
     thread::scope(|scope| {
         // A program that hangs is ended at once, and not only between two items.
@@ -75,12 +76,12 @@ fn grade_version(
             let has_changed = || grader.collect().is_ok_and(|now| now != *submission);
             while !is_done.load(Ordering::Relaxed) {
                 if has_changed() {
-                    return built.interrupt().request();
+                    return build.interrupt.request();
                 }
                 thread::sleep(POLL_INTERVAL);
             }
         });
-        let graded = run_exams(grader, submission, &built, last, screen);
+        let graded = run_exams(grader, submission, &build, last, screen);
         is_done.store(true, Ordering::Relaxed);
         graded
     })
@@ -91,20 +92,20 @@ fn grade_version(
 fn run_exams(
     grader: &Grader,
     submission: &Submission,
-    built: &BuiltSubmission,
+    build: &Build,
     last: Option<&Score>,
     screen: &Screen,
 ) -> Result<Score, Interruption> {
     // Checked before results are shown: those of an interrupted item are wrong.
     let stop_if_saved = || {
-        if built.interrupt().is_requested() {
+        if build.interrupt.is_requested() {
             Err(Interruption::Saved)
         } else {
             Ok(())
         }
     };
     let exam = grader.exam();
-    let mut shown = grader.pending_score(submission, built);
+    let mut shown = grader.pending_score(submission, build);
     let mut old = BTreeSet::new();
     if let Some(last) = last {
         shown.tasks.clone_from(&last.tasks);
@@ -115,7 +116,7 @@ fn run_exams(
         let mut done = 0;
         let total = failed.items.len();
         screen.show(&shown, Phase::RegradingFailed { done, total }, &old)?;
-        grader.run_exam(&failed, built, &mut shown, |score, _| {
+        grader.run_exam(&failed, build, &mut shown, |score, _| {
             stop_if_saved()?;
             if let Some(id) = ids.next() {
                 old.remove(id);
@@ -126,7 +127,7 @@ fn run_exams(
         })?;
     }
 
-    let mut score = grader.pending_score(submission, built);
+    let mut score = grader.pending_score(submission, build);
     let mut files = files(grader, submission);
     let mut ids = ids_in_order(exam, grader.handed_out());
     let mut done = 0;
@@ -134,7 +135,7 @@ fn run_exams(
         let total = exam.items.len();
         screen.show(&score, Phase::Grading { done, total }, &old)?;
     }
-    grader.run_exam(exam, built, &mut score, |score, answers| {
+    grader.run_exam(exam, build, &mut score, |score, answers| {
         stop_if_saved()?;
         if let Some(id) = ids.next() {
             done += 1;

@@ -91,11 +91,10 @@ impl<'a> Screen<'a> {
             build: phase == Phase::Compiling,
         };
         let report = report_parts(score, tasks, *hints, old_results);
-        let next = match phase {
-            Phase::Waiting => next_step(score, tasks, self.options.handed_out.assignment),
-            Phase::Compiling | Phase::RegradingFailed { .. } | Phase::Grading { .. } => {
-                String::new()
-            }
+        let next = if phase == Phase::Waiting {
+            next_step(score, tasks, self.options.handed_out.assignment)
+        } else {
+            String::new()
         };
         let status = status_line(score, phase, !old.is_empty());
         if self.term.is_term() {
@@ -166,7 +165,6 @@ fn command_for_the_rest(score: &Score, task: Option<Task>) -> String {
 /// Returns the status line, which is shown above the report.
 fn status_line(score: &Score, phase: Phase, has_old_results: bool) -> String {
     let name = &score.submission;
-    let seconds = |millis: u64| format!("{:.1} s", millis as f64 / 1e3);
     let old = if has_old_results {
         " (grey: before this save)"
     } else {
@@ -180,10 +178,13 @@ fn status_line(score: &Score, phase: Phase, has_old_results: bool) -> String {
         Phase::Grading { done, total } => {
             format!("  {name}: testing everything, {done} of {total} …{old}")
         }
-        Phase::Waiting => format!(
-            "  {name}: graded in {}; save a file to grade again, or press Ctrl-C to stop",
-            seconds(score.timings.build_ms + score.timings.exam_ms)
-        ),
+        Phase::Waiting => {
+            let seconds = (score.timings.build_ms + score.timings.exam_ms) as f64 / 1e3;
+            format!(
+                "  {name}: graded in {seconds:.1} s; save a file to grade again, or press Ctrl-C to \
+                 stop"
+            )
+        }
     }
 }
 

@@ -2,7 +2,6 @@
 //! prints.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 use judging::describe;
 use judging::exam::{Exam, ExamQuestion, Item, question_subset};
@@ -29,8 +28,10 @@ const MAX_PRINTED_CHARS: usize = 20_000;
 pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String, Error> {
     let exam = options.exam.load(options.handed_out)?.exam;
     let item = find_item(&exam, &reference.item)?;
-    let given = reference.number.map(|number| find_element(item, number));
-    let given = given.transpose()?;
+    let given = reference
+        .number
+        .map(|number| find_element(item, number))
+        .transpose()?;
     let prepared = Prepared::new(options)?;
     let builder = Builder::prepare(&prepared.workspace)?;
     let builder = with_requested_level(builder, options.isolation)?;
@@ -38,7 +39,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
 
     let mut text = String::new();
     for (file, why) in &build.not_compiled {
-        writeln!(text, "{}\n", file_message(file, why)).expect("writing to a string cannot fail");
+        text += &format!("{}\n\n", file_message(file, why));
     }
     let paths = prepared.source_paths();
     let needed = files_asked(&exam, item, options.handed_out);
@@ -47,20 +48,13 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let is_missing = missing.any(|file| needed.contains(*file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
-        writeln!(
-            text,
-            "{question} needs this file: correct it, and run the same command again"
-        )
-        .expect("writing to a string cannot fail");
+        text +=
+            &format!("{question} needs this file: correct it, and run the same command again\n");
         return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
     let exam_run = ExamRun::new(&launcher, item, options.budget)?;
-    let position = match given {
-        Some(position) => Some(position),
-        None => exam_run.first_wrong(item),
-    };
-    match position {
+    match given.or_else(|| exam_run.first_wrong(item)) {
         Some(position) => {
             let replayed = Replayed::run(&launcher, item, position, options.budget)?;
             text.push_str(&replayed.report(item, &exam_run));
@@ -98,19 +92,15 @@ fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
 fn unknown_item(exam: &Exam, id: &str) -> String {
     let ids = || exam.items.iter().map(|item| item.id.as_str());
     let parts = || ids().filter_map(|known| Some((known, known.split_once('.')?)));
-    let of_name: Vec<&str> = parts()
-        .filter(|(_, (_, name))| *name == id)
-        .map(|(known, _)| known)
-        .collect();
+    let of_name = parts().filter(|(_, (_, name))| *name == id);
+    let of_name: Vec<&str> = of_name.map(|(known, _)| known).collect();
     if !of_name.is_empty() {
         let names = of_name.join(" or ");
         return format!("the exam has no item `{id}` (did you mean {names}?)");
     }
     let task = id.split('.').next().unwrap_or_default();
-    let of_task: Vec<&str> = parts()
-        .filter(|(_, (of, _))| *of == task)
-        .map(|(known, _)| known)
-        .collect();
+    let of_task = parts().filter(|(_, (of, _))| *of == task);
+    let of_task: Vec<&str> = of_task.map(|(known, _)| known).collect();
     let (whose, known) = if of_task.is_empty() {
         ("the items", ids().collect())
     } else {

@@ -110,10 +110,8 @@ mod tests {
     fn breaks_the_commands_of_each_system() {
         for (text, safe) in [
             ("::error::x", ":\\:error::x"),
-            (
-                "a\n \u{3000}::error::x\r::b::",
-                "a\n \u{3000}:\\:error::x\r:\\:b::",
-            ),
+            ("a\n \u{3000}::error::x", "a\n \u{3000}:\\:error::x"),
+            ("x\r::b::", "x\r:\\:b::"),
             ("\u{1b}[1m::error::x", "\u{1b}[1m:\\:error::x"),
             (":\u{1b}[1m:error::x", ":\u{1b}[1m\\:error::x"),
             ("../##[set-env name=a]b", "../##\\[set-env name=a]b"),

@@ -221,7 +221,8 @@ fn protocol_fault(error: WireError) -> Fault {
     Fault::Protocol(error.to_string())
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use std::os::unix::fs::PermissionsExt;
 
@@ -255,10 +256,8 @@ mod tests {
         let (_folder, _, mut probe) = start_script("exec 1>&-\nexec sleep 600");
         let started_at = Instant::now();
         let fault = probe.ask([], START_LIMITS).unwrap_err();
-        assert!(
-            matches!(fault, Fault::Crashed(Crash::Signal(_))),
-            "{fault:?}"
-        );
+        let is_signal = matches!(fault, Fault::Crashed(Crash::Signal(_)));
+        assert!(is_signal, "{fault:?}");
         assert!(started_at.elapsed() < START_LIMITS.waiting);
         assert!(probe.take_time_used().waiting >= program::EXIT_TIMEOUT);
         assert!(probe.program.process.exit_reason().is_some());

@@ -53,15 +53,11 @@ impl ItemOutcome<'_> {
 
     /// Returns whether all answers are right.
     pub fn is_pass(&self) -> bool {
-        match self {
-            ItemOutcome::Answered { judgements, .. } => judgements
-                .iter()
-                .all(|judgement| judgement.credit == Credit::FULL),
-            ItemOutcome::Pending
-            | ItemOutcome::NotCompiled(_)
-            | ItemOutcome::Fault { .. }
-            | ItemOutcome::NotRun(_) => false,
-        }
+        let ItemOutcome::Answered { judgements, .. } = self else {
+            return false;
+        };
+        let mut judgements = judgements.iter();
+        judgements.all(|judgement| judgement.credit == Credit::FULL)
     }
 }
 

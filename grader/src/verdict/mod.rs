@@ -146,12 +146,10 @@ fn not_compiled_message(file: &str, why: &NotCompiled) -> String {
 
 /// Returns the line of the compiler's error, if there is one.
 pub fn file_line(why: &NotCompiled) -> Option<u32> {
-    match why {
-        NotCompiled::Error { line, .. } => *line,
-        NotCompiled::Unreadable(_)
-        | NotCompiled::MissingDeclaration(_)
-        | NotCompiled::Compiler(_) => None,
-    }
+    let NotCompiled::Error { line, .. } = why else {
+        return None;
+    };
+    *line
 }
 
 /// Returns the compiler's error, or why there was nothing to compile.
@@ -349,11 +347,10 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
         (false, "") => {
             format!("wrong only because {by} failed: correct with the reference's other files")
         }
-        (true, message) => {
-            format!(
-                "{message}; passes only because the mistake in {by} cancels this one, so it is graded with the reference's other files"
-            )
-        }
+        (true, message) => format!(
+            "{message}; passes only because the mistake in {by} cancels this one, so it is graded \
+             with the reference's other files"
+        ),
         (false, message) => {
             format!("{message}; graded with the reference's other files, because {by} failed")
         }

@@ -109,49 +109,39 @@ mod tests {
     #[test]
     fn the_tightest_group_counts_and_cached_files_do_not() {
         let mounts = TempDir::new().unwrap();
-        let statistics = format!(
-            "anon {}\ninactive_file {}\nactive_file {}\n",
-            9,
-            20 * MIB,
-            MIB
-        );
-        write(
-            &mounts,
-            "job/step",
-            &[
-                ("memory.max", format!("{}\n", 100 * MIB)),
-                ("memory.current", format!("{}\n", 51 * MIB)),
-                ("memory.stat", statistics),
-            ],
-        );
-        let groups = "0::/job/step/task\n";
-        assert_eq!(left_in_groups(mounts.path(), groups), Some(70 * MIB));
+        let left = || left_in_groups(mounts.path(), "0::/job/step/task\n");
+        let cached = 20 * MIB;
+        let step = [
+            ("memory.max", format!("{}\n", 100 * MIB)),
+            ("memory.current", format!("{}\n", 51 * MIB)),
+            (
+                "memory.stat",
+                format!("anon 9\ninactive_file {cached}\nactive_file {MIB}\n"),
+            ),
+        ];
+        write(&mounts, "job/step", &step);
+        assert_eq!(left(), Some(70 * MIB));
+        let job = [("memory.max", 90), ("memory.current", 80)];
         write(
             &mounts,
             "job",
-            &[
-                ("memory.max", (90 * MIB).to_string()),
-                ("memory.current", (80 * MIB).to_string()),
-            ],
+            &job.map(|(file, mib)| (file, (mib * MIB).to_string())),
         );
-        assert_eq!(left_in_groups(mounts.path(), groups), Some(10 * MIB));
+        assert_eq!(left(), Some(10 * MIB));
         write(&mounts, "job", &[("memory.max", "max\n".to_owned())]);
-        assert_eq!(left_in_groups(mounts.path(), groups), Some(70 * MIB));
+        assert_eq!(left(), Some(70 * MIB));
     }
 
     #[test]
     fn a_container_of_version_1_sees_its_own_group_at_the_mount() {
         let mounts = TempDir::new().unwrap();
         let statistics = format!("total_inactive_file {MIB}\ntotal_active_file {MIB}\n");
-        write(
-            &mounts,
-            "memory",
-            &[
-                ("memory.limit_in_bytes", (8 * MIB).to_string()),
-                ("memory.usage_in_bytes", (3 * MIB).to_string()),
-                ("memory.stat", statistics),
-            ],
-        );
+        let own = [
+            ("memory.limit_in_bytes", (8 * MIB).to_string()),
+            ("memory.usage_in_bytes", (3 * MIB).to_string()),
+            ("memory.stat", statistics),
+        ];
+        write(&mounts, "memory", &own);
         let groups = "9:name=systemd:/\n4:cpu,memory:/docker/0123\n0::/\n";
         assert_eq!(left_in_groups(mounts.path(), groups), Some(7 * MIB));
         assert_eq!(left_in_groups(mounts.path(), "4:cpu:/\n"), None);

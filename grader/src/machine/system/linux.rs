@@ -18,16 +18,7 @@ const CPU_GRACE_SECONDS: u64 = 1;
 pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     // The child has been running for a moment without limits. This is safe: a probe does nothing
     // before its first question, which is sent later.
-    let data = limits.data.map(|most| (Resource::Data, most));
-    for (resource, most) in [
-        (Resource::As, limits.memory),
-        (Resource::Cpu, limits.cpu.as_secs().max(1)),
-        (Resource::Fsize, limits.file),
-        (Resource::Core, 0),
-    ]
-    .into_iter()
-    .chain(data)
-    {
+    for (resource, most) in resources(limits) {
         match prlimit(pid(child), resource, rlimit(resource, most)) {
             // The process has already ended; the caller will see that when it waits for it.
             Ok(_) | Err(rustix::io::Errno::SRCH) => {}
@@ -35,6 +26,18 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Returns the resources of a process that are limited, each with its limit.
+pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
+    let all = [
+        (Resource::As, limits.memory),
+        (Resource::Cpu, limits.cpu.as_secs().max(1)),
+        (Resource::Fsize, limits.file),
+        (Resource::Core, 0),
+    ];
+    let data = limits.data.map(|most| (Resource::Data, most));
+    all.into_iter().chain(data)
 }
 
 /// Returns the soft and the hard limit. They are equal except for CPU time: there, the hard limit sends

@@ -23,7 +23,9 @@ mod windows;
 #[cfg(target_os = "linux")]
 pub use available_memory::available_memory;
 #[cfg(target_os = "linux")]
-pub use linux::{cpu_time, cpu_time_with_children, memory, process_time, rlimit, set_limits};
+pub use linux::{
+    cpu_time, cpu_time_with_children, memory, process_time, resources, rlimit, set_limits,
+};
 #[cfg(unix)]
 pub use unix::{
     Folder, command_killed_at_eof, exit_reason, free_space, kill_group, make_executable,

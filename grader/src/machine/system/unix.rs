@@ -123,11 +123,6 @@ impl Folder {
         Ok(Folder(folder))
     }
 
-    /// Returns another handle of the same folder.
-    pub fn try_clone(&self) -> io::Result<Self> {
-        Ok(Folder(self.0.try_clone()?))
-    }
-
     /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let flags = FOLDER_FLAGS | OFlags::NOFOLLOW;

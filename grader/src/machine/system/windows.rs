@@ -62,11 +62,6 @@ impl Folder {
         Ok(Folder(path.to_owned()))
     }
 
-    /// Returns another handle of the same folder.
-    pub fn try_clone(&self) -> io::Result<Self> {
-        Ok(Folder(self.0.clone()))
-    }
-
     /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let is_folder = self.kind(name)? == EntryKind::Folder;

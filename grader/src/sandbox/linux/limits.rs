@@ -6,7 +6,7 @@ use rustix::process::{Resource, setrlimit};
 
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
-use crate::machine::system::rlimit;
+use crate::machine::system::{resources, rlimit};
 
 /// The maximum number of threads of a probe, including the two that every probe has. This limit is
 /// set only for a dedicated user, who has no other processes.
@@ -19,25 +19,20 @@ const STACK: u64 = 8 << 20;
 
 /// Sets all limits.
 pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
-    let limits = request.limits;
     let (processes, open_files) = match request.profile {
         Profile::Probe => (PROBE_THREADS, 16),
         Profile::Compiler { .. } => (COMPILER_PROCESSES, 1024),
     };
     // This limit counts all processes of a user, so it works only for a dedicated user.
     let processes = user.map(|_| (Resource::Nproc, processes));
-    let all = [
-        (Resource::As, limits.memory),
-        (Resource::Cpu, limits.cpu.as_secs().max(1)),
-        (Resource::Fsize, limits.file),
-        (Resource::Core, 0),
+    let others = [
         (Resource::Memlock, 0),
         (Resource::Msgqueue, 0),
         (Resource::Stack, STACK),
         (Resource::Nofile, open_files),
     ];
-    let data = limits.data.map(|most| (Resource::Data, most));
-    for (resource, most) in all.into_iter().chain(data).chain(processes) {
+    let all = resources(request.limits).chain(others).chain(processes);
+    for (resource, most) in all {
         setrlimit(resource, rlimit(resource, most)).map_err(while_doing("set a limit"))?;
     }
     Ok(())

@@ -140,10 +140,7 @@ mod tests {
     #[test]
     fn the_file_of_a_task_of_another_assignment_is_unknown() {
         let context = sample::context();
-        assert_eq!(
-            context.file_of(Task::in_id("traverse.x").unwrap()),
-            "bvh.rs"
-        );
-        assert_eq!(context.file_of(Task::in_id("other.x").unwrap()), "");
+        let file_of = |id| context.file_of(Task::in_id(id).unwrap());
+        assert_eq!(["traverse.x", "other.x"].map(file_of), ["bvh.rs", ""]);
     }
 }

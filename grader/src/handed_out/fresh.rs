@@ -135,9 +135,7 @@ mod tests {
 
         let renamed = solved.replace("fn build(", "fn build2(");
         let error = RAYS.task_method(task("build"), &renamed).unwrap_err();
-        assert_eq!(
-            error,
-            "cannot find Bvh::build in bvh.rs: it was renamed or removed"
-        );
+        let expected = "cannot find Bvh::build in bvh.rs: it was renamed or removed";
+        assert_eq!(error, expected);
     }
 }

@@ -125,18 +125,13 @@ mod tests {
 
     #[test]
     fn time_without_a_processor_is_waiting_unless_the_process_wanted_one() {
-        let first = ProcessTime {
-            cpu: SECOND,
-            delayed: SECOND,
-        };
-        let now = |cpu, delayed| ProcessTime {
+        let time = |cpu, delayed| ProcessTime {
             cpu: cpu * SECOND,
             delayed: delayed * SECOND,
         };
         let waiting = |cpu, delayed| {
-            used(10 * SECOND, first, now(cpu, delayed))
-                .waiting
-                .as_secs()
+            let used = used(10 * SECOND, time(1, 1), time(cpu, delayed));
+            used.waiting.as_secs()
         };
         assert_eq!(waiting(1, 1), 10, "it sleeps");
         assert_eq!(waiting(1, 11), 0, "others have the processor");

@@ -174,20 +174,11 @@ mod tests {
         })
         .unwrap();
         assert_eq!(progress, [(2, false), (1, false), (0, false), (0, true)]);
-        assert!(
-            score
-                .items()
-                .all(|item| item.verdict == Verdict::NotCompiled)
-        );
+        let mut items = score.items();
+        assert!(items.all(|item| item.verdict == Verdict::NotCompiled));
         assert!(score.tasks.iter().all(|task| task.printed.is_none()));
-        let asked: Vec<Task> = score
-            .timings
-            .stages
-            .asking
-            .iter()
-            .map(|(t, _)| *t)
-            .collect();
-        assert_eq!(asked, RAYS.assignment.tasks().collect::<Vec<_>>());
+        let asked = score.timings.stages.asking.iter().map(|(task, _)| *task);
+        assert!(asked.eq(RAYS.assignment.tasks()));
     }
 
     #[test]

@@ -78,48 +78,43 @@ mod tests {
     #[test]
     fn command_names_a_given_submission_and_exam() {
         let own = RerunCommand::default();
-        assert_eq!(
-            own.replay("sphere.uv", 7),
-            "cargo grade --replay sphere.uv#7"
-        );
-        let view = own.view("sphere.uv", 7);
-        assert_eq!(view.as_deref(), Some("cargo view --item sphere.uv#7"));
-        assert_eq!(own.view("camera.corners", 1), None);
-        let others = RerunCommand {
+        let final_exam = RerunCommand {
             submission: Some("handed in/O'Hara".into()),
             exam: Some("final.json".into()),
             is_untrusted: false,
         };
-        assert_eq!(
-            others.task("sphere"),
-            r"cargo grade 'handed in/O'\''Hara' --exam final.json --task sphere"
-        );
-        assert_eq!(others.view("sphere.uv", 7), None, "a final exam");
-    }
-
-    #[test]
-    fn an_untrusted_submission_stays_untrusted() {
-        let others = RerunCommand {
+        let untrusted = RerunCommand {
             submission: Some("alice.zip".into()),
             exam: None,
             is_untrusted: true,
         };
-        assert_eq!(
-            others.replay("bbox.through", 3),
-            "cargo grade alice.zip --untrusted --replay bbox.through#3"
-        );
-        assert_eq!(
-            others.view("bbox.through", 3).as_deref(),
-            Some("cargo view --submission alice.zip --untrusted --item bbox.through#3")
-        );
+        for (command, again, view) in [
+            (own, "cargo grade ", Some("cargo view ")),
+            (
+                final_exam,
+                r"cargo grade 'handed in/O'\''Hara' --exam final.json ",
+                None,
+            ),
+            (
+                untrusted,
+                "cargo grade alice.zip --untrusted ",
+                Some("cargo view --submission alice.zip --untrusted "),
+            ),
+        ] {
+            assert_eq!(command.task("sphere"), format!("{again}--task sphere"));
+            let replay = format!("{again}--replay sphere.uv#7");
+            assert_eq!(command.replay("sphere.uv", 7), replay);
+            let view = view.map(|view| format!("{view}--item sphere.uv#7"));
+            assert_eq!(command.view("sphere.uv", 7), view);
+            assert_eq!(command.view("camera.corners", 1), None);
+        }
     }
 
     #[test]
     fn a_page_that_is_moved_names_the_moved_submission() {
         let page = |path: &str| {
-            let submission = Some(path.into());
             let command = RerunCommand {
-                submission,
+                submission: Some(path.into()),
                 ..RerunCommand::default()
             };
             html! { (command.task("sphere")) }.into_string()

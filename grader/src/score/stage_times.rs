@@ -54,24 +54,18 @@ mod tests {
 
     #[test]
     fn table_has_a_line_per_stage_and_a_total() {
+        let asking = RAYS.tasks().map(|task| (task, Duration::from_micros(1500)));
         let stages = StageTimes {
             build: Duration::from_millis(400),
-            asking: RAYS
-                .tasks()
-                .map(|task| (task, Duration::from_micros(1500)))
-                .collect(),
+            asking: asking.collect(),
             ..StageTimes::default()
         };
         let table = stages.table();
         assert_eq!(table.lines().count(), 1 + 3 + RAYS.tasks.len() + 2 + 1);
-        assert!(
-            table.contains("answering: bbox                    1.5\n"),
-            "{table}"
-        );
+        let bbox = "answering: bbox                    1.5\n";
+        assert!(table.contains(bbox), "{table}");
         let total = 400.0 + 1.5 * RAYS.tasks.len() as f64;
-        assert!(
-            table.ends_with(&format!("total                            {total:.1}\n")),
-            "{table}"
-        );
+        let total = format!("total                            {total:.1}\n");
+        assert!(table.ends_with(&total), "{table}");
     }
 }

@@ -167,10 +167,12 @@ mod tests {
     use super::*;
 
     fn path_error(kind: ErrorKind) -> PathError {
+        let (path, source) = ("ann".into(), kind.into());
+        let action = "read";
         PathError {
-            action: "read",
-            path: "ann".into(),
-            source: kind.into(),
+            action,
+            path,
+            source,
         }
     }
 
@@ -180,18 +182,22 @@ mod tests {
             path: "a.zip".into(),
             why,
         };
-        let faults = [
-            SubmissionError::Machine(path_error(ErrorKind::TimedOut)),
-            archive(ArchiveError::Machine("timed out".to_owned())),
-        ];
-        assert!(faults.iter().all(SubmissionError::is_machine_fault));
-        let others = [
-            SubmissionError::Unreadable(path_error(ErrorKind::NotFound)),
-            archive(ArchiveError::Empty),
-            SubmissionError::NotFound("ann".into()),
-            SubmissionError::TooMany("ann".into(), Limit::Files),
-        ];
-        assert!(!others.iter().any(SubmissionError::is_machine_fault));
+        for (error, is_fault) in [
+            (
+                SubmissionError::Machine(path_error(ErrorKind::TimedOut)),
+                true,
+            ),
+            (archive(ArchiveError::Machine("timed out".to_owned())), true),
+            (
+                SubmissionError::Unreadable(path_error(ErrorKind::NotFound)),
+                false,
+            ),
+            (archive(ArchiveError::Empty), false),
+            (SubmissionError::NotFound("ann".into()), false),
+            (SubmissionError::TooMany("ann".into(), Limit::Files), false),
+        ] {
+            assert_eq!(error.is_machine_fault(), is_fault, "{error}");
+        }
     }
 
     #[test]

@@ -8,28 +8,13 @@ use crate::handed_out::HandedOut;
 
 /// Words that browsers, file managers and web storage put around the name of a copy, in the languages
 /// of common systems. A number is such a word, too.
-const COPY_WORDS: [&str; 27] = [
-    "copy",
-    "of",
-    "another",
-    "kopie",
-    "von",
-    "copie",
-    "de",
-    "copia",
-    "di",
+const COPY_WORDS: [&str; 20] = [
+    "copy", "of", "another", "kopie", "von", "copie", "de", "copia", "di", "kopi", "kopia",
+    "kopio", "kopya", "af", "av", "van", "st", "nd", "rd", "th",
+];
+/// Those words with other letters than the English ones.
+const OTHER_COPY_WORDS: [&str; 7] = [
     "cópia",
-    "kopi",
-    "kopia",
-    "kopio",
-    "kopya",
-    "af",
-    "av",
-    "van",
-    "st",
-    "nd",
-    "rd",
-    "th",
     "másolat",
     "копия",
     "副本",
@@ -76,7 +61,8 @@ pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
     if let Some(stem_of_name) = name.strip_suffix(&format!(".{extension}")) {
         let is_added = |word: &&str| {
             let word = word.to_lowercase();
-            COPY_WORDS.contains(&word.as_str()) || word.bytes().all(|byte| byte.is_ascii_digit())
+            let mut known = COPY_WORDS.iter().chain(&OTHER_COPY_WORDS);
+            known.any(|known| *known == word) || word.bytes().all(|byte| byte.is_ascii_digit())
         };
         let mut others = words(stem_of_name)
             .into_iter()
@@ -186,12 +172,11 @@ mod tests {
 
     fn copy_mark() -> impl Strategy<Value = (String, String)> {
         let number = "[0-9]{1,4}";
-        let word = prop::sample::select(&COPY_WORDS[..]);
+        let word = prop::sample::select([&COPY_WORDS[..], &OTHER_COPY_WORDS[..]].concat());
         prop_oneof![
             number.prop_map(|n| (String::new(), format!("({n})"))),
             number.prop_map(|n| (String::new(), format!("-{n}"))),
-            word.clone()
-                .prop_map(|word| (format!("{word} "), String::new())),
+            (word.clone()).prop_map(|word| (format!("{word} "), String::new())),
             word.prop_map(|word| (String::new(), format!(" - {word}"))),
         ]
     }

@@ -82,9 +82,7 @@ mod tests {
         };
         let build = clue("build");
         assert!(build.contains("one side of its split is empty"), "{build}");
-        assert_eq!(
-            clue("traverse"),
-            "Find the call in bvh.rs that can get the same arguments as its caller."
-        );
+        let traverse = "Find the call in bvh.rs that can get the same arguments as its caller.";
+        assert_eq!(clue("traverse"), traverse);
     }
 }

@@ -128,27 +128,21 @@ mod tests {
 
     #[test]
     fn a_small_terminal_shows_the_failing_item_first_and_a_short_table() {
-        let small = lines(9, 6);
-        let expected = [
-            "status",
-            "detail 0",
-            "detail 1",
-            "detail 2",
-            "rest",
-            "short table",
-        ];
-        assert_eq!(small, expected);
-        let enough = lines(4, 6);
-        let expected = [
-            "status",
-            "detail 0",
-            "detail 1",
-            "detail 2",
-            "detail 3",
-            "short table",
-        ];
-        assert_eq!(enough, expected);
-        assert_eq!(lines(0, 5), ["status", "next", "short table"]);
+        for (details, rows, expected) in [
+            (
+                9,
+                6,
+                "status, detail 0, detail 1, detail 2, rest, short table",
+            ),
+            (
+                4,
+                6,
+                "status, detail 0, detail 1, detail 2, detail 3, short table",
+            ),
+            (0, 5, "status, next, short table"),
+        ] {
+            assert_eq!(lines(details, rows).join(", "), expected);
+        }
     }
 
     #[test]
@@ -180,9 +174,7 @@ mod tests {
         let last = |rows| fit(&page, rows).pop().unwrap();
         assert_eq!(fit(&page, 11).len(), 11);
         // With ten rows, a line of the second task does not fit.
-        assert_eq!(last(11), "4");
-        assert_eq!(last(10), "two");
-        assert_eq!(last(9), "two");
+        assert_eq!([11, 10, 9].map(last), ["4", "two", "two"]);
         // With less, the table shrinks, and a line of the first task does not fit either.
         assert_eq!(fit(&page, 4), ["status", "1", "one", "short table"]);
     }

@@ -35,7 +35,7 @@ impl<'a> SaveWatcher<'a> {
     /// Waits for the next version and returns it. Two reads in a row must give the same version,
     /// because editors write a file in several steps, and some delete it first.
     pub fn wait_for_change(&self, last: &Submission) -> Submission {
-        self.wait_for(|now| now != last, || ())
+        self.wait_for_change_while(last, || ())
     }
 
     /// Waits for the next version, and calls `meanwhile` between two reads.
@@ -96,10 +96,8 @@ mod tests {
     fn waits_until_two_reads_agree() {
         let reads = ["old", "old", "", "half", "whole", "whole"];
         let watcher = watcher_reading(reads.map(version).to_vec());
-        assert_eq!(
-            Some(watcher.wait_for_change(&version("old").unwrap())),
-            version("whole")
-        );
+        let next = watcher.wait_for_change(&version("old").unwrap());
+        assert_eq!(Some(next), version("whole"));
     }
 
     #[test]
@@ -119,9 +117,7 @@ mod tests {
     #[test]
     fn waits_for_a_missing_folder_to_return() {
         let watcher = watcher_reading(vec![version("new"), None, version("new"), version("new")]);
-        assert_eq!(
-            Some(watcher.wait_for_change(&version("old").unwrap())),
-            version("new")
-        );
+        let next = watcher.wait_for_change(&version("old").unwrap());
+        assert_eq!(Some(next), version("new"));
     }
 }

@@ -143,10 +143,8 @@ mod tests {
         fs::create_dir(&book.folder).unwrap();
         fs::write(book.folder.join("boxes.html"), "").unwrap();
         let url = file_url(&book.folder.join("boxes.html"));
-        assert!(
-            url.starts_with("file:///") && url.ends_with("/my%20book/boxes.html"),
-            "{url}"
-        );
+        let is_encoded = url.starts_with("file:///") && url.ends_with("/my%20book/boxes.html");
+        assert!(is_encoded, "{url}");
         let link = |url: &str, text: &str| format!("\x1b]8;;{url}\x1b\\{text}\x1b]8;;\x1b\\");
 
         let whole = "handout/src/boxes.md";
@@ -159,14 +157,8 @@ mod tests {
             link(&url, whole),
         );
         assert_eq!(book.with_links(&text), expected);
-        for other in [
-            "handout/src/none.md",
-            "handout/src/../boxes.md",
-            "handout/src/",
-            "boxes.md",
-        ] {
-            assert_eq!(book.with_links(other), other);
-        }
+        let others = "handout/src/none.md handout/src/../boxes.md handout/src/ boxes.md";
+        assert_eq!(book.with_links(others), others);
         // A link is no text: without a terminal, only the text is left.
         let plain = anstream::adapter::strip_str(&expected).to_string();
         assert_eq!(plain, text);

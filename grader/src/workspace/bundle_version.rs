@@ -67,19 +67,14 @@ mod tests {
         let of = |version: &str| manifest_version(&format!("[package]\nversion = \"{version}\""));
         assert_eq!(of("0.1.0+3f9a"), Some(Some("3f9a".to_owned())));
         assert_eq!(of("0.1.0"), Some(None));
-        assert_eq!(
-            manifest_version("[package]\nversion.workspace = true"),
-            None
-        );
+        let inherited = "[package]\nversion.workspace = true";
+        assert_eq!(manifest_version(inherited), None);
     }
 
     #[test]
     fn a_mix_of_versions_is_named_in_a_line() {
-        let folder = |version: &str| Some(version.to_owned());
-        let same = [
-            ("student/framework", folder("3f9a")),
-            ("student", folder("3f9a")),
-        ];
+        let same = ["student/framework", "student"];
+        let same = same.map(|folder| (folder, Some("3f9a".to_owned())));
         assert_eq!(mixed(Some("3f9a"), &same), None);
         let note = mixed(Some("77aa"), &same[..1]).expect("the versions differ");
         assert_eq!(

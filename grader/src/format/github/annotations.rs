@@ -55,13 +55,10 @@ fn checkout_path(file: &str, context: &FormatContext) -> String {
 
 /// Returns whether a verdict means that the task's own file compiles and has something to fix.
 fn is_annotated(verdict: &Verdict) -> bool {
-    match verdict.kind() {
-        VerdictKind::Failed | VerdictKind::Unwritten | VerdictKind::NoAnswer => true,
-        VerdictKind::Passed
-        | VerdictKind::NotCompiled
-        | VerdictKind::Blocked
-        | VerdictKind::Pending => false,
-    }
+    matches!(
+        verdict.kind(),
+        VerdictKind::Failed | VerdictKind::Unwritten | VerdictKind::NoAnswer
+    )
 }
 
 #[cfg(test)]

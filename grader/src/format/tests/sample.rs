@@ -146,16 +146,9 @@ pub fn unfinished_score() -> Score {
 /// Returns the score with all points.
 pub fn perfect_score() -> Score {
     let mut score = score();
-    for task in &mut score.tasks {
-        for line in &mut task.items {
-            *line = item(
-                &line.id,
-                line.max_points,
-                line.max_points,
-                Verdict::Pass,
-                "",
-            );
-        }
+    for line in score.tasks.iter_mut().flat_map(|task| &mut task.items) {
+        let points = line.max_points;
+        *line = item(&line.id, points, points, Verdict::Pass, "");
     }
     score.build = BuildReport::default();
     score.update_totals();
@@ -195,14 +188,8 @@ pub fn restricted() -> StudentView {
 pub fn context() -> FormatContext {
     let tasks = RAYS.assignment.tasks.iter();
     let location = |(task, line): (&TaskInfo, u32)| {
-        let line = (task.id != "build").then_some(line);
-        (
-            task.task(),
-            MethodLocation {
-                file: task.file,
-                line,
-            },
-        )
+        let (file, line) = (task.file, (task.id != "build").then_some(line));
+        (task.task(), MethodLocation { file, line })
     };
     let value = |name: &'static str| (name, format!("the {name}"));
     FormatContext {

@@ -164,14 +164,7 @@ fn content_hashes(files: &ReportFiles) -> Vec<String> {
 
 /// Returns whether grading again would give the same verdict.
 fn is_reproducible(verdict: &Verdict) -> bool {
-    match verdict.kind() {
-        VerdictKind::Passed
-        | VerdictKind::Failed
-        | VerdictKind::Unwritten
-        | VerdictKind::NotCompiled
-        | VerdictKind::Blocked => true,
-        VerdictKind::NoAnswer | VerdictKind::Pending => false,
-    }
+    !matches!(verdict.kind(), VerdictKind::NoAnswer | VerdictKind::Pending)
 }
 
 #[cfg(test)]

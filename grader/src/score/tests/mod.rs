@@ -22,14 +22,9 @@ fn an_items_score_replaces_the_one_with_its_id_and_counts() {
         score.record(ItemScore { points, ..item(id) });
     }
     score.update_totals();
-    let items: Vec<_> = score
-        .items()
-        .map(|item| (item.id.as_str(), item.points))
-        .collect();
-    assert_eq!(
-        items,
-        [("sphere.uv", 0), ("sphere.miss", 3), ("bbox.flat", 2)]
-    );
+    let items = score.items().map(|item| (item.id.as_str(), item.points));
+    let expected = [("sphere.uv", 0), ("sphere.miss", 3), ("bbox.flat", 2)];
+    assert!(items.eq(expected));
     let tasks: Vec<u32> = score.tasks.iter().map(|task| task.points).collect();
     assert_eq!((tasks, score.points), (vec![3, 2], 5));
     // Totals are computed anew, not added to.
@@ -63,11 +58,12 @@ fn an_item_is_run_again_by_its_question_or_with_its_task() {
     let mut item = item("sphere.uv");
     assert_eq!(item.rerun_command(&command), "cargo grade --task sphere");
     assert_eq!(item.view_command(&command), None);
+    let [asked, got, wanted] = [const { String::new() }; 3];
     item.evidence = Some(Evidence {
         number: 7,
-        asked: String::new(),
-        got: String::new(),
-        wanted: String::new(),
+        asked,
+        got,
+        wanted,
     });
     let (rerun, view) = (item.rerun_command(&command), item.view_command(&command));
     assert_eq!(rerun, "cargo grade --replay sphere.uv#7");
@@ -84,6 +80,7 @@ fn a_score_file_is_json_that_ends_with_a_line_break() {
 
 /// Every verdict.
 pub fn verdicts() -> [Verdict; 12] {
+    let by = "bbox.flat".to_owned();
     [
         Verdict::Pass,
         Verdict::Partial,
@@ -95,9 +92,7 @@ pub fn verdicts() -> [Verdict; 12] {
         Verdict::Crashed,
         Verdict::Protocol,
         Verdict::NotCompiled,
-        Verdict::Blocked {
-            by: "bbox.flat".to_owned(),
-        },
+        Verdict::Blocked { by },
         Verdict::Pending,
     ]
 }

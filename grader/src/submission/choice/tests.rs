@@ -153,17 +153,9 @@ fn folders_of_tools_and_of_the_project_are_skipped() {
 
 #[test]
 fn the_assignments_folders_come_before_those_below_another_and_these_before_the_rest() {
-    let folders = [
-        "",
-        "src",
-        "student/src",
-        "a",
-        "a/src",
-        "a/student/src",
-        "a/b",
-    ];
-    let ranks = folders.map(|folder| rank(folder, &RAYS));
-    assert_eq!(ranks, [0, 1, 2, 3, 4, 5, 6]);
+    let folders = ",src,student/src,a,a/src,a/student/src,a/b";
+    let ranks = folders.split(',').map(|folder| rank(folder, &RAYS));
+    assert!(ranks.eq(0..7));
 }
 
 #[test]

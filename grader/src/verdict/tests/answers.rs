@@ -20,11 +20,8 @@ fn a_score_begins_with_the_items_of_each_task_in_lecture_order() {
     );
     assert_eq!(score.tasks[0].chapter, Some(Section::new("boxes.md")));
     assert_eq!((score.points, score.max_points), (0, 12));
-    assert_eq!(
-        (score.submission.as_str(), score.complete),
-        ("alice", false)
-    );
-    assert_eq!(score.exam.id, "small");
+    let names = (&*score.submission, &*score.exam.id);
+    assert_eq!((names, score.complete), (("alice", "small"), false));
     assert!(score.items().all(|item| item.verdict == Verdict::Pending));
 }
 
@@ -34,21 +31,9 @@ fn an_item_with_right_answers_has_all_points_and_nothing_to_say() {
     assert_eq!(
         line,
         ItemScore {
-            id: "bbox.through".to_owned(),
-            title: "title of bbox.through".to_owned(),
             points: 4,
-            max_points: 4,
             verdict: Verdict::Pass,
-            message: String::new(),
-            at: None,
-            look: None,
-            clue: None,
-            section: None,
-            hints: Vec::new(),
-            evidence: None,
-            carried_forward: false,
-            pictures: Vec::new(),
-            staff: None,
+            ..ItemScore::pending("bbox.through", "title of bbox.through", 4)
         }
     );
 }
@@ -65,10 +50,7 @@ fn a_wrong_answer_is_shown_with_its_question_and_its_number_in_the_item() {
     let evidence = line.evidence.unwrap();
     assert_eq!(evidence.number, 5);
     assert!(evidence.asked.contains("from (1, 0, 0)"), "{evidence:?}");
-    assert_eq!(
-        (evidence.got.as_str(), evidence.wanted.as_str()),
-        ("None", "[0, 1]")
-    );
+    assert_eq!((&*evidence.got, &*evidence.wanted), ("None", "[0, 1]"));
 }
 
 #[test]
@@ -85,40 +67,25 @@ fn an_item_has_the_credit_of_its_worst_question() {
 
 #[test]
 fn the_number_of_wrong_answers_covers_all_questions_of_the_item() {
-    let message = |questions, judgements| answered(questions, judgements).message;
-    assert_eq!(
-        message(vec![boxes(1)], vec![wrong(Credit::NONE, 0, Some((1, 1)))]),
-        "wrong: interval",
-        "there is only one"
-    );
-    assert_eq!(
-        message(
-            vec![boxes(2), boxes(3)],
-            vec![right(), wrong(Credit::NONE, 1, Some((1, 3)))]
+    let wrong = |element, count| wrong(Credit::NONE, element, count);
+    let two = [wrong(0, Some((2, 2))), wrong(1, Some((1, 3)))];
+    for (judgements, message) in [
+        (
+            [right(), wrong(1, Some((1, 3)))],
+            "1 of 5 answers is wrong: interval",
         ),
-        "1 of 5 answers is wrong: interval"
-    );
-    assert_eq!(
-        message(
-            vec![boxes(2), boxes(3)],
-            vec![
-                wrong(Credit::NONE, 0, Some((2, 2))),
-                wrong(Credit::NONE, 1, Some((1, 3)))
-            ]
+        (two, "3 of 5 answers are wrong; in #1: interval"),
+        // A question without a count has one wrong answer.
+        (
+            [wrong(1, Some((1, 2))), wrong(1, None)],
+            "2 of 5 answers are wrong; in #2: interval",
         ),
-        "3 of 5 answers are wrong; in #1: interval"
-    );
-    assert_eq!(
-        message(
-            vec![boxes(2), boxes(3)],
-            vec![
-                wrong(Credit::NONE, 1, Some((1, 2))),
-                wrong(Credit::NONE, 1, None)
-            ]
-        ),
-        "2 of 5 answers are wrong; in #2: interval",
-        "a question without a count has one wrong answer"
-    );
+    ] {
+        let line = answered(vec![boxes(2), boxes(3)], judgements.into());
+        assert_eq!(line.message, message);
+    }
+    let only_one = answered(vec![boxes(1)], vec![wrong(0, Some((1, 1)))]);
+    assert_eq!(only_one.message, "wrong: interval");
 }
 
 #[test]
@@ -148,10 +115,8 @@ fn the_pixels_of_a_path_traced_picture_are_counted_by_themselves() {
 #[test]
 fn a_panic_is_shown_with_its_line_and_a_clue() {
     let message = "index out of bounds: the len is 2\u{1b} but the index is 2";
-    let line = answered(
-        vec![boxes(1)],
-        vec![panicked(Credit::NONE, message, "bbox.rs:34:9")],
-    );
+    let judgement = panicked(Credit::NONE, message, "bbox.rs:34:9");
+    let line = answered(vec![boxes(1)], vec![judgement]);
     assert_eq!((line.points, line.verdict), (0, Verdict::Panicked));
     assert_eq!(
         line.message,
@@ -161,15 +126,13 @@ fn a_panic_is_shown_with_its_line_and_a_clue() {
     assert_eq!((at.file.as_str(), at.line), ("bbox.rs", 34));
     assert!(line.clue.unwrap().starts_with("Compare the index"));
     assert_eq!(line.look.as_deref(), Some("look here"));
-    let evidence = line.evidence.unwrap();
-    assert_eq!(
-        (
-            evidence.number,
-            evidence.got.as_str(),
-            evidence.wanted.as_str()
-        ),
-        (1, "a panic", "an answer")
-    );
+    let Evidence {
+        number,
+        got,
+        wanted,
+        ..
+    } = line.evidence.unwrap();
+    assert_eq!((number, &*got, &*wanted), (1, "a panic", "an answer"));
 }
 
 #[test]
@@ -182,14 +145,8 @@ fn a_panic_in_a_picture_that_is_partly_right_is_partial() {
 
 #[test]
 fn code_that_is_not_written_yet_needs_its_chapter_and_no_evidence() {
-    let line = answered(
-        vec![boxes(1)],
-        vec![panicked(
-            Credit::NONE,
-            "not yet implemented: task 3",
-            "bbox.rs:12:9",
-        )],
-    );
+    let judgement = panicked(Credit::NONE, "not yet implemented: task 3", "bbox.rs:12:9");
+    let line = answered(vec![boxes(1)], vec![judgement]);
     assert_eq!((line.points, line.verdict), (0, Verdict::Unimplemented));
     assert_eq!(line.message, "bbox.rs:12:9 still contains `todo!`");
     assert_eq!(line.at.unwrap().line, 12);
@@ -202,15 +159,9 @@ fn an_answer_of_the_wrong_kind_is_no_evidence() {
     let kind = FailureKind::Protocol("too short".to_owned());
     let line = answered(vec![boxes(1)], vec![failed(Credit::NONE, 0, kind)]);
     assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
-    assert_eq!(
-        line.message,
-        "the program sent an invalid answer: too short"
-    );
-    assert_eq!(line.evidence, None);
-}
-
-#[test]
-fn an_item_without_judgements_earns_nothing() {
+    let message = "the program sent an invalid answer: too short";
+    assert_eq!((&*line.message, line.evidence), (message, None));
+    // Without judgements, an item earns nothing, either.
     let line = answered(Vec::new(), Vec::new());
     assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
 }

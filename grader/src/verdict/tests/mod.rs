@@ -28,18 +28,10 @@ fn failed(credit: Credit, element: usize, kind: FailureKind) -> Judgement {
 /// Returns a judgement by which the interval is wrong at this element, and `count` says how many
 /// elements are wrong.
 fn wrong(credit: Credit, element: usize, count: Option<(usize, usize)>) -> Judgement {
-    Judgement {
-        credit,
-        failure: Some(Failure {
-            element,
-            kind: FailureKind::Wrong {
-                what: "interval".to_owned(),
-                got: "None".to_owned(),
-                wanted: "[0, 1]".to_owned(),
-            },
-            count,
-        }),
-    }
+    let [what, got, wanted] = ["interval", "None", "[0, 1]"].map(str::to_owned);
+    let mut judgement = failed(credit, element, FailureKind::Wrong { what, got, wanted });
+    judgement.failure.as_mut().unwrap().count = count;
+    judgement
 }
 
 fn panicked(credit: Credit, message: &str, location: &str) -> Judgement {

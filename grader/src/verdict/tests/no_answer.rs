@@ -49,10 +49,8 @@ fn a_fault_says_what_happened_and_asks_the_question_that_caused_it() {
         let evidence = line.evidence.unwrap();
         assert_eq!(evidence.number, 2);
         assert!(evidence.asked.contains("from (1, 0, 0)"), "{evidence:?}");
-        assert_eq!(
-            (evidence.got.as_str(), evidence.wanted.as_str()),
-            ("no answer", "an answer")
-        );
+        let answers = (&*evidence.got, &*evidence.wanted);
+        assert_eq!(answers, ("no answer", "an answer"));
     }
     let line = without_answer(&fault(Fault::OutOfMemory));
     assert_eq!(line.evidence, None, "the question is not known");

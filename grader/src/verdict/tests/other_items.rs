@@ -12,28 +12,22 @@ fn the_first_item_that_earned_nothing_blocks_those_that_depend_on_it() {
     ];
     let mut score = pending(&exam(&ids));
     let mut dependent = item("traverse.root", vec![boxes(1)]);
-    dependent.needs = ["triangle.inside", "bbox.through", "bbox.flat"]
-        .map(str::to_owned)
-        .to_vec();
+    dependent.needs = ids[..3].iter().map(|id| (*id).to_owned()).collect();
     let mut earn = |id: &str, points| {
         let mut items = score.tasks.iter_mut().flat_map(|task| &mut task.items);
         items.find(|item| item.id == id).unwrap().points = points;
         blocking_item(&dependent, &score).map(|blocking| (blocking.id, blocking.task.to_string()))
     };
-    // Its own item has no points, either, and does not block itself.
-    assert_eq!(
-        earn("triangle.inside", 1),
-        Some(("bbox.through", "bbox".to_owned()))
-    );
-    assert_eq!(
-        earn("bbox.through", 4),
-        Some(("bbox.flat", "bbox".to_owned()))
-    );
-    assert_eq!(earn("bbox.flat", 1), None);
-    assert_eq!(
-        earn("triangle.inside", 0),
-        Some(("triangle.inside", "triangle".to_owned()))
-    );
+    for (id, points, blocking) in [
+        ("triangle.inside", 1, Some(("bbox.through", "bbox"))),
+        ("bbox.through", 4, Some(("bbox.flat", "bbox"))),
+        // Its own item has no points, either, and does not block itself.
+        ("bbox.flat", 1, None),
+        ("triangle.inside", 0, Some(("triangle.inside", "triangle"))),
+    ] {
+        let blocking = blocking.map(|(item, task)| (item, task.to_owned()));
+        assert_eq!(earn(id, points), blocking);
+    }
 }
 
 /// Returns an item's score that has a value in every field.
@@ -48,30 +42,13 @@ fn full_score() -> ItemScore {
 #[test]
 fn a_blocked_item_says_only_what_to_fix_first() {
     let line = full_score();
-    let (id, title) = (line.id.clone(), line.title.clone());
-    let blocked = blocked_score("triangle.inside", line);
-    assert_eq!(
-        blocked,
-        ItemScore {
-            id,
-            title,
-            points: 0,
-            max_points: 4,
-            verdict: Verdict::Blocked {
-                by: "triangle.inside".to_owned()
-            },
-            message: "depends on triangle.inside: fix that first".to_owned(),
-            at: None,
-            look: None,
-            clue: None,
-            section: None,
-            hints: Vec::new(),
-            evidence: None,
-            carried_forward: false,
-            pictures: Vec::new(),
-            staff: None,
-        }
-    );
+    let by = "triangle.inside".to_owned();
+    let expected = ItemScore {
+        message: format!("depends on {by}: fix that first"),
+        verdict: Verdict::Blocked { by },
+        ..ItemScore::pending(&line.id, &line.title, 4)
+    };
+    assert_eq!(blocked_score("triangle.inside", line), expected);
 }
 
 #[test]
@@ -108,22 +85,14 @@ fn every_mistake_that_explains_the_answers_gives_a_hint_and_the_first_its_sectio
         mistake("bbox.flat", Some("boxes.md#flat")),
     ];
     let line = hinted(&known);
-    let hint = |nudge: &str, hint: &str| Hint {
-        nudge: nudge.to_owned(),
-        hint: hint.to_owned(),
+    let hint = |id: &str| Hint {
+        nudge: format!("Is it {id}?"),
+        hint: format!("It is {id}."),
     };
-    assert_eq!(
-        line.hints,
-        [
-            hint("Is it bbox.swap?", "It is bbox.swap."),
-            hint("Is it bbox.flat?", "It is bbox.flat.")
-        ]
-    );
+    assert_eq!(line.hints, ["bbox.swap", "bbox.flat"].map(hint));
     assert_eq!(line.section, Some(Section::new("boxes.md#swap")));
-    assert_eq!(
-        line.staff.as_deref(),
-        Some("answers like bbox.swap or bbox.flat")
-    );
+    let staff = "answers like bbox.swap or bbox.flat";
+    assert_eq!(line.staff.as_deref(), Some(staff));
 
     let line = hinted(&[mistake("bbox.swap", None)]);
     assert_eq!(line.section, full_score().section);

@@ -195,7 +195,7 @@ fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
         part(file.name.as_bytes());
         match text {
             Ok(text) => part(text.as_bytes()),
-            Err(why) => part(format!("no text: {why}").as_bytes()),
+            Err(why) => part(format!("no text: {}", why.message(file.name)).as_bytes()),
         }
     }
     for note in submission.ignored_copies.iter().chain(&submission.notes) {

@@ -69,7 +69,7 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
     let submission = collect_submission(entry, handed_out).map_err(NotCollected::into_text)?;
     let missing = submission.files.iter().filter(|(_, text)| text.is_err());
     let missing: Vec<String> = missing
-        .filter_map(|(_, text)| text.as_ref().err().map(ToString::to_string))
+        .filter_map(|(file, text)| Some(text.as_ref().err()?.message(file.name)))
         .collect();
     let count = submission.files.len();
     let mut text = match missing.as_slice() {

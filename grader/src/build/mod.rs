@@ -10,7 +10,6 @@ mod dependencies;
 pub mod diagnostics;
 mod linker;
 mod machine_fault;
-mod program_cache;
 mod programs;
 mod rustc;
 pub mod select_isolation;
@@ -32,14 +31,13 @@ use crate::build::blame::{blame, blame_all, explain, incomplete_files, unreadabl
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::{compile, compile_starter};
 use crate::build::dependencies::Dependencies;
-use crate::build::program_cache::ProgramCache;
 use crate::build::rustc::Rustc;
 use crate::build::source_crate::CompileOutcome;
 use crate::build::substitution::{ReferenceParts, Substitution};
 use crate::build::toolchain::Toolchain;
 use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile};
-use crate::machine::files::AtPath;
+use crate::machine::files::{self, AtPath};
 use crate::probe::Interrupt;
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
@@ -154,7 +152,8 @@ impl Builder {
 
     /// Returns a builder that stores all programs in this folder and reuses them.
     pub fn with_cache(mut self, folder: &Path) -> Result<Self, Error> {
-        self.rustc.cache = Some(ProgramCache::new(folder)?);
+        files::create_dir_all(folder)?;
+        self.rustc.cache = Some(folder.to_owned());
         Ok(self)
     }
 

@@ -18,7 +18,6 @@ use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::{self, Diagnostic};
 use crate::build::linker::option_with_path;
 use crate::build::machine_fault::{KILLED, check_disk, is_killed};
-use crate::build::program_cache::ProgramCache;
 use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::build::toolchain::Toolchain;
 use crate::build::verified_copy::{self, OutputFile};
@@ -61,8 +60,9 @@ pub struct Rustc {
     pub toolchain: Toolchain,
     /// The crates that everything is linked with.
     pub dependencies: Dependencies,
-    /// Programs that were compiled before, if they may be reused.
-    pub cache: Option<ProgramCache>,
+    /// The folder of programs that were compiled before, by the hashes of their inputs, for tools that
+    /// build the same submissions repeatedly. Normal grading always compiles, and has none.
+    pub cache: Option<PathBuf>,
     /// The sandbox in which the compiler runs. Programs are linked so that they can run in it.
     pub sandbox: Sandbox,
     /// The time that is left for a submission. `None` for the course's own code, in which all
@@ -95,16 +95,21 @@ impl Rustc {
         content: &ContentHash,
         compile: impl FnOnce() -> io::Result<CompileOutcome>,
     ) -> io::Result<CompileOutcome> {
-        let Some(kept) = &self.cache else {
+        let Some(cache) = &self.cache else {
             return compile();
         };
-        if let Some(program) = kept.find(content) {
-            return Ok(CompileOutcome::Done(program));
+        let kept = cache.join(content.hex());
+        if kept.is_file() {
+            return Ok(CompileOutcome::Done(kept));
         }
-        Ok(match compile()? {
-            CompileOutcome::Done(program) => CompileOutcome::Done(kept.store(content, &program)?),
-            other @ (CompileOutcome::Errors(_) | CompileOutcome::Failed(_)) => other,
-        })
+        let compiled = compile()?;
+        let CompileOutcome::Done(program) = compiled else {
+            return Ok(compiled);
+        };
+        // Moved instead of copied, so that the file is always complete and never executed while it
+        // is open for writing.
+        fs::rename(program, &kept)?;
+        Ok(CompileOutcome::Done(kept))
     }
 
     /// Returns a compiler for one submission.

@@ -52,6 +52,15 @@ pub(super) fn collected(files: Files) -> Result<Submission, SubmissionError> {
     Submission::collect(folder(files).path(), &RAYS)
 }
 
+/// Returns the limit that a submission exceeds, if it does.
+pub(super) fn exceeded<T>(collected: Result<T, SubmissionError>) -> Option<Limit> {
+    match collected {
+        Ok(_) => None,
+        Err(SubmissionError::TooMany(_, limit)) => Some(limit),
+        Err(other) => panic!("{other}"),
+    }
+}
+
 /// Returns what was found of a task file.
 pub(super) fn text<'a>(
     submission: &'a Submission,

@@ -69,15 +69,9 @@ fn a_year_of_two_digits_is_one_from_2000() {
 
 #[test]
 fn a_year_in_which_no_course_takes_place_is_a_mistake() {
-    for text in [
-        "25.10.0026 23:30",
-        "0026-10-25 23:30",
-        "0026-10-25T23:30:00Z",
-        "25.10.1926 23:30",
-        "25 October 3026, 11:30 PM",
-        "10/25/1999 11:30 PM",
-        "2100-01-01 01:00",
-    ] {
+    let texts = "25.10.0026 23:30|0026-10-25 23:30|0026-10-25T23:30:00Z|25.10.1926 23:30|\
+                 25 October 3026, 11:30 PM|10/25/1999 11:30 PM|2100-01-01 01:00";
+    for text in texts.split('|') {
         assert_eq!(read(text), Err(TimeError::ImplausibleYear), "{text}");
     }
 }

@@ -12,7 +12,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use super::*;
 use crate::handed_out::RAYS;
-use crate::submission::tests::{self, Files, folder, tar, text};
+use crate::submission::tests::{self, Files, exceeded, folder, tar, text};
 use crate::submission::{Limit, Submission, SubmissionError, TaskFileError};
 
 fn zip(files: Files) -> Vec<u8> {
@@ -70,15 +70,6 @@ fn packed(
     let names: Vec<String> = names.collect();
     let files: Vec<_> = names.iter().map(|name| (name.as_str(), bytes)).collect();
     pack(&files)
-}
-
-/// Returns the limit that a submission exceeds, if it does.
-fn exceeded(collected: Result<Submission, SubmissionError>) -> Option<Limit> {
-    match collected {
-        Ok(_) => None,
-        Err(SubmissionError::TooMany(_, limit)) => Some(limit),
-        Err(other) => panic!("{other}"),
-    }
 }
 
 const FILES: Files = &[

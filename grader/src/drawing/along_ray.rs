@@ -37,12 +37,10 @@ pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     sheet.title("along the ray, up to the hit");
     sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, distances);
     if let Some(hit) = comparison.wanted {
-        let text = format!("wanted: a hit at {}", describe::number(hit.distance as f32));
-        sheet.add_legend(Symbol::Line(LineStyle::Right), &text);
+        sheet.add_wanted(Symbol::Line(LineStyle::Right), &hit.text());
     }
     if let HitAnswer::Hit(hit) = comparison.got {
-        let text = format!("got: a hit at {}", describe::number(hit.distance as f32));
-        sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
+        sheet.add_got(Symbol::Line(LineStyle::Wrong), &hit.text());
     }
     sheet.finish("The hits along the ray", comparison.caption())
 }

@@ -4,14 +4,14 @@
 
 use glam::{DVec2, Vec3};
 use judging::describe;
-use protocol::{Answer, Interval, Ray};
+use protocol::{Interval, Ray};
 
+use super::Drawing;
 use super::bars::{self, BarRow, BarStyle};
 use super::canvas::Mark;
 use super::ink::{Fill, Ink, LineStyle};
 use super::plane::{AXIS_NAMES, Plane};
 use super::sheet::{Sheet, Symbol};
-use super::{Drawing, value};
 
 /// A question about one ray and one box.
 #[derive(Clone, Copy, Debug)]
@@ -24,44 +24,30 @@ pub(super) struct BoxQuery {
     pub(super) times: Interval,
     /// The expected result: the part of `times` in which the ray is in the box.
     pub(super) wanted: Option<Interval>,
+    /// The submission's answer: an interval, `None`, or no answer at all.
+    pub(super) got: Option<Option<Interval>>,
     /// For each axis, the interval in which the ray is between the two planes, if the exam stores
     /// these intervals.
     pub(super) slabs: Option<[Interval; 3]>,
 }
 
-/// The submission's answer: an interval, `None`, or no answer at all.
-type SpanAnswer = Option<Option<Interval>>;
-
 /// Draws the ray and the box of a query.
-pub(super) fn draw(query: &BoxQuery, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
+pub(super) fn draw(query: &BoxQuery) -> Option<Drawing> {
     let [min, max] = query.corners.map(|corner| corner.as_dvec3());
     let ray = &query.ray;
     if !(min.is_finite() && max.is_finite() && ray.origin.is_finite() && ray.dir.is_finite()) {
         return None;
     }
-    let got = span_answer(element, answer);
     let plane = deciding_plane(query);
     let mut sheet = Sheet::default();
     let along = AXIS_NAMES[plane.normal_axis()];
     sheet.title(&format!("along {along}: {}", plane.name()));
-    draw_picture(&mut sheet, query, got, plane);
-    let rows = rows(query, got);
-    sheet.y = bars::draw(
-        &mut sheet.canvas,
-        sheet.y,
-        &rows,
-        axis_distances(query, got),
-    );
-    draw_legend(&mut sheet, query, got);
+    draw_picture(&mut sheet, query, plane);
+    let rows = rows(query);
+    sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, axis_distances(query));
+    draw_legend(&mut sheet, query);
     let title = "The ray, the box, and the times between its planes";
-    Some(sheet.finish(title, caption(query, got)))
-}
-
-fn span_answer(element: usize, answer: Option<&Answer>) -> SpanAnswer {
-    let Some(Answer::Spans(spans)) = answer else {
-        return None;
-    };
-    value(spans, element).copied()
+    Some(sheet.finish(title, caption(query)))
 }
 
 /// Returns the plane of the two axes that decide whether the ray hits: the one whose slab it enters
@@ -86,7 +72,7 @@ fn deciding_plane(query: &BoxQuery) -> Plane {
     Plane::of(last_in, first_out)
 }
 
-fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Plane) {
+fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, plane: Plane) {
     let (origin, dir) = (query.ray.origin.as_dvec3(), query.ray.dir.as_dvec3());
     let at = |t: f32| plane.project(origin + f64::from(t) * dir);
     let corners = query.corners.map(|corner| plane.project(corner.as_dvec3()));
@@ -97,13 +83,9 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
         ends.map(at)
     };
     let is_near = |at: &DVec2| at.distance(middle) < 4.0 * size;
-    let others = [
-        ends(query.wanted),
-        ends(got.flatten()),
-        ends(Some(query.times)),
-    ]
-    .concat();
-    let others = others.into_iter().chain([plane.project(origin)]);
+    let spans = [query.wanted, query.got.flatten(), Some(query.times)];
+    let others = spans.into_iter().flat_map(ends);
+    let others = others.chain([plane.project(origin)]);
     let seen: Vec<DVec2> = corners.into_iter().chain(others.filter(is_near)).collect();
     let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
@@ -119,7 +101,7 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
     canvas.mark_inside(&window, plane.project(origin), Mark::Origin);
     let spans = [
         (query.wanted, LineStyle::Right, Mark::Right),
-        (got.flatten(), LineStyle::Wrong, Mark::Wrong),
+        (query.got.flatten(), LineStyle::Wrong, Mark::Wrong),
     ];
     for (span, line, _) in spans {
         canvas.segment(&window, ends(span), line);
@@ -131,7 +113,7 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer, plane: Pla
     }
 }
 
-fn rows(query: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
+fn rows(query: &BoxQuery) -> Vec<BarRow> {
     let never = "never between these planes";
     let slabs = query.slabs.into_iter().flatten().zip(AXIS_NAMES);
     let mut rows: Vec<BarRow> = slabs
@@ -140,22 +122,18 @@ fn rows(query: &BoxQuery, got: SpanAnswer) -> Vec<BarRow> {
     let (range, times) = (BarStyle::Range, Some(query.times));
     rows.push(BarRow::new("times", range, times, "none"));
     rows.push(BarRow::new("wanted", BarStyle::Right, query.wanted, "None"));
-    let got_text = match got {
+    let got_text = match query.got {
         None => "no answer".to_owned(),
         Some(span) => describe::span(span),
     };
-    rows.push(BarRow::new(
-        "got",
-        BarStyle::Wrong,
-        got.flatten(),
-        &got_text,
-    ));
+    let got = query.got.flatten();
+    rows.push(BarRow::new("got", BarStyle::Wrong, got, &got_text));
     rows
 }
 
 /// Returns the distances that the axis must cover. The slabs contribute only the last entry and the
 /// first exit.
-fn axis_distances(query: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
+fn axis_distances(query: &BoxQuery) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];
     let mut seen: Vec<f64> = [query.wanted, Some(query.times)]
         .into_iter()
@@ -172,38 +150,34 @@ fn axis_distances(query: &BoxQuery, got: SpanAnswer) -> Vec<f64> {
     }
     let finite = seen.iter().copied().filter(|t| t.is_finite());
     let reach = 8.0 * finite.fold(1e-3_f64, |reach, t| reach.max(t.abs()));
-    let got = got.flatten().map(ends).into_iter().flatten();
+    let got = query.got.flatten().map(ends).into_iter().flatten();
     seen.extend(got.filter(|t| t.abs() < reach));
     seen
 }
 
-fn draw_legend(sheet: &mut Sheet, query: &BoxQuery, got: SpanAnswer) {
-    let wanted = format!("wanted: {}", describe::span(query.wanted));
+fn draw_legend(sheet: &mut Sheet, query: &BoxQuery) {
     let symbol = |span: Option<Interval>, mark| match span {
         Some(_) => Symbol::Mark(mark),
         None => Symbol::None,
     };
-    sheet.add_legend(symbol(query.wanted, Mark::Right), &wanted);
-    if let Some(span) = got {
-        let text = format!("got: {}", describe::span(span));
-        sheet.add_legend(symbol(span, Mark::Wrong), &text);
+    let wanted = describe::span(query.wanted);
+    sheet.add_wanted(symbol(query.wanted, Mark::Right), &wanted);
+    if let Some(span) = query.got {
+        sheet.add_got(symbol(span, Mark::Wrong), &describe::span(span));
     }
     let times = format!("times: {}", describe::interval(query.times));
     sheet.add_legend(Symbol::Line(LineStyle::Range), &times);
     let start = format!("the ray starts at {}", describe::point(query.ray.origin));
     sheet.add_legend(Symbol::Mark(Mark::Origin), &start);
     if query.slabs.is_some() {
-        let fill = Fill::Tint(Ink::Text, 0.18);
-        sheet.add_legend(
-            Symbol::Area(fill),
-            "when the ray is between the planes of x, y, z",
-        );
+        let text = "when the ray is between the planes of x, y, z";
+        sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Text, 0.18)), text);
     }
 }
 
-fn caption(query: &BoxQuery, got: SpanAnswer) -> String {
+fn caption(query: &BoxQuery) -> String {
     let wanted = describe::span(query.wanted);
-    match (query.wanted, got) {
+    match (query.wanted, query.got) {
         (_, None) => format!("The correct answer is {wanted}; your code gave no answer."),
         (Some(_), Some(None)) => {
             format!("All bars overlap in {wanted}: the ray is in the box then. You answered None.")

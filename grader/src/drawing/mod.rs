@@ -30,7 +30,6 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use judging::judge::tree::TreeCriteria;
 
 use bbox::BoxQuery;
-use camera::CameraQuery;
 use hit_comparison::HitComparison;
 use traversal::RecordedTraversal;
 
@@ -53,12 +52,13 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
     if let (Question::SampleRay(table), Key::Table { rows, .. }) = (asked, key)
         && let ExpectedRows::Rays(directions) = rows
     {
-        let query = CameraQuery {
-            camera: table.subject,
-            sample: table.rows.get(element)?,
-            wanted: directions.get(element)?.as_dvec3(),
+        let got = if let Some(Answer::Rays(rays)) = answer {
+            value(rays, element).copied()
+        } else {
+            None
         };
-        return camera::draw(&query, element, answer);
+        let wanted = directions.get(element)?.as_dvec3();
+        return camera::draw(&table.subject, table.rows.get(element)?, wanted, got);
     }
     if let Question::Hit(table) = asked {
         let comparison = HitComparison::new(question, element, answer)?;
@@ -90,17 +90,21 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
     {
         let Corners { min, max } = table.subject;
         let Query { ray, times } = table.rows.get(element)?;
-        let query = BoxQuery {
+        return bbox::draw(&BoxQuery {
             corners: [min, max],
             ray,
             times,
             wanted: *spans.get(element)?,
+            got: if let Some(Answer::Spans(spans)) = answer {
+                value(spans, element).copied()
+            } else {
+                None
+            },
             slabs: match &question.drawing_data {
                 DrawingData::Slabs(slabs) => slabs.get(element).copied(),
                 DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
             },
-        };
-        return bbox::draw(&query, element, answer);
+        });
     }
     if let (
         Question::Build {
@@ -110,16 +114,17 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
         Key::Tree { checks, sweep_cost },
     ) = (asked, key)
     {
-        let case = build::BuildCase {
-            criteria: TreeCriteria {
-                checks,
-                sweep_cost: *sweep_cost,
-                shapes,
-                max_leaf_size: *max_leaf_size,
-            },
-            drawing_data: &question.drawing_data,
+        let criteria = TreeCriteria {
+            checks,
+            sweep_cost: *sweep_cost,
+            shapes,
+            max_leaf_size: *max_leaf_size,
         };
-        return build::draw(&case, answer);
+        let sweep = match &question.drawing_data {
+            DrawingData::Sweep(sweep) => Some(sweep),
+            DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
+        };
+        return build::draw(&criteria, sweep, answer);
     }
     None
 }

@@ -104,6 +104,16 @@ impl Sheet {
         self.legend.push(text.to_owned());
     }
 
+    /// Adds the expected answer to the legend.
+    pub(super) fn add_wanted(&mut self, symbol: Symbol, text: &str) {
+        self.add_legend(symbol, &format!("wanted: {text}"));
+    }
+
+    /// Adds the submitted answer to the legend.
+    pub(super) fn add_got(&mut self, symbol: Symbol, text: &str) {
+        self.add_legend(symbol, &format!("got: {text}"));
+    }
+
     fn draw_symbol(&mut self, symbol: Symbol, middle: DVec2) {
         let aside = dvec2(10.0, 0.0);
         match symbol {

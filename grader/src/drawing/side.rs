@@ -153,24 +153,19 @@ pub(super) fn draw_legend(
         }
     };
     match (comparison.wanted, comparison.focus) {
-        (None, _) => sheet.add_legend(Symbol::None, "wanted: no hit"),
+        (None, _) => sheet.add_wanted(Symbol::None, "no hit"),
         // The origin is that of the ray, which has its own entry.
-        (Some(hit), Focus::Origin) => {
-            let text = format!("wanted: {}", field(&hit, Focus::Distance));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
-        }
+        (Some(hit), Focus::Origin) => sheet.add_wanted(Symbol::Mark(Mark::Right), &hit.text()),
         (Some(hit), focus) => {
-            let text = format!("wanted: {}", field(&hit, focus));
-            sheet.add_legend(symbol(LineStyle::Right, Mark::Right), &text);
+            sheet.add_wanted(symbol(LineStyle::Right, Mark::Right), &field(&hit, focus));
         }
     }
     match (comparison.got, comparison.focus) {
         (HitAnswer::NoAnswer, _) => {}
-        (HitAnswer::Miss, _) => sheet.add_legend(Symbol::None, "got: no hit"),
+        (HitAnswer::Miss, _) => sheet.add_got(Symbol::None, "no hit"),
         // Nothing in the picture shows the number.
         (HitAnswer::Hit(hit), Focus::Shape) => {
-            let text = format!("got: {}", field(&hit, Focus::Shape));
-            sheet.add_legend(Symbol::None, &text);
+            sheet.add_got(Symbol::None, &field(&hit, Focus::Shape));
         }
         (HitAnswer::Hit(hit), focus) => {
             let is_drawn = matches!(focus, Focus::Distance | Focus::Position);
@@ -179,8 +174,8 @@ pub(super) fn draw_legend(
             } else {
                 ""
             };
-            let text = format!("got: {}{off}", field(&hit, focus));
-            sheet.add_legend(symbol(LineStyle::Wrong, Mark::Wrong), &text);
+            let text = format!("{}{off}", field(&hit, focus));
+            sheet.add_got(symbol(LineStyle::Wrong, Mark::Wrong), &text);
         }
     }
     add_range_legend(sheet, comparison);
@@ -194,7 +189,7 @@ pub(super) fn draw_legend(
 /// Returns the text for a field of a hit.
 fn field(hit: &DrawnHit, field: Focus) -> String {
     match field {
-        Focus::Distance => format!("a hit at {}", describe::number(hit.distance as f32)),
+        Focus::Distance => hit.text(),
         Focus::Position => describe::point(hit.position.as_vec3()),
         Focus::Normal => format!("normal {}", point(hit.normal)),
         Focus::Uv => format!("uv {}", describe::uv(hit.uv.as_vec2())),

@@ -1,9 +1,9 @@
 //! The flaw of a tree: the defect that the judge finds, with its node, or the tree's cost.
 
 use judging::judge::tree::defect::TreeDefect;
-use judging::judge::tree::{self, FULL_MARKS_RATIO};
+use judging::judge::tree::reached_nodes::ReachedNode;
+use judging::judge::tree::{self, FULL_MARKS_RATIO, TreeCriteria};
 
-use super::{BuildCase, NodePosition};
 use crate::drawing::numbers::pluralize;
 
 /// The flaw of a tree.
@@ -11,7 +11,7 @@ pub(super) struct Flaw<'a> {
     /// The defect that the judge finds.
     pub(super) defect: Option<TreeDefect>,
     /// The node that has it, or `None` if it concerns the whole tree.
-    pub(super) node: Option<NodePosition<'a>>,
+    pub(super) node: Option<&'a ReachedNode<'a>>,
     /// The primitives that are in no leaf.
     pub(super) missing: Vec<usize>,
     /// The primitives that are in more than one leaf.
@@ -21,9 +21,9 @@ pub(super) struct Flaw<'a> {
 impl<'a> Flaw<'a> {
     /// Returns the flaw of a tree with this defect.
     pub(super) fn new(
-        case: &BuildCase,
+        criteria: &TreeCriteria,
         defect: Option<TreeDefect>,
-        positions: &[NodePosition<'a>],
+        nodes: &'a [ReachedNode<'a>],
     ) -> Self {
         let index = match &defect {
             Some(TreeDefect::BoxTooSmall(node) | TreeDefect::BoxTooLarge(node)) => Some(node.index),
@@ -34,12 +34,7 @@ impl<'a> Flaw<'a> {
             ) => Some(*index),
             _ => None,
         };
-        let mut nodes = positions.iter();
-        let node = nodes
-            .find(|node| Some(node.reached.index) == index)
-            .copied();
-        let reached = positions.iter().map(|node| node.reached);
-        let leaves_of = tree::leaves_of_primitives(reached, case.criteria.shapes.len());
+        let leaves_of = tree::leaves_of_primitives(nodes, criteria.shapes.len());
         let of = |is: fn(usize) -> bool| -> Vec<usize> {
             let primitives = (0..).zip(&leaves_of);
             let primitives = primitives.filter(|(_, leaves)| is(**leaves));
@@ -47,7 +42,7 @@ impl<'a> Flaw<'a> {
         };
         Flaw {
             defect,
-            node,
+            node: nodes.iter().find(|node| Some(node.index) == index),
             missing: of(|leaves| leaves == 0),
             duplicated: of(|leaves| leaves > 1),
         }
@@ -67,8 +62,8 @@ impl<'a> Flaw<'a> {
     }
 
     /// Returns a sentence that describes the flaw. `cost` is the tree's SAH cost.
-    pub(super) fn caption(&self, case: &BuildCase, cost: f64) -> String {
-        let all = case.criteria.shapes.len();
+    pub(super) fn caption(&self, criteria: &TreeCriteria, cost: f64) -> String {
+        let all = criteria.shapes.len();
         let primitives = |count| pluralize(count, "primitive", "primitives");
         match &self.defect {
             Some(TreeDefect::BoxTooSmall(node)) => format!(
@@ -96,7 +91,7 @@ impl<'a> Flaw<'a> {
                 pluralize(self.missing.len(), "is", "are"),
                 pluralize(self.duplicated.len(), "is", "are")
             ),
-            _ => match case.criteria.sweep_cost {
+            _ => match criteria.sweep_cost {
                 Some(sweep) => format!(
                     "Your tree costs {:.2} times as much as the tree with the best split at every \
                      node; up to {FULL_MARKS_RATIO} times earns full marks.",

@@ -3,12 +3,14 @@
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::drawing_data::Sweep;
+use judging::judge::tree::TreeCriteria;
 use judging::judge::tree::bounds::Bounds;
 use judging::judge::tree::defect::TreeDefect;
+use judging::judge::tree::reached_nodes::ReachedNode;
 use protocol::Shape;
 
 use super::flaw::Flaw;
-use super::{BuildCase, NodePosition, primitives_below};
+use super::{from_left, primitives_below};
 use crate::drawing::canvas::{Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::point;
@@ -26,21 +28,21 @@ const MAX_ROW_PRIMITIVES: usize = 32;
 /// Draws the flaw with its legend, if the flaw can be drawn.
 pub(super) fn draw(
     sheet: &mut Sheet,
-    case: &BuildCase,
+    criteria: &TreeCriteria,
     sweep: Option<&Sweep>,
-    positions: &[NodePosition],
+    nodes: &[ReachedNode],
     flaw: &Flaw,
 ) {
     match (&flaw.defect, &flaw.node) {
         (Some(TreeDefect::BoxTooSmall(_) | TreeDefect::BoxTooLarge(_)), Some(node)) => {
-            draw_boxes(sheet, case, &primitives_below(positions, node), node);
+            draw_boxes(sheet, criteria.shapes, &primitives_below(nodes, node), node);
         }
-        (Some(TreeDefect::Partition { .. }), _) => draw_partition(sheet, case, flaw),
-        (Some(TreeDefect::Cost(_)) | None, _) if case.criteria.sweep_cost.is_some() => {
+        (Some(TreeDefect::Partition { .. }), _) => draw_partition(sheet, criteria, flaw),
+        (Some(TreeDefect::Cost(_)) | None, _) if criteria.sweep_cost.is_some() => {
             let plane = sweep.and_then(|sweep| sweep.plane);
-            let is_small = case.criteria.shapes.len() <= MAX_ROW_PRIMITIVES;
+            let is_small = criteria.shapes.len() <= MAX_ROW_PRIMITIVES;
             if let Some(plane) = plane.filter(|_| is_small) {
-                draw_row(sheet, case, positions, plane);
+                draw_row(sheet, criteria, nodes, plane);
             }
         }
         _ => {}
@@ -59,11 +61,8 @@ fn largest(value: impl Fn(usize) -> f64) -> usize {
     axis.unwrap_or(0)
 }
 
-fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &NodePosition) {
-    let (needs, has) = (
-        node.reached.tight_bounds,
-        Bounds::of_node(node.reached.node),
-    );
+fn draw_boxes(sheet: &mut Sheet, shapes: &[Shape], below: &[usize], node: &ReachedNode) {
+    let (needs, has) = (node.tight_bounds, Bounds::of_node(node.node));
     let out = |axis: usize| {
         let below = (needs.min[axis] - has.min[axis]).abs();
         let above = (needs.max[axis] - has.max[axis]).abs();
@@ -82,20 +81,17 @@ fn draw_boxes(sheet: &mut Sheet, case: &BuildCase, primitives: &[usize], node: &
     let near = got.into_iter().filter(|at| at.distance(right[0]) < reach);
     let seen: Vec<DVec2> = right.into_iter().chain(near).collect();
 
-    sheet.title(&format!("node {}: {}", node.reached.index, plane.name()));
+    sheet.title(&format!("node {}: {}", node.index, plane.name()));
     let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
-    let shapes = primitives.iter().map(|&index| &case.criteria.shapes[index]);
+    let shapes = below.iter().map(|&index| &shapes[index]);
     draw_outlines(canvas, &window, plane, shapes);
     draw_frame(canvas, &window, right, LineStyle::Right);
     draw_frame(canvas, &window, got, LineStyle::Wrong);
-    sheet.add_legend(
-        Symbol::Line(LineStyle::Right),
-        "wanted: the tightest box around the contents",
-    );
-    let min_max = [has.min, has.max].map(point);
-    let text = format!("got: {} to {}", min_max[0], min_max[1]);
-    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
+    let wanted = "the tightest box around the contents";
+    sheet.add_wanted(Symbol::Line(LineStyle::Right), wanted);
+    let corners = format!("{} to {}", point(has.min), point(has.max));
+    sheet.add_got(Symbol::Line(LineStyle::Wrong), &corners);
 }
 
 fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line: LineStyle) {
@@ -105,9 +101,9 @@ fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line
     }
 }
 
-fn draw_partition(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw) {
+fn draw_partition(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw) {
     let mut all = Bounds::EMPTY;
-    for shape in case.criteria.shapes {
+    for shape in criteria.shapes {
         all.enclose(Bounds::of_shape(shape));
     }
     let size = all.max - all.min;
@@ -118,10 +114,10 @@ fn draw_partition(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw) {
     sheet.title(&plane.name());
     let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
-    draw_outlines(canvas, &window, plane, case.criteria.shapes.iter());
+    draw_outlines(canvas, &window, plane, criteria.shapes.iter());
     let mut mark = |indices: &[usize], mark: Mark| {
         for &index in indices.iter().take(MAX_MARKS) {
-            let bounds = Bounds::of_shape(&case.criteria.shapes[index]);
+            let bounds = Bounds::of_shape(&criteria.shapes[index]);
             let middle = plane.project(bounds.center());
             canvas.mark(window.page_position(middle), mark);
         }
@@ -129,10 +125,10 @@ fn draw_partition(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw) {
     mark(&flaw.missing, Mark::Wrong);
     mark(&flaw.duplicated, Mark::Origin);
     if !flaw.missing.is_empty() {
-        sheet.add_legend(Symbol::Mark(Mark::Wrong), "got: in no leaf");
+        sheet.add_got(Symbol::Mark(Mark::Wrong), "in no leaf");
     }
     if !flaw.duplicated.is_empty() {
-        sheet.add_legend(Symbol::Mark(Mark::Origin), "got: in more than one leaf");
+        sheet.add_got(Symbol::Mark(Mark::Origin), "in more than one leaf");
     }
 }
 
@@ -140,23 +136,19 @@ fn draw_partition(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw) {
 /// other below it.
 fn draw_row(
     sheet: &mut Sheet,
-    case: &BuildCase,
-    positions: &[NodePosition],
+    criteria: &TreeCriteria,
+    nodes: &[ReachedNode],
     (axis, at): (u8, f32),
 ) {
     let axis = usize::from(axis.min(2));
     let center_along_axis =
-        |primitive: &usize| Bounds::of_shape(&case.criteria.shapes[*primitive]).center()[axis];
-    let sides: Vec<Vec<f64>> = positions
-        .iter()
-        .filter(|node| node.level == 1)
-        .map(|node| {
-            primitives_below(positions, node)
-                .iter()
-                .map(center_along_axis)
-                .collect()
-        })
-        .collect();
+        |primitive: &usize| Bounds::of_shape(&criteria.shapes[*primitive]).center()[axis];
+    let centers = |node| -> Vec<f64> {
+        let below = primitives_below(nodes, node);
+        below.iter().map(center_along_axis).collect()
+    };
+    let children = from_left(nodes).filter(|node| node.level == 1);
+    let sides: Vec<Vec<f64>> = children.map(centers).collect();
     let all = sides.iter().flatten().map(|x| dvec2(*x, 0.0));
     sheet.title(&format!("the first split, along {}", AXIS_NAMES[axis]));
     let panel = sheet.panel(74.0);
@@ -180,13 +172,10 @@ fn draw_row(
         dvec2(x, panel.max.y),
         LineStyle::Right,
     );
-    sheet.add_legend(
-        Symbol::Line(LineStyle::Right),
-        "wanted: the best splitting plane",
-    );
+    sheet.add_wanted(Symbol::Line(LineStyle::Right), "the best splitting plane");
     let counts: Vec<String> = sides.iter().map(|side| side.len().to_string()).collect();
-    let text = format!("got: {}, one child above, one below", counts.join(" and "));
-    sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Wrong, 1.0)), &text);
+    let text = format!("{}, one child above, one below", counts.join(" and "));
+    sheet.add_got(Symbol::Area(Fill::Tint(Ink::Wrong, 1.0)), &text);
 }
 
 /// Draws the outlines of the first [`MAX_PRIMITIVES`] primitives.

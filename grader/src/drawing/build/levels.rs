@@ -3,7 +3,6 @@
 use glam::{DVec2, dvec2};
 use judging::drawing_data::{LevelNode, Sweep};
 
-use super::MarkedNode;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
@@ -22,11 +21,12 @@ pub(super) fn draw(
     nodes: &[LevelNode],
     all: u32,
     total: f64,
-    mark: MarkedNode,
+    mark: Option<LevelNode>,
 ) -> Symbol {
     let mut symbol = Symbol::None;
     let top = sheet.y;
     let x = |count: u32| RIGHT * f64::from(count) / f64::from(all.max(1));
+    let ends = |node: &LevelNode| [node.start, node.start.saturating_add(node.count)].map(x);
     let canvas = &mut sheet.canvas;
     let at_right = |y: f64| dvec2(WIDTH - 2.0, y);
     canvas.text(at_right(top - 6.0), Anchor::End, Ink::Faint, "SAH cost");
@@ -38,8 +38,7 @@ pub(super) fn draw(
         let cost: f64 = on_level.clone().map(|node| f64::from(node.cost)).sum();
         sum += cost;
         for node in on_level.take(MAX_NODES) {
-            let ends = [node.start, node.start.saturating_add(node.count)];
-            draw_node(canvas, node, ends.map(x), y);
+            draw_node(canvas, node, ends(node), y);
         }
         canvas.text(
             at_right(y + 13.5),
@@ -48,13 +47,11 @@ pub(super) fn draw(
             &format!("{cost:.2}"),
         );
     }
-    if let Some((level, start, count)) = mark {
-        let y = top + ROW_HEIGHT * f64::from(level.min(deepest));
-        let (from, to) = (
-            dvec2(x(start), y),
-            dvec2(x(start.saturating_add(count)), y + ROW_HEIGHT - 3.0),
-        );
-        if level <= deepest && to.x - from.x > 14.0 {
+    if let Some(node) = mark {
+        let y = top + ROW_HEIGHT * f64::from(node.level.min(deepest));
+        let [from, to] = ends(&node);
+        let (from, to) = (dvec2(from, y), dvec2(to, y + ROW_HEIGHT - 3.0));
+        if node.level <= deepest && to.x - from.x > 14.0 {
             canvas.rectangle(from, to, LineStyle::Wrong, Fill::None);
             symbol = Symbol::Line(LineStyle::Wrong);
         } else {

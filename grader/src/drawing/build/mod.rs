@@ -4,7 +4,6 @@
 mod flaw;
 mod geometry;
 mod levels;
-mod node_positions;
 
 use protocol::{Answer, Tree};
 
@@ -14,30 +13,21 @@ use super::sheet::{Sheet, Symbol};
 use super::{Drawing, value};
 
 use flaw::Flaw;
-use judging::drawing_data::{DrawingData, LevelNode, Sweep};
-use judging::judge::tree::reached_nodes::reached_nodes;
+use judging::drawing_data::{LevelNode, Sweep};
+use judging::judge::tree::reached_nodes::{ReachedNode, reached_nodes};
 use judging::judge::tree::{self, TreeCriteria};
-use node_positions::NodePosition;
-
-/// A question about building a tree, and the criteria by which the tree is judged.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BuildCase<'a> {
-    /// The criteria, with the primitives that the tree is built over.
-    pub(super) criteria: TreeCriteria<'a>,
-    /// The exact sweep's tree, if the exam has it.
-    pub(super) drawing_data: &'a DrawingData,
-}
 
 const TITLE: &str = "The tree by levels, each node as wide as its share of the primitives";
 
-/// Draws the submitted tree.
-pub(super) fn draw(case: &BuildCase, answer: Option<&Answer>) -> Option<Drawing> {
+/// Draws the submitted tree. The criteria are those by which it is judged, and `sweep` is the exact
+/// sweep's tree, if the exam has it.
+pub(super) fn draw(
+    criteria: &TreeCriteria,
+    sweep: Option<&Sweep>,
+    answer: Option<&Answer>,
+) -> Option<Drawing> {
     let tree = tree_answer(answer)?;
-    let sweep = match case.drawing_data {
-        DrawingData::Sweep(sweep) => Some(sweep),
-        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
-    };
-    let reached = match reached_nodes(case.criteria.shapes, tree) {
+    let nodes = match reached_nodes(criteria.shapes, tree) {
         Ok(nodes) => nodes,
         Err(defect) => {
             let mut sheet = Sheet::default();
@@ -46,24 +36,22 @@ pub(super) fn draw(case: &BuildCase, answer: Option<&Answer>) -> Option<Drawing>
             return Some(sheet.finish(TITLE, caption));
         }
     };
-    let positions = node_positions::positions(&reached);
-    let root = positions.first()?;
-    let flaw = Flaw::new(case, case.criteria.defect(tree), &positions);
-    let total = tree::cost(&reached);
+    let root = nodes.first()?;
+    let flaw = Flaw::new(criteria, criteria.defect(tree), &nodes);
+    let total = tree::cost(&nodes);
 
     let mut sheet = Sheet::default();
-    geometry::draw(&mut sheet, case, sweep, &positions, &flaw);
+    geometry::draw(&mut sheet, criteria, sweep, &nodes, &flaw);
     sheet.title("your tree");
-    let mark = flaw
-        .node
-        .map(|node| (node.level, node.start, node.reached.count as u32));
-    let own = node_positions::upper_levels(&positions);
-    let symbol = levels::draw(&mut sheet, &own, root.reached.count as u32, total, mark);
+    let upper = from_left(&nodes).filter(|node| node.level < Sweep::LEVELS);
+    let own: Vec<LevelNode> = upper.map(|node| level_node(node, root)).collect();
+    let mark = flaw.node.map(|node| level_node(node, root));
+    let symbol = levels::draw(&mut sheet, &own, root.count as u32, total, mark);
     if let Some(sweep) = sweep {
         draw_sweep(&mut sheet, sweep);
     }
-    draw_legend(&mut sheet, case, &flaw, symbol, total);
-    Some(sheet.finish(TITLE, flaw.caption(case, total)))
+    draw_legend(&mut sheet, criteria, &flaw, symbol, total);
+    Some(sheet.finish(TITLE, flaw.caption(criteria, total)))
 }
 
 fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
@@ -84,43 +72,47 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
 
-fn draw_legend(sheet: &mut Sheet, case: &BuildCase, flaw: &Flaw, symbol: Symbol, cost: f64) {
-    let interior = Fill::Tint(Ink::Text, 0.5);
-    sheet.add_legend(
-        Symbol::Area(interior),
-        "a split node; stronger colour: larger box",
-    );
-    sheet.add_legend(
-        Symbol::Area(Fill::None),
-        "half height: a leaf; numbers: primitives",
-    );
+fn draw_legend(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw, symbol: Symbol, cost: f64) {
+    let [interior, leaf] = [Fill::Tint(Ink::Text, 0.5), Fill::None].map(Symbol::Area);
+    sheet.add_legend(interior, "a split node; stronger colour: larger box");
+    sheet.add_legend(leaf, "half height: a leaf; numbers: primitives");
     if flaw.node.is_some() {
         sheet.add_legend(symbol, flaw.label());
     }
-    match case.criteria.sweep_cost {
+    match criteria.sweep_cost {
         Some(sweep) => {
-            let text = format!(
-                "SAH cost: {}; with the best splits: {}",
-                short(cost),
-                short(sweep)
-            );
+            let [own, best] = [cost, sweep].map(short);
+            let text = format!("SAH cost: {own}; with the best splits: {best}");
             sheet.add_legend(Symbol::None, &text);
         }
         None => sheet.add_legend(Symbol::None, "right: what each level adds to the SAH cost"),
     }
 }
 
-/// The position of the marked node, if there is one: its level, the number of primitives to its
-/// left, and the number of primitives in it.
-type MarkedNode = Option<(u32, u32, u32)>;
+/// Returns the nodes of each level from left to right.
+fn from_left<'a>(nodes: &'a [ReachedNode]) -> impl Iterator<Item = &'a ReachedNode<'a>> {
+    // A right child and everything below it come before the left child.
+    nodes.iter().rev()
+}
+
+/// Returns a node in the form in which the exam stores the exact sweep's tree.
+fn level_node(node: &ReachedNode, root: &ReachedNode) -> LevelNode {
+    let cost = node.cost() / root.tight_bounds.area();
+    LevelNode {
+        level: node.level,
+        start: node.start as u32,
+        count: node.count as u32,
+        is_leaf: node.leaf_primitives.is_some(),
+        // The area of an empty node is not finite.
+        cost: if cost.is_finite() { cost } else { 0.0 } as f32,
+    }
+}
 
 /// Returns the indices of the primitives below a node.
-fn primitives_below(positions: &[NodePosition], node: &NodePosition) -> Vec<usize> {
-    let inside = |other: &&NodePosition| {
-        let range = node.start..node.start.saturating_add(node.reached.count as u32);
-        other.level >= node.level && range.contains(&other.start)
-    };
-    let leaves = positions.iter().filter(inside);
-    let leaves = leaves.filter_map(|leaf| leaf.reached.leaf_primitives.as_deref());
+fn primitives_below(nodes: &[ReachedNode], node: &ReachedNode) -> Vec<usize> {
+    let range = node.start..node.start + node.count;
+    let inside = |other: &&ReachedNode| other.level >= node.level && range.contains(&other.start);
+    let leaves = from_left(nodes).filter(inside);
+    let leaves = leaves.filter_map(|leaf| leaf.leaf_primitives.as_deref());
     leaves.flatten().copied().collect()
 }

@@ -2,10 +2,10 @@
 
 use glam::{DVec2, DVec3, UVec2, dvec2};
 use judging::describe;
-use protocol::Ray;
+use protocol::{Ray, Sample};
 
-use super::sensor::{Sensor, draw_grid, draw_grid_in};
-use super::{CameraQuery, sensor_crossing};
+use super::sensor::{Sensor, draw_grid};
+use super::sensor_crossing;
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
@@ -14,12 +14,7 @@ use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
 /// Draws the sensor, the point where the ray should cross it, and the point where it does.
-pub(super) fn draw(
-    query: &CameraQuery,
-    sensor: &Sensor,
-    wanted: DVec2,
-    got: Option<Ray>,
-) -> Drawing {
+pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<Ray>) -> Drawing {
     /// The smallest size, in page units, at which pixels can be distinguished.
     const MIN_PIXEL: f64 = 9.0;
 
@@ -50,26 +45,26 @@ pub(super) fn draw(
     canvas.text(y, Anchor::End, Ink::Faint, "y ↑");
     let pixel = window.page_length(sensor.pixel_size().min_element());
     if pixel >= MIN_PIXEL {
-        draw_grid(canvas, &window, sensor);
+        draw_grid(canvas, panel, &window, sensor);
     }
-    draw_sampled_pixel(canvas, &window, sensor, query.sample.pixel);
+    draw_sampled_pixel(canvas, &window, sensor, sample.pixel);
     marks(canvas, &window);
 
     let is_close = near.is_some_and(|at| at.distance(wanted) < 0.15 * sensor.size.max_element());
     if pixel < 2.0 * MIN_PIXEL && is_close {
-        let seen: Vec<DVec2> = closeup_points(query, sensor, wanted, near);
+        let seen: Vec<DVec2> = closeup_points(sensor, sample.pixel, wanted, near);
         sheet.title("close-up");
         let panel = sheet.panel(180.0);
         let window = Window::around(panel, seen);
         if window.page_length(sensor.pixel_size().min_element()) >= MIN_PIXEL {
-            draw_grid_in(&mut sheet.canvas, panel, &window, sensor);
+            draw_grid(&mut sheet.canvas, panel, &window, sensor);
         }
-        draw_sampled_pixel(&mut sheet.canvas, &window, sensor, query.sample.pixel);
+        draw_sampled_pixel(&mut sheet.canvas, &window, sensor, sample.pixel);
         marks(&mut sheet.canvas, &window);
     }
     let point_text = |at: DVec2| format!("({}, {}, -1)", short(at.x), short(at.y));
-    let text = format!("wanted: through {}", point_text(wanted));
-    sheet.add_legend(Symbol::Mark(Mark::Right), &text);
+    let text = format!("through {}", point_text(wanted));
+    sheet.add_wanted(Symbol::Mark(Mark::Right), &text);
     match (got, seen) {
         (None, _) => {}
         (Some(_), Some(at)) => {
@@ -78,23 +73,23 @@ pub(super) fn draw(
             } else {
                 ", outside the picture"
             };
-            let text = format!("got: through {}{off}", point_text(at));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
+            let text = format!("through {}{off}", point_text(at));
+            sheet.add_got(Symbol::Mark(Mark::Wrong), &text);
         }
         (Some(ray), None) => {
-            let text = format!("got: toward {}", describe::point(ray.dir));
-            sheet.add_legend(Symbol::None, &text);
+            let text = format!("toward {}", describe::point(ray.dir));
+            sheet.add_got(Symbol::None, &text);
         }
     }
-    let (pixel, film) = (query.sample.pixel, sensor.film);
+    let (pixel, film) = (sample.pixel, sensor.film);
     let text = format!(
         "pixel ({}, {}) of {} × {}, offset ({}, {})",
         pixel.x,
         pixel.y,
         film.x,
         film.y,
-        short(query.sample.offset.x.into()),
-        short(query.sample.offset.y.into())
+        short(sample.offset.x.into()),
+        short(sample.offset.y.into())
     );
     sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Text, 0.35)), &text);
     let title = "The sensor from the front, and where the ray goes through it";
@@ -103,14 +98,8 @@ pub(super) fn draw(
 
 /// Returns the points that the close-up shows: the corners of the sampled pixel and the expected
 /// and submitted points, with a margin.
-fn closeup_points(
-    query: &CameraQuery,
-    sensor: &Sensor,
-    wanted: DVec2,
-    got: Option<DVec2>,
-) -> Vec<DVec2> {
-    let pixel = query.sample.pixel.as_dvec2();
-    let corners = [pixel, pixel + 1.0].map(|corner| sensor.corner(corner));
+fn closeup_points(sensor: &Sensor, pixel: UVec2, wanted: DVec2, got: Option<DVec2>) -> Vec<DVec2> {
+    let corners = sensor.pixel_corners(pixel);
     let mut seen: Vec<DVec2> = corners.into_iter().chain([wanted]).chain(got).collect();
     let margin = 0.7 * sensor.pixel_size();
     let wider: Vec<DVec2> = seen
@@ -122,8 +111,8 @@ fn closeup_points(
 }
 
 fn draw_sampled_pixel(canvas: &mut Canvas, window: &Window, sensor: &Sensor, pixel: UVec2) {
-    let pixel = pixel.as_dvec2();
-    let corners = [pixel, pixel + 1.0].map(|corner| window.page_position(sensor.corner(corner)));
+    let corners = sensor.pixel_corners(pixel);
+    let corners = corners.map(|corner| window.page_position(corner));
     // A minimum size keeps a tiny pixel visible.
     let (min, max) = (corners[0].min(corners[1]), corners[0].max(corners[1]));
     let grow = (0.5 * (3.0 - (max - min))).max(DVec2::ZERO);

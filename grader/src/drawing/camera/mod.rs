@@ -6,43 +6,25 @@ mod sensor;
 mod side;
 
 use glam::{DVec2, DVec3};
-use protocol::{Answer, PinholeCamera, Ray, Sample};
+use protocol::{PinholeCamera, Ray, Sample};
 
-use super::{Drawing, value};
+use super::Drawing;
 
 use sensor::Sensor;
 
-/// A question about one sample of a camera, with the expected direction.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CameraQuery {
-    /// The camera that generates the ray.
-    pub(super) camera: PinholeCamera,
-    /// The sampled pixel, and the offset within it.
-    pub(super) sample: Sample,
-    /// The expected direction of the ray.
-    pub(super) wanted: DVec3,
-}
-
-/// Draws one camera ray.
+/// Draws the ray of one sample of a camera, whose expected direction is `wanted`.
 pub(super) fn draw(
-    query: &CameraQuery,
-    element: usize,
-    answer: Option<&Answer>,
+    camera: &PinholeCamera,
+    sample: Sample,
+    wanted: DVec3,
+    got: Option<Ray>,
 ) -> Option<Drawing> {
-    let got = ray_answer(element, answer);
-    let sensor = Sensor::new(&query.camera)?;
-    let wanted = sensor_crossing(query.wanted)?;
-    if let Some(ray) = got.filter(|ray| is_direction_right(ray, query.wanted)) {
-        return Some(side::draw(query, &ray, &sensor));
-    }
-    Some(front::draw(query, &sensor, wanted, got))
-}
-
-fn ray_answer(element: usize, answer: Option<&Answer>) -> Option<Ray> {
-    let Some(Answer::Rays(rays)) = answer else {
-        return None;
-    };
-    value(rays, element).copied()
+    let sensor = Sensor::new(camera)?;
+    let crossing = sensor_crossing(wanted)?;
+    Some(match got.filter(|ray| is_direction_right(ray, wanted)) {
+        Some(ray) => side::draw(&sensor, wanted, &ray),
+        None => front::draw(&sensor, sample, crossing, got),
+    })
 }
 
 /// Returns the point where a direction crosses the plane z = -1, or `None` if it does not point

@@ -30,24 +30,15 @@ impl Sensor {
         self.size / self.film.as_dvec2()
     }
 
-    /// Returns the lower left corner of a pixel.
-    pub(super) fn corner(&self, pixel: DVec2) -> DVec2 {
-        pixel * self.pixel_size() - 0.5 * self.size
+    /// Returns the lower left and the upper right corner of a pixel.
+    pub(super) fn pixel_corners(&self, pixel: UVec2) -> [DVec2; 2] {
+        let pixel = pixel.as_dvec2();
+        [pixel, pixel + 1.0].map(|corner| corner * self.pixel_size() - 0.5 * self.size)
     }
 }
 
-/// Draws the borders between all pixels.
-pub(super) fn draw_grid(canvas: &mut Canvas, window: &Window, sensor: &Sensor) {
-    let half = 0.5 * sensor.size;
-    let panel = Panel {
-        min: window.page_position(dvec2(-half.x, half.y)),
-        max: window.page_position(dvec2(half.x, -half.y)),
-    };
-    draw_grid_in(canvas, panel, window, sensor);
-}
-
 /// Draws the borders between the pixels inside a panel.
-pub(super) fn draw_grid_in(canvas: &mut Canvas, panel: Panel, window: &Window, sensor: &Sensor) {
+pub(super) fn draw_grid(canvas: &mut Canvas, panel: Panel, window: &Window, sensor: &Sensor) {
     /// The maximum number of lines in each direction.
     const MAX_LINES: f64 = 80.0;
 

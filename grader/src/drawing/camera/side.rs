@@ -4,7 +4,6 @@ use glam::{DVec2, DVec3, dvec2};
 use judging::describe;
 use protocol::{Interval, Ray};
 
-use super::CameraQuery;
 use super::sensor::Sensor;
 use crate::drawing::Drawing;
 use crate::drawing::bars::{self, BarRow, BarStyle};
@@ -15,8 +14,8 @@ use crate::drawing::window::Window;
 
 /// Draws the submitted and the expected ray in the plane that contains the -z axis and the expected
 /// ray.
-pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
-    let lateral = query.wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
+pub(super) fn draw(sensor: &Sensor, wanted: DVec3, ray: &Ray) -> Drawing {
+    let lateral = wanted.truncate().try_normalize().unwrap_or(DVec2::Y);
     let see = |point: DVec3| dvec2(-point.z, point.truncate().dot(lateral));
     let (start, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let tip = see(start + dir);
@@ -24,12 +23,7 @@ pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
     let mut sheet = Sheet::default();
     let panel = sheet.panel(170.0);
     let near = |at: &DVec2| at.length() < 4.0;
-    let seen = [
-        DVec2::ZERO,
-        dvec2(1.3, 0.5),
-        dvec2(1.0, -0.5),
-        see(query.wanted),
-    ];
+    let seen = [DVec2::ZERO, dvec2(1.3, 0.5), dvec2(1.0, -0.5), see(wanted)];
     let others = [tip, see(start)].into_iter().filter(near);
     let window = Window::around(panel, seen.into_iter().chain(others));
 
@@ -46,38 +40,33 @@ pub(super) fn draw(query: &CameraQuery, ray: &Ray, sensor: &Sensor) -> Drawing {
             canvas.arrow(from, to, line, ink);
         }
     };
-    arrow(DVec2::ZERO, see(query.wanted), LineStyle::Right, Ink::Right);
+    arrow(DVec2::ZERO, see(wanted), LineStyle::Right, Ink::Right);
     arrow(see(start), tip, LineStyle::Wrong, Ink::Wrong);
     canvas.mark(window.page_position(DVec2::ZERO), Mark::Origin);
     if see(start).length() > 1e-4 {
         canvas.mark_pinned(&window, Some(see(start)), Mark::Wrong);
     }
     if ray.range != Interval::AHEAD {
-        let (wanted, got) = (Interval::AHEAD, ray.range);
         let row =
             |name, style, span| BarRow::new(name, style, Some(span), &describe::interval(span));
         let rows = [
-            row("wanted", BarStyle::Right, wanted),
-            row("got", BarStyle::Wrong, got),
+            row("wanted", BarStyle::Right, Interval::AHEAD),
+            row("got", BarStyle::Wrong, ray.range),
         ];
-        let ends = [0.0, 1.0, got.min.into(), got.max.into()];
+        let ends = [0.0, 1.0, ray.range.min.into(), ray.range.max.into()];
         sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, ends);
     }
-    sheet.add_legend(
-        Symbol::Line(LineStyle::Right),
-        "wanted: from (0, 0, 0), length 1, range [0, ∞]",
-    );
+    let wanted = "from (0, 0, 0), length 1, range [0, ∞]";
+    sheet.add_wanted(Symbol::Line(LineStyle::Right), wanted);
     let text = format!(
-        "got: from {}, length {}, range {}",
+        "from {}, length {}, range {}",
         describe::point(ray.origin),
         describe::number(length as f32),
         describe::interval(ray.range)
     );
-    sheet.add_legend(Symbol::Line(LineStyle::Wrong), &text);
-    sheet.add_legend(
-        Symbol::Line(LineStyle::Behind),
-        "all directions of length 1 end here",
-    );
+    sheet.add_got(Symbol::Line(LineStyle::Wrong), &text);
+    let behind = Symbol::Line(LineStyle::Behind);
+    sheet.add_legend(behind, "all directions of length 1 end here");
     sheet.add_legend(Symbol::Mark(Mark::Origin), "the camera, at (0, 0, 0)");
     let title = "The camera's ray from the side";
     sheet.finish(title, caption(ray, length))

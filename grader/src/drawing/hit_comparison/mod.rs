@@ -5,6 +5,7 @@ mod caption;
 use glam::{DVec2, DVec3};
 use protocol::{Answer, Interval, Question, Ray, Trace};
 
+use judging::describe;
 use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
@@ -183,6 +184,11 @@ fn vectors_differ(a: DVec3, b: DVec3) -> bool {
 }
 
 impl DrawnHit {
+    /// Returns a text with the distance.
+    pub(in crate::drawing) fn text(&self) -> String {
+        format!("a hit at {}", describe::number(self.distance as f32))
+    }
+
     fn from_surface(surface: &Surface, ray: &Ray) -> DrawnHit {
         DrawnHit {
             distance: surface.depth.into(),

@@ -16,9 +16,8 @@ use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
 use super::side::add_range_legend;
 
-use judging::describe;
 use judging::drawing_data::TraversalStep;
-use layout::{Layout, NodeRow, NodeStatus};
+use layout::{Layout, NodeStatus};
 
 /// The exam's tree, and one correct traversal of it.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +39,12 @@ pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) ->
     }
     let layout = Layout::new(comparison, traversal);
     let mut sheet = Sheet::default();
-    let head = dvec2(0.0, sheet.y + 12.0);
-    sheet
-        .canvas
-        .text(head, Anchor::Start, Ink::Faint, "a correct traversal");
+    let canvas = &mut sheet.canvas;
+    let left = dvec2(0.0, sheet.y + 12.0);
+    canvas.text(left, Anchor::Start, Ink::Faint, "a correct traversal");
     let right = dvec2(WIDTH - 12.0, sheet.y + 12.0);
     let text = "where the ray is in each box";
-    sheet.canvas.text(right, Anchor::End, Ink::Faint, text);
+    canvas.text(right, Anchor::End, Ink::Faint, text);
     sheet.advance(18.0);
     let axis = Axis::over(rows::LEFT, axis_distances(comparison, &layout));
     sheet.y = rows::draw(&mut sheet.canvas, sheet.y, &axis, comparison, &layout);
@@ -76,33 +74,28 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
     let leaf = |leaf: Option<u32>| leaf.map_or(String::new(), |leaf| format!(", in leaf {leaf}"));
     match comparison.wanted {
         Some(hit) => {
-            let distance = describe::number(hit.distance as f32);
-            let text = format!("wanted: a hit at {distance}{}", leaf(layout.wanted_leaf));
-            sheet.add_legend(Symbol::Mark(Mark::Right), &text);
+            let text = hit.text() + &leaf(layout.wanted_leaf);
+            sheet.add_wanted(Symbol::Mark(Mark::Right), &text);
         }
-        None => sheet.add_legend(Symbol::None, "wanted: no hit"),
+        None => sheet.add_wanted(Symbol::None, "no hit"),
     }
     match comparison.got {
         HitAnswer::Hit(hit) => {
-            let distance = describe::number(hit.distance as f32);
             let decoy = layout.decoy().map_or("", |_| ", a decoy");
-            let text = format!("got: a hit at {distance}{}{decoy}", leaf(layout.got_leaf));
-            sheet.add_legend(Symbol::Mark(Mark::Wrong), &text);
+            let text = hit.text() + &leaf(layout.got_leaf) + decoy;
+            sheet.add_got(Symbol::Mark(Mark::Wrong), &text);
         }
-        HitAnswer::Miss => sheet.add_legend(Symbol::None, "got: no hit"),
+        HitAnswer::Miss => sheet.add_got(Symbol::None, "no hit"),
         HitAnswer::NoAnswer => {}
     }
     add_range_legend(sheet, comparison);
-    let entered = Fill::Tint(Ink::Text, 0.4);
-    sheet.add_legend(
-        Symbol::Area(entered),
-        "entered, in the order of the numbers",
-    );
+    let entered = Symbol::Area(Fill::Tint(Ink::Text, 0.4));
+    sheet.add_legend(entered, "entered, in the order of the numbers");
     sheet.add_legend(Symbol::Area(Fill::None), "not entered");
 }
 
 fn caption(comparison: &HitComparison, layout: &Layout) -> String {
-    let why = layout.got_row().map(|row: &NodeRow| (row, row.status));
+    let why = layout.got_row().map(|row| (row, row.status));
     match (comparison.got, layout.got_leaf, why) {
         (HitAnswer::Hit(hit), None, _) => format!(
             "Your hit at {} is with a primitive in no leaf below the root: a traversal of the tree \

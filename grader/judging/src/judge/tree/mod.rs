@@ -239,11 +239,7 @@ pub fn cost<'a>(nodes: impl IntoIterator<Item = &'a ReachedNode<'a>>) -> f64 {
     let Some(root) = nodes.peek().map(|root| root.tight_bounds.area()) else {
         return 0.0;
     };
-    let cost = |node: &ReachedNode| match &node.leaf_primitives {
-        None => node.tight_bounds.area(),
-        Some(leaf) => node.tight_bounds.area() * leaf.len() as f64,
-    };
-    nodes.map(cost).sum::<f64>() / root
+    nodes.map(ReachedNode::cost).sum::<f64>() / root
 }
 
 #[cfg(test)]

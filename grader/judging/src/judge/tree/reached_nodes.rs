@@ -21,13 +21,26 @@ pub struct ReachedNode<'a> {
     pub node: &'a TreeNode,
     /// For a leaf, its primitives in the submission's order, as indices of the question's shapes.
     pub leaf_primitives: Option<Vec<usize>>,
+    /// Distance from the root, which is at level 0.
+    pub level: u32,
+    /// Number of primitives in the leaves to its left.
+    pub start: usize,
     /// Number of primitives below the node.
     pub count: usize,
     /// Tightest box around these primitives.
     pub tight_bounds: Bounds,
 }
 
-/// Returns all nodes that can be reached from the root, parents before children.
+impl ReachedNode<'_> {
+    /// Returns the node's part of the tree's SAH cost, times the area of the root.
+    pub fn cost(&self) -> f64 {
+        let times = self.leaf_primitives.as_ref().map_or(1, Vec::len);
+        self.tight_bounds.area() * times as f64
+    }
+}
+
+/// Returns all nodes that can be reached from the root, parents before children, and right children
+/// with everything below them before left ones.
 pub fn reached_nodes<'a>(
     shapes: &[Shape],
     tree: &'a Tree,
@@ -54,8 +67,8 @@ pub fn reached_nodes<'a>(
     let mut reached = vec![false; tree.nodes.len()];
     let mut nodes = Vec::new();
     let mut children = Vec::new();
-    let mut open = vec![(tree.root, "root")];
-    while let Some((index, field)) = open.pop() {
+    let mut open = vec![(tree.root, "root", 0)];
+    while let Some((index, field, level)) = open.pop() {
         let node = tree.nodes.get(index as usize);
         let node = node.ok_or(TreeDefect::UnknownNode {
             field,
@@ -76,7 +89,8 @@ pub fn reached_nodes<'a>(
         }
         if leaf.is_none() {
             children.push((nodes.len(), [node.l, node.r]));
-            open.extend([(node.l, "child l"), (node.r, "child r")]);
+            open.push((node.l, "child l", level + 1));
+            open.push((node.r, "child r", level + 1));
         }
         let mut bounds = Bounds::EMPTY;
         for &primitive in leaf.iter().flatten() {
@@ -85,6 +99,8 @@ pub fn reached_nodes<'a>(
         nodes.push(ReachedNode {
             index,
             node,
+            level,
+            start: 0,
             count: leaf.as_ref().map_or(0, Vec::len),
             leaf_primitives: leaf,
             tight_bounds: bounds,
@@ -97,12 +113,18 @@ pub fn reached_nodes<'a>(
     for (index, node) in nodes.iter().enumerate() {
         by_index[node.index as usize] = index;
     }
-    for (parent, pair) in children.into_iter().rev() {
-        for child in pair.map(|index| by_index[index as usize]) {
+    let place = |index: u32| by_index[index as usize];
+    for &(parent, pair) in children.iter().rev() {
+        for child in pair.map(place) {
             let (count, bounds) = (nodes[child].count, nodes[child].tight_bounds);
             nodes[parent].count += count;
             nodes[parent].tight_bounds.enclose(bounds);
         }
+    }
+    for (parent, pair) in children {
+        let [left, right] = pair.map(place);
+        nodes[left].start = nodes[parent].start;
+        nodes[right].start = nodes[parent].start + nodes[left].count;
     }
     Ok(nodes)
 }

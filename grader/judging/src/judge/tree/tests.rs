@@ -205,6 +205,21 @@ fn reports_a_node_that_should_be_a_leaf() {
 }
 
 #[test]
+fn each_node_has_a_level_and_the_primitives_to_its_left() {
+    let mut tree = valid_tree();
+    tree.nodes[2] = node(2, 3, 0, 3, 4);
+    tree.nodes
+        .extend([node(2, 2, 1, 0, 0), node(3, 3, 1, 0, 0)]);
+    let nodes = reached_nodes(&row(4), &tree).expect("the tree is valid");
+    let places: Vec<(u32, u32, usize)> = nodes
+        .iter()
+        .map(|node| (node.index, node.level, node.start))
+        .collect();
+    let expected = [(1, 0, 0), (2, 1, 2), (4, 2, 3), (3, 2, 2), (0, 1, 0)];
+    assert_eq!(places, expected);
+}
+
+#[test]
 fn cost_matches_a_hand_calculation() {
     // One box of 7×1×1 (area 30) and two of 3×1×1 (area 14): 1 + 2 · 2 · 14/30.
     let tree = valid_tree();

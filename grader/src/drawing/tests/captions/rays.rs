@@ -42,44 +42,22 @@ fn captions_of_missing_or_misplaced_hits() {
 
 #[test]
 fn captions_of_hits_with_another_wrong_field() {
-    let with = |change: fn(&mut Trace)| {
-        let mut trace = trace(4.0);
-        change(&mut trace);
-        hits(Some(trace))
-    };
     let ray = ahead(0.0, f32::INFINITY);
-    let exam_question = |check| sphere(ray, check, Some(trace(4.0)));
-    let lines = [
-        caption(
-            &exam_question("position"),
-            with(|trace| trace.position.z = 4.0),
-        ),
-        caption(
-            &exam_question("normal"),
-            with(|trace| trace.normal = Vec3::NEG_Z),
-        ),
-        caption(
-            &exam_question("normal"),
-            with(|trace| trace.normal = vec3(0.0, 1.0, 1.0)),
-        ),
-        caption(
-            &exam_question("normal"),
-            with(|trace| trace.normal = Vec3::ZERO),
-        ),
-        caption(
-            &exam_question("unit_normal"),
-            with(|trace| trace.normal *= 2.0),
-        ),
-        caption(
-            &exam_question("uv"),
-            with(|trace| trace.uv = vec2(0.5, 0.25)),
-        ),
-        caption(
-            &exam_question("origin"),
-            with(|trace| trace.origin = Vec3::ONE),
-        ),
-        caption(&exam_question("shape"), with(|trace| trace.shape = 0)),
+    let cases: [(&str, fn(&mut Trace)); 8] = [
+        ("position", |trace| trace.position.z = 4.0),
+        ("normal", |trace| trace.normal = Vec3::NEG_Z),
+        ("normal", |trace| trace.normal = vec3(0.0, 1.0, 1.0)),
+        ("normal", |trace| trace.normal = Vec3::ZERO),
+        ("unit_normal", |trace| trace.normal *= 2.0),
+        ("uv", |trace| trace.uv = vec2(0.5, 0.25)),
+        ("origin", |trace| trace.origin = Vec3::ONE),
+        ("shape", |trace| trace.shape = 0),
     ];
+    let lines = cases.map(|(judged, change)| {
+        let mut wrong = trace(4.0);
+        change(&mut wrong);
+        caption(&sphere(ray, judged, Some(trace(4.0))), hits(Some(wrong)))
+    });
     assert_snapshot!(lines.join("\n"));
 }
 
@@ -131,20 +109,12 @@ fn captions_of_camera_rays() {
         ),
     );
     let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
+    let dir = |dir| Ray { dir, ..ray };
     let rays = [
         Ray::new(Vec3::ZERO, vec3(0.25, -0.5, -1.0)),
-        Ray {
-            dir: Vec3::Z,
-            ..ray
-        },
-        Ray {
-            dir: Vec3::NAN,
-            ..ray
-        },
-        Ray {
-            dir: ray.dir * 2.0,
-            ..ray
-        },
+        dir(Vec3::Z),
+        dir(Vec3::NAN),
+        dir(ray.dir * 2.0),
         Ray {
             origin: Vec3::ONE,
             ..ray

@@ -31,12 +31,12 @@ fn two_leaf_tree() -> Vec<TreeNode> {
 
 #[test]
 fn captions_of_built_trees() {
-    let exam_question = |checks: &[TreeCheck], max_leaf_size, sweep_cost| {
+    let exam_question = |check: Option<TreeCheck>, max_leaf_size, sweep_cost| {
         let question = Question::Build {
             shapes: vec![ball(0.0, 0), ball(10.0, 1)],
             max_leaf_size,
         };
-        let checks = checks.to_vec();
+        let checks = check.into_iter().collect();
         ExamQuestion::new(question, Key::Tree { checks, sweep_cost })
     };
     let tree = |nodes: Vec<TreeNode>| {
@@ -52,24 +52,23 @@ fn captions_of_built_trees() {
         nodes[index] = node;
         tree(nodes)
     };
+    let two_leaves = || tree(two_leaf_tree());
     let one_leaf = || tree(vec![node([-1.0, 11.0], Some([0, 2]), [0, 0])]);
-    let half = || with(2, node([9.0, 10.0], Some([1, 1]), [0, 0]));
-    let wide = || with(2, node([9.0, 12.0], Some([1, 1]), [0, 0]));
-    let twice = || with(2, node([-1.0, 1.0], Some([0, 1]), [0, 0]));
-    let circle = || with(2, node([9.0, 11.0], None, [0, 1]));
+    let half = with(2, node([9.0, 10.0], Some([1, 1]), [0, 0]));
+    let wide = with(2, node([9.0, 12.0], Some([1, 1]), [0, 0]));
+    let twice = with(2, node([-1.0, 1.0], Some([0, 1]), [0, 0]));
+    let circle = with(2, node([9.0, 11.0], None, [0, 1]));
     let lines = [
-        caption(&exam_question(&[TreeCheck::Contains], 1, None), half()),
-        caption(&exam_question(&[TreeCheck::Tight], 1, None), wide()),
-        caption(&exam_question(&[TreeCheck::Partition], 1, None), twice()),
-        caption(&exam_question(&[TreeCheck::LeafSize], 1, None), one_leaf()),
-        caption(&exam_question(&[TreeCheck::Split], 1, None), one_leaf()),
-        caption(
-            &exam_question(&[TreeCheck::Stops], 2, None),
-            tree(two_leaf_tree()),
-        ),
-        caption(&exam_question(&[], 1, Some(1.0)), tree(two_leaf_tree())),
-        caption(&exam_question(&[], 1, None), circle()),
-    ];
+        (Some(TreeCheck::Contains), 1, None, half),
+        (Some(TreeCheck::Tight), 1, None, wide),
+        (Some(TreeCheck::Partition), 1, None, twice),
+        (Some(TreeCheck::LeafSize), 1, None, one_leaf()),
+        (Some(TreeCheck::Split), 1, None, one_leaf()),
+        (Some(TreeCheck::Stops), 2, None, two_leaves()),
+        (None, 1, Some(1.0), two_leaves()),
+        (None, 1, None, circle),
+    ]
+    .map(|(check, most, sweep, tree)| caption(&exam_question(check, most, sweep), tree));
     assert_snapshot!(lines.join("\n"));
 }
 

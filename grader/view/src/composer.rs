@@ -1,6 +1,5 @@
 //! Composes the picture on the page from the values of its pixels.
 
-use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -12,9 +11,8 @@ use protocol::{Trace, Tree};
 use view_probe::messages::TestCounts;
 
 use crate::model::layer::{Layer, Shown};
-use crate::model::tree::TreeModel;
-use crate::session::{Key, Session, View};
-use crate::shared_session::{Picture, SharedSession};
+use crate::session::{Session, View};
+use crate::shared_session::SharedSession;
 
 /// The time between two pictures, at first and later. A picture that is nearly complete changes
 /// little, and composing it takes time from drawing it.
@@ -26,19 +24,8 @@ const INTERVALS: [(Duration, Duration); 3] = [
 /// The colour of pixels whose code panicked.
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
 
-/// The values of a picture, copied so that drawing goes on while it is composed.
-struct Snapshot {
-    key: Key,
-    is_complete: bool,
-    values: Values,
-}
-
-enum Values {
-    Light(Layer<Vec3>, f32),
-    Hits(Layer<Option<Trace>>, ViewMode, Option<Arc<TreeModel>>, f32),
-    Clay(Layer<Option<Trace>>, Vec3),
-    Tests(Layer<TestCounts>),
-}
+/// The colours of a picture's pixels, row by row from the top.
+type Colours = Vec<[u8; 3]>;
 
 /// Composes pictures until the process ends.
 pub fn run(shared: &SharedSession) {
@@ -59,78 +46,65 @@ pub fn run(shared: &SharedSession) {
             thread::sleep(wait.min(Duration::from_millis(50)));
             continue;
         }
-        let snapshot = shared.update(|session, _| {
+        let (key, is_complete, compose) = shared.update(|session, _| {
             session.is_dirty = false;
-            snapshot(session)
+            (session.key(), session.is_complete(), composition(session))
         });
-        shown = Some(snapshot.key);
-        let (film, bytes) = snapshot.values.colours();
+        shown = Some(key);
+        let (film, bytes) = compose();
         let png = png_file::encode(film, bytes.as_flattened());
         last = Instant::now();
-        shared.show_picture(Picture {
-            png,
-            key: snapshot.key,
-            is_complete: snapshot.is_complete,
-        });
+        shared.show_picture(png, key, is_complete);
     }
 }
 
-fn snapshot(session: &Session) -> Snapshot {
-    let hits = |mode| {
-        let (tree, extent) = (session.tree.clone(), session.subject.extent);
-        Values::Hits(session.hits.clone(), mode, tree, extent)
-    };
-    let values = match session.shown.view {
-        View::Shaded => Values::Light(session.light.clone(), session.shown.exposure),
-        View::Tests => Values::Tests(session.tests.clone()),
-        View::Clay => Values::Clay(session.hits.clone(), session.camera().placement.position),
-        View::Normals => hits(ViewMode::Normals),
-        View::Depth => hits(ViewMode::Depth),
-        View::Uv => hits(ViewMode::Uv),
-        View::Bvh => hits(ViewMode::Bvh),
-    };
-    Snapshot {
-        key: session.key(),
-        is_complete: session.is_complete(),
-        values,
-    }
-}
-
-impl Values {
-    /// Returns the size of the picture and the colours of its pixels, row by row from the top.
-    fn colours(&self) -> (UVec2, Vec<[u8; 3]>) {
-        let data = |colour| Tone::Data.to_bytes(colour);
-        match self {
-            Values::Light(layer, stops) => {
-                let tone = ToneTable::new(*stops);
-                paint(layer, |_, sum, count| tone.to_bytes(sum / count as f32))
-            }
-            Values::Hits(layer, mode, tree, extent) => {
-                let film = layer.tiles.film();
-                let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
-                let hit = |pixel| match layer.shown(pixel) {
-                    Some(Shown::Value(hit, _)) => hit,
-                    Some(Shown::Panicked) | None => None,
-                };
-                let hits: Vec<Option<Trace>> = pixels.map(hit).collect();
-                let nothing = Tree::default();
-                let tree = tree.as_ref().map_or(&nothing, |model| &model.tree);
-                let colours = view::picture(*mode, &hits, tree, *extent);
-                let index = |pixel: UVec2| (pixel.y * film.x + pixel.x) as usize;
-                paint(layer, |pixel, _, _| data(colours[index(pixel)]))
-            }
-            Values::Clay(layer, eye) => paint(layer, |_, hit, _| {
-                hit.map_or([0; 3], |hit| data(clay(hit, *eye)))
-            }),
-            Values::Tests(layer) => {
-                let most = layer.values().flatten().map(TestCounts::total).max();
+/// Returns a function that returns the size of the picture and its colours. It has a copy of the
+/// values, so that drawing goes on while it composes them.
+fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
+    let data = |colour| Tone::Data.to_bytes(colour);
+    let mode = match session.shown.view {
+        View::Shaded => {
+            let (light, stops) = (session.light.clone(), session.shown.exposure);
+            return Box::new(move || {
+                let tone = ToneTable::new(stops);
+                paint(&light, |_, sum, count| tone.to_bytes(sum / count as f32))
+            });
+        }
+        View::Tests => {
+            let tests = session.tests.clone();
+            return Box::new(move || {
+                let most = tests.values().flatten().map(TestCounts::total).max();
                 let most = most.unwrap_or(0).max(1);
-                paint(layer, |_, counts, _| {
+                paint(&tests, |_, counts, _| {
                     data(view::heat_colour(counts.total(), most))
                 })
-            }
+            });
         }
-    }
+        View::Clay => {
+            let (hits, eye) = (session.hits.clone(), session.camera().placement.position);
+            let colour = move |hit| data(clay(hit, eye));
+            return Box::new(move || paint(&hits, |_, hit, _| hit.map_or([0; 3], colour)));
+        }
+        View::Normals => ViewMode::Normals,
+        View::Depth => ViewMode::Depth,
+        View::Uv => ViewMode::Uv,
+        View::Bvh => ViewMode::Bvh,
+    };
+    let (tree, extent) = (session.tree.clone(), session.subject.extent);
+    let hits = session.hits.clone();
+    Box::new(move || {
+        let film = hits.tiles.film;
+        let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
+        let hit = |pixel| match hits.shown(pixel) {
+            Some(Shown::Value(hit, _)) => hit,
+            Some(Shown::Panicked) | None => None,
+        };
+        let seen: Vec<Option<Trace>> = pixels.map(hit).collect();
+        let nothing = Tree::default();
+        let tree = tree.as_ref().map_or(&nothing, |model| &model.tree);
+        let colours = view::picture(mode, &seen, tree, extent);
+        paint(&hits, |pixel, _, _| data(colours[hits.tiles.index(pixel)]))
+    })
 }
 
 /// Returns the size of a layer, and the colours of its pixels, row by row from the top. `colour`
@@ -138,8 +112,8 @@ impl Values {
 fn paint<T: Copy + Default>(
     layer: &Layer<T>,
     colour: impl Fn(UVec2, T, u32) -> [u8; 3],
-) -> (UVec2, Vec<[u8; 3]>) {
-    let film = layer.tiles.film();
+) -> (UVec2, Colours) {
+    let film = layer.tiles.film;
     let rows = (0..film.y).rev();
     let pixels = rows.flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
     let colours = pixels.map(|pixel| match layer.shown(pixel) {
@@ -222,25 +196,5 @@ mod tests {
         let away = clay(hit(Vec3::NEG_Z), eye);
         assert!(away.z > away.x, "a normal that points away is blue");
         assert!(clay(hit(Vec3::NAN), eye).is_finite());
-    }
-
-    #[test]
-    fn the_table_gives_the_same_bytes_as_the_framework() {
-        for stops in [0.0, -2.5, 3.0] {
-            let (table, tone) = (ToneTable::new(stops), Tone::Light { stops });
-            for step in 0..20_000_u16 {
-                let x = 1.1 * f32::from(step) / 20_000.0 * 2.0_f32.powf(-stops);
-                let pixel = Vec3::new(x, x * x, 10.0 * x);
-                assert_eq!(
-                    table.to_bytes(pixel),
-                    tone.to_bytes(pixel),
-                    "{stops} {pixel}"
-                );
-            }
-            for x in [-1.0, f32::NAN, f32::INFINITY, 0.0] {
-                let pixel = Vec3::splat(x);
-                assert_eq!(table.to_bytes(pixel), tone.to_bytes(pixel), "{stops} {x}");
-            }
-        }
     }
 }

@@ -24,13 +24,18 @@ pub struct Probe {
     _program: Program,
 }
 
-/// A reason why a request got no response. The program has ended.
-#[derive(Debug)]
-pub enum NoResponse {
-    /// The submission's code failed.
+/// A reason why work has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum Stop {
+    /// The result is no longer wanted, or the reason has been reported.
+    #[error("the result is no longer wanted")]
+    Unwanted,
+    /// The program failed.
+    #[error("{0}")]
     Fault(Fault),
-    /// The response is no longer wanted.
-    Abandoned,
+    /// The program could not be started, or its response is not of use.
+    #[error("{0}")]
+    Invalid(String),
 }
 
 impl Probe {
@@ -50,27 +55,14 @@ impl Probe {
         })
     }
 
-    /// Sends a request and waits for the response, for at most `limit` of CPU time. Ends the
-    /// program if it fails, or as soon as `is_abandoned`.
+    /// Sends a request and waits for the response, for at most `limit` of CPU time, or until it
+    /// `is_abandoned`. After an error, the program must not be asked again.
     pub fn ask(
         &mut self,
         request: &Request,
         limit: Duration,
         is_abandoned: impl Fn() -> bool,
-    ) -> Result<Response, NoResponse> {
-        let response = self.exchange(request, limit, is_abandoned);
-        if response.is_err() {
-            self.running.process.kill();
-        }
-        response
-    }
-
-    fn exchange(
-        &mut self,
-        request: &Request,
-        limit: Duration,
-        is_abandoned: impl Fn() -> bool,
-    ) -> Result<Response, NoResponse> {
+    ) -> Result<Response, Stop> {
         self.nonce += 1;
         let mut batch = Batch::default();
         let append = |frames| wire::append(frames, self.nonce, request);
@@ -86,7 +78,7 @@ impl Probe {
                 break frame;
             }
             if is_abandoned() {
-                return Err(NoResponse::Abandoned);
+                return Err(Stop::Unwanted);
             }
             let cpu = self.running.process.cpu_time().zip(cpu_before);
             if cpu.is_some_and(|(now, before)| now.saturating_sub(before) >= limit) {
@@ -107,11 +99,11 @@ impl Probe {
     }
 }
 
-impl From<Fault> for NoResponse {
+impl From<Fault> for Stop {
     fn from(fault: Fault) -> Self {
         // Unlike the grader, the viewer does not run a program again to tell who has killed it.
         let is_killed = fault == Fault::Crashed(Crash::Killed);
-        NoResponse::Fault(if is_killed {
+        Stop::Fault(if is_killed {
             Fault::Crashed(Crash::Signal(9))
         } else {
             fault

@@ -102,7 +102,7 @@ impl Site for Routes {
             (Method::Get, "/state", _) => self.state(number(request, "after")),
             (Method::Get, "/picture", _) => self.session.picture().map_or_else(
                 || not_found("there is no picture yet"),
-                |picture| Response::new(Status::OK, "image/png", picture.png.clone()),
+                |png| Response::new(Status::OK, "image/png", png.to_vec()),
             ),
             (Method::Get, "/explanation", _) => {
                 let explanation = self.session.read(|session, _| session.explanation.clone());

@@ -13,17 +13,6 @@ const MAX_WAITING: usize = 4;
 /// The time for which a page waits if more pages are open.
 const SHORT_WAIT: Duration = Duration::from_millis(500);
 
-/// A composed picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// The PNG file.
-    pub png: Vec<u8>,
-    /// The key of the pixels.
-    pub key: Key,
-    /// Whether it has all samples.
-    pub is_complete: bool,
-}
-
 /// The session, shared by threads.
 #[derive(Debug)]
 pub struct SharedSession {
@@ -35,7 +24,8 @@ pub struct SharedSession {
 #[derive(Debug)]
 struct Shared {
     session: Session,
-    picture: Option<Arc<Picture>>,
+    /// The PNG file of the picture.
+    picture: Option<Arc<Vec<u8>>>,
     /// The number of pages that are waiting.
     waiting: usize,
 }
@@ -110,18 +100,16 @@ impl SharedSession {
         shared.session.shown.version != known
     }
 
-    /// Replaces the picture.
-    pub fn show_picture(&self, picture: Picture) {
+    /// Replaces the picture by one of pixels with this key, of all samples or of some.
+    pub fn show_picture(&self, png: Vec<u8>, key: Key, is_complete: bool) {
         let mut shared = self.lock();
-        shared
-            .session
-            .show_picture(picture.key, picture.is_complete);
-        shared.picture = Some(Arc::new(picture));
+        shared.session.show_picture(key, is_complete);
+        shared.picture = Some(Arc::new(png));
         self.changed.notify_all();
     }
 
-    /// Returns the picture.
-    pub fn picture(&self) -> Option<Arc<Picture>> {
+    /// Returns the PNG file of the picture.
+    pub fn picture(&self) -> Option<Arc<Vec<u8>>> {
         self.lock().picture.clone()
     }
 

@@ -19,7 +19,7 @@ impl<T: Copy + Default> Layer<T> {
     pub fn new(film: UVec2, samples: u32) -> Self {
         let tiles = Tiles::new(film, samples);
         Layer {
-            values: vec![T::default(); tiles.counts().len()],
+            values: vec![T::default(); tiles.counts.len()],
             tiles,
         }
     }
@@ -44,10 +44,10 @@ impl<T: Copy + Default> Layer<T> {
     /// Returns the value and the number of samples of a pixel. A pixel that is not drawn yet shows
     /// the nearest one below and to the left that is. Returns `None` if there is none.
     pub fn shown(&self, pixel: UVec2) -> Option<Shown<T>> {
-        let counts = self.tiles.counts();
+        let counts = &self.tiles.counts;
         let coarser = [1, 2, 4].map(|stride| self.tiles.index(pixel / stride * stride));
         let drawn = coarser.into_iter().find(|index| counts[*index] > 0)?;
-        Some(if self.tiles.has_panicked(drawn) {
+        Some(if self.tiles.panicked[drawn] {
             Shown::Panicked
         } else {
             Shown::Value(self.values[drawn], counts[drawn])
@@ -56,7 +56,7 @@ impl<T: Copy + Default> Layer<T> {
 
     /// Returns all values, row by row from the bottom, with `None` for pixels that are not drawn.
     pub fn values(&self) -> impl Iterator<Item = Option<T>> {
-        let drawn = self.tiles.counts().iter().zip(&self.values);
+        let drawn = self.tiles.counts.iter().zip(&self.values);
         drawn.map(|(count, value)| (*count > 0).then_some(*value))
     }
 }
@@ -122,15 +122,5 @@ mod tests {
         assert_eq!(layer.shown(uvec2(3, 3)), Some(Shown::Value(7, 1)));
         // Number 4 is the pixel (4, 4).
         assert_eq!(layer.shown(uvec2(5, 6)), Some(Shown::Panicked));
-    }
-
-    #[test]
-    fn more_samples_continue_a_complete_picture() {
-        let mut layer = draw_all(uvec2(3, 3), 1, 99);
-        layer.tiles.set_samples(2);
-        assert!(!layer.tiles.is_complete());
-        let (_, draw) = layer.tiles.take(LayerKind::Light, 1).unwrap();
-        let light = Quantity::Light { sample: 1 };
-        assert_eq!((draw.quantity, draw.pixels().count()), (light, 9));
     }
 }

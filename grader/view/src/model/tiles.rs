@@ -49,14 +49,15 @@ impl LayerKind {
 /// The pixels of a picture that have been drawn, whatever their values.
 #[derive(Clone, Debug)]
 pub struct Tiles {
-    film: UVec2,
+    /// The size of the picture.
+    pub film: UVec2,
     tiles: Vec<Tile>,
     /// The number of samples that each pixel should get.
-    samples: u32,
+    pub samples: u32,
     /// The number of samples of each pixel; row by row from the bottom.
-    counts: Vec<u32>,
+    pub(super) counts: Vec<u32>,
     /// Whether drawing a pixel has caused a panic.
-    panicked: Vec<bool>,
+    pub(super) panicked: Vec<bool>,
 }
 
 #[derive(Clone, Debug)]
@@ -92,16 +93,6 @@ impl Tiles {
             counts: vec![0; pixels],
             panicked: vec![false; pixels],
         }
-    }
-
-    /// Changes the number of samples that each pixel should get.
-    pub fn set_samples(&mut self, samples: u32) {
-        self.samples = samples;
-    }
-
-    /// Returns the number of samples that each pixel should get.
-    pub fn samples(&self) -> u32 {
-        self.samples
     }
 
     /// Takes the tile with the fewest samples, if one needs more and is not being drawn. Returns its
@@ -176,23 +167,9 @@ impl Tiles {
         drawn as f64 / all.max(1.0)
     }
 
-    /// Returns the size of the picture.
-    pub fn film(&self) -> UVec2 {
-        self.film
-    }
-
-    pub(super) fn index(&self, pixel: UVec2) -> usize {
+    /// Returns the index of a pixel; row by row from the bottom.
+    pub fn index(&self, pixel: UVec2) -> usize {
         pixel.y as usize * self.film.x as usize + pixel.x as usize
-    }
-
-    /// Returns the number of samples of each pixel; row by row from the bottom.
-    pub(super) fn counts(&self) -> &[u32] {
-        &self.counts
-    }
-
-    /// Returns whether drawing the pixel with this index has caused a panic.
-    pub(super) fn has_panicked(&self, index: usize) -> bool {
-        self.panicked[index]
     }
 }
 

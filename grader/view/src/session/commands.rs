@@ -97,10 +97,10 @@ impl Session {
                 }
                 self.shown.samples = *samples;
                 // Samples that have been added cannot be taken away.
-                if *samples < self.light.tiles.samples() {
+                if *samples < self.light.tiles.samples {
                     self.restart(now);
                 } else {
-                    self.light.tiles.set_samples(*samples);
+                    self.light.tiles.samples = *samples;
                 }
             }
             Command::Move(movement) => {

@@ -2,10 +2,11 @@
 
 mod open_program;
 
+use crate::probe::Stop;
 use crate::session::{Job, Worker};
 use crate::shared_session::SharedSession;
 
-use open_program::{OpenProgram, Stop};
+use open_program::OpenProgram;
 
 /// Does the work of one thread until the process ends.
 pub fn run(shared: &SharedSession, worker: Worker) {
@@ -14,7 +15,7 @@ pub fn run(shared: &SharedSession, worker: Worker) {
         let work = shared.wait_for(|session, now| session.next_work(worker, now));
         let key = work.key;
         if let Err(stop) = program.prepare(&work) {
-            if stop.is_wanted() {
+            if !matches!(stop, Stop::Unwanted) {
                 shared.update(|session, _| session.not_started(key, &stop.to_string()));
             }
             if let Job::Explain(pinned) = work.job {

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use grader::probe::Fault;
 use protocol::{ElementOutcome, Panic};
 use view_probe::messages::{
     BoxQueries, Draw, Drawn, Follow, FollowedRay, Request, Response, Target, TreeData, TreeSize,
@@ -13,7 +12,7 @@ use view_probe::scene_data::{Aim, SceneData, TreeSource};
 use crate::model::explanation::{Context, Explanation, explain};
 use crate::model::rules::{NodeAddresses, NodeSpan, corners_with_margin, judged_nodes, rows};
 use crate::model::tree::TreeModel;
-use crate::probe::{NoResponse, Probe};
+use crate::probe::{Probe, Stop};
 use crate::session::{Key, Pinned, Work};
 use crate::shared_session::SharedSession;
 
@@ -35,34 +34,13 @@ pub(super) struct OpenProgram<'a> {
     tree: Option<TreeModel>,
 }
 
-/// A reason why work has no result.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum Stop {
-    /// The result is no longer wanted, or the reason has been reported.
-    #[error("the result is no longer wanted")]
-    Unwanted,
-    /// The program failed.
-    #[error("{0}")]
-    Fault(Fault),
-    /// The program could not be started, or its response is not of use.
-    #[error("{0}")]
-    Invalid(String),
-}
-
-impl Stop {
-    /// Returns whether the reason is to be reported.
-    pub(super) fn is_wanted(&self) -> bool {
-        !matches!(self, Stop::Unwanted)
-    }
-
-    fn unexpected(response: &Response) -> Self {
-        let why = if *response == Response::NotOpen {
-            "it has no scene"
-        } else {
-            "it sent an invalid answer"
-        };
-        Stop::Invalid(why.to_owned())
-    }
+fn unexpected(response: &Response) -> Stop {
+    let why = if *response == Response::NotOpen {
+        "it has no scene"
+    } else {
+        "it sent an invalid answer"
+    };
+    Stop::Invalid(why.to_owned())
 }
 
 impl<'a> OpenProgram<'a> {
@@ -97,7 +75,7 @@ impl<'a> OpenProgram<'a> {
                 return Err(Stop::Unwanted);
             }
             if response != Response::Aimed {
-                return Err(Stop::unexpected(&response));
+                return Err(unexpected(&response));
             }
             self.aim = Some(work.aim);
         }
@@ -118,7 +96,7 @@ impl<'a> OpenProgram<'a> {
         let started_at = Instant::now();
         let opened = match self.ask(work, &Request::Open(Box::new(data)), work.open_limit) {
             Ok(Response::Opened(opened)) => opened,
-            Ok(other) => return Err(Stop::unexpected(&other)),
+            Ok(other) => return Err(unexpected(&other)),
             Err(Stop::Fault(fault)) => {
                 let why = fault.to_string();
                 self.session
@@ -139,20 +117,18 @@ impl<'a> OpenProgram<'a> {
         Ok(())
     }
 
-    /// Asks the program. After a fault or an abandoned request, the program has ended, and is
-    /// started again when it is needed.
+    /// Asks the program. After a fault or an abandoned request, it is ended, and started again when
+    /// it is needed.
     fn ask(&mut self, work: &Work, request: &Request, limit: Duration) -> Result<Response, Stop> {
         let session = self.session;
         let is_abandoned = || !session.read(|session, _| session.is_wanted(work.key));
         let probe = self.probe.as_mut().ok_or(Stop::Unwanted)?;
-        probe.ask(request, limit, is_abandoned).map_err(|reason| {
+        let response = probe.ask(request, limit, is_abandoned);
+        if response.is_err() {
             self.probe = None;
             self.aim = None;
-            match reason {
-                NoResponse::Fault(fault) => Stop::Fault(fault),
-                NoResponse::Abandoned => Stop::Unwanted,
-            }
-        })
+        }
+        response
     }
 
     /// Draws some pixels of a tile.
@@ -164,7 +140,7 @@ impl<'a> OpenProgram<'a> {
     ) -> Result<Drawn, Stop> {
         let response = self.ask(work, &Request::Draw(*draw), limit)?;
         let Response::Drawn(drawn) = response else {
-            return Err(Stop::unexpected(&response));
+            return Err(unexpected(&response));
         };
         Ok(drawn)
     }
@@ -180,7 +156,7 @@ impl<'a> OpenProgram<'a> {
             return Err(Stop::Invalid(format!("panicked: {message} ({location})")));
         }
         let Response::Tree(ElementOutcome::Value(TreeData(tree))) = response else {
-            return Err(Stop::unexpected(&response));
+            return Err(unexpected(&response));
         };
         Ok(TreeModel::new(tree))
     }
@@ -189,13 +165,9 @@ impl<'a> OpenProgram<'a> {
     pub(super) fn explain(&mut self, work: &Work, pinned: &Pinned) -> Result<Explanation, Stop> {
         let tree = match self.tree.take() {
             Some(tree) => tree,
-            None => self.tree(work).map_err(|stop| {
-                let why = format!("The tree cannot be read: {stop}");
-                if stop.is_wanted() {
-                    Stop::Invalid(why)
-                } else {
-                    stop
-                }
+            None => self.tree(work).map_err(|stop| match stop {
+                Stop::Unwanted => stop,
+                _ => Stop::Invalid(format!("The tree cannot be read: {stop}")),
             })?,
         };
         let explanation = self.explain_in(&tree, work, pinned);
@@ -222,7 +194,7 @@ impl<'a> OpenProgram<'a> {
         let request = Request::Follow(Follow { target, max_tests });
         let response = self.ask(work, &request, LIMIT)?;
         let Response::Followed(followed) = response else {
-            return Err(Stop::unexpected(&response));
+            return Err(unexpected(&response));
         };
         let tests = followed.rays.iter().flat_map(|ray| &ray.tests);
         let context = Context {
@@ -256,7 +228,7 @@ impl<'a> OpenProgram<'a> {
         });
         let response = self.ask(work, &request, LIMIT)?;
         let Response::Spans(inside) = response else {
-            return Err(Stop::unexpected(&response));
+            return Err(unexpected(&response));
         };
         let (pairs, _) = inside.as_chunks();
         let span = |&[inside, inside_larger]: &[_; 2]| NodeSpan {

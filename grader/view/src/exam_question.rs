@@ -13,11 +13,11 @@ use judging::describe;
 use judging::exam::ExamQuestion;
 use judging::judge::tree::bounds::Bounds;
 use protocol::{Corners, Geometry, PinholeCamera, Query, Question, Ray, Shape, Tree};
-use view_probe::scene_data::{SceneData, TreeSource};
+use view_probe::scene_data::TreeSource;
 
 use crate::error::ViewError;
 use crate::model::viewpoint::Viewpoint;
-use crate::subject::{ExamRay, PathSettings, Subject, aim, bounds};
+use crate::subject::{ExamRay, PathSettings, Subject, bounds};
 
 /// The film on which a question is drawn.
 const FILM: UVec2 = UVec2::new(480, 360);
@@ -140,10 +140,17 @@ fn subject(
         wanted: describe::answer::wanted(question, element),
     };
     let viewpoint = viewpoint(&bounds, ray.as_ref());
-    let camera = camera(&viewpoint);
     let scene = Scene {
         about: title.to_owned(),
-        camera,
+        camera: Camera {
+            pinhole: PinholeCamera {
+                vertical_fov: FOV,
+                aspect_ratio: aspect_ratio(),
+                film: FILM,
+            },
+            placement: viewpoint.placement,
+            fixed_aspect: false,
+        },
         environment: Vec3::splat(0.8),
         materials: vec![Material::Lambertian {
             albedo: Vec3::splat(0.7),
@@ -152,17 +159,13 @@ fn subject(
         shapes: numbered(shapes.to_vec()),
         max_leaf_size: leaf as usize,
     };
-    let mut data = SceneData::new(&scene, aim(&camera, settings));
-    data.tree = tree;
+    let mut subject = Subject::of_scene(name, &scene, settings);
+    Arc::make_mut(&mut subject.data).tree = tree;
     Ok(Subject {
-        name: name.to_owned(),
-        about: title.to_owned(),
-        data: Arc::new(data),
         bounds,
-        extent: scene.extent(),
-        camera,
         viewpoint,
         question: Some(exam_ray),
+        ..subject
     })
 }
 
@@ -179,20 +182,11 @@ fn viewpoint(bounds: &Bounds, ray: Option<&Ray>) -> Viewpoint {
         Some(_) => -aside + 0.35 * along - 0.35 * up,
         None => along,
     };
-    let aspect = FILM.x as f32 / FILM.y as f32;
-    Viewpoint::looking(toward, up, bounds, FOV, aspect)
+    Viewpoint::looking(toward, up, bounds, FOV, aspect_ratio())
 }
 
-fn camera(viewpoint: &Viewpoint) -> Camera {
-    Camera {
-        pinhole: PinholeCamera {
-            vertical_fov: FOV,
-            aspect_ratio: FILM.x as f32 / FILM.y as f32,
-            film: FILM,
-        },
-        placement: viewpoint.placement,
-        fixed_aspect: false,
-    }
+fn aspect_ratio() -> f32 {
+    FILM.x as f32 / FILM.y as f32
 }
 
 /// Returns the shapes numbered in order, like those of a scene.

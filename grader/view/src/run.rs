@@ -154,13 +154,10 @@ fn programs(arguments: &Arguments, workspace: &Workspace) -> Result<Programs, Vi
     };
     let (folder, is_package): (PathBuf, bool) = match &arguments.submission {
         Some(path) => (workspace.resolve(path), false),
-        None if arguments.reference => {
-            let reference = workspace.reference(&RAYS);
-            (
-                reference.ok_or_else(|| ViewError::usage(NO_REFERENCE))?,
-                false,
-            )
-        }
+        None if arguments.reference => match workspace.reference(&RAYS) {
+            Some(reference) => (reference, false),
+            None => return Err(ViewError::usage(NO_REFERENCE)),
+        },
         None => (workspace.root().join(RAYS.student), true),
     };
     Programs::prepare(workspace, folder, is_package, isolation)

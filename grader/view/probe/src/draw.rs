@@ -2,11 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use framework::harness::attempt::attempt;
 use framework::render::integrator::{Integrator, RenderStats};
 use glam::{UVec2, Vec2};
-use protocol::{ElementOutcome, Panic, Trace};
+use protocol::{Panic, Trace};
 
+use crate::catch_panic;
 use crate::messages::{
     Draw, Drawn, Follow, Followed, MAX_PANICS, Quantity, Target, TestCounts, Values,
 };
@@ -64,14 +64,10 @@ impl Pixels<'_> {
             read_at: Instant::now(),
         };
         for (index, (pass, pixel)) in (0..).zip(self.request.pixels()) {
-            match attempt(|| value(pass, pixel)) {
-                ElementOutcome::Value(value) => values.push(value),
-                ElementOutcome::Panicked(panic) => {
-                    self.add_panic(panic, index);
-                    values.push(replacement.clone());
-                }
-                ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
-            }
+            values.push(catch_panic(|| value(pass, pixel)).unwrap_or_else(|panic| {
+                self.add_panic(panic, index);
+                replacement.clone()
+            }));
             if clock.is_over() {
                 break;
             }
@@ -138,7 +134,7 @@ impl Stage<'_> {
 pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -> Followed {
     let mut stats = RenderStats::default();
     record::start(request);
-    let outcome = attempt(|| match request.target {
+    let outcome = catch_panic(|| match request.target {
         Target::Centre(pixel) => {
             stage.first_hit(pixel);
             None
@@ -153,9 +149,8 @@ pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -
     });
     let rays = record::finish();
     let (radiance, panic) = match outcome {
-        ElementOutcome::Value(radiance) => (radiance, None),
-        ElementOutcome::Panicked(panic) => (None, Some(panic)),
-        ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
+        Ok(radiance) => (radiance, None),
+        Err(panic) => (None, Some(panic)),
     };
     Followed {
         rays,

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use framework::harness::attempt::attempt;
 use framework::math::sin_cos;
 use framework::scene::Scene;
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
@@ -11,6 +10,7 @@ use protocol::{
     ElementOutcome, ExamCamera, Interval, Panic, PinholeCamera, Ray, Sample, Shape, Trace, TreeNode,
 };
 
+use crate::catch_panic;
 use crate::messages::{Opened, Part, TreeSize};
 use crate::record::Recorded;
 use crate::scene_data::{Aim, SceneData, TreeSource};
@@ -50,7 +50,7 @@ impl<'a> Stage<'a> {
             TreeSource::List => Box::new(List(submission.primitive_list(&shapes))),
         };
         let has_camera = has(Part::Camera);
-        let (tree, world) = match attempt(|| {
+        let (tree, world) = match catch_panic(|| {
             let tree = build();
             let camera = camera(submission, &aim, has_camera);
             let size = TreeSize {
@@ -64,9 +64,8 @@ impl<'a> Stage<'a> {
             };
             (size, World::from_parts(camera, tree))
         }) {
-            ElementOutcome::Value((size, world)) => (ElementOutcome::Value(size), Some(world)),
-            ElementOutcome::Panicked(panic) => (ElementOutcome::Panicked(panic), None),
-            ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
+            Ok((size, world)) => (ElementOutcome::Value(size), Some(world)),
+            Err(panic) => (ElementOutcome::Panicked(panic), None),
         };
         let stage = world.map(|world| Stage {
             submission,
@@ -80,8 +79,7 @@ impl<'a> Stage<'a> {
 
     /// Replaces the camera.
     pub(crate) fn aim(&mut self, aim: Aim) {
-        let camera = attempt(|| camera(self.submission, &aim, self.has_camera));
-        if let ElementOutcome::Value(camera) = camera {
+        if let Ok(camera) = catch_panic(|| camera(self.submission, &aim, self.has_camera)) {
             self.world.set_camera(camera);
         }
         self.scene.camera = aim.camera();
@@ -92,10 +90,7 @@ impl<'a> Stage<'a> {
     pub(crate) fn intersect_box(&self, corners: (Vec3, Vec3), ray: &Ray) -> Option<Interval> {
         let (min, max) = corners;
         let test = || self.submission.intersect_box(min, max, ray, ray.range);
-        match attempt(test) {
-            ElementOutcome::Value(inside) => inside,
-            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
-        }
+        catch_panic(test).ok().flatten()
     }
 }
 
@@ -148,16 +143,16 @@ fn missing_parts(submission: &dyn Submission, scene: &Scene) -> Vec<(Part, Panic
         submission.intersect_box(Vec3::NEG_ONE, Vec3::ONE, &ray, Interval::AHEAD);
     };
     let outcomes = [
-        (Part::Camera, attempt(camera)),
-        (Part::Triangle, attempt(|| hit(false))),
-        (Part::Sphere, attempt(|| hit(true))),
-        (Part::BBox, attempt(bbox)),
+        (Part::Camera, catch_panic(camera)),
+        (Part::Triangle, catch_panic(|| hit(false))),
+        (Part::Sphere, catch_panic(|| hit(true))),
+        (Part::BBox, catch_panic(bbox)),
     ];
-    let missing = |(part, outcome)| match outcome {
-        ElementOutcome::Panicked(panic) if Panic::is_unimplemented(&panic) => Some((part, panic)),
-        ElementOutcome::Panicked(_) | ElementOutcome::Value(()) | ElementOutcome::Skipped => None,
-    };
-    outcomes.into_iter().filter_map(missing).collect()
+    let panics = outcomes.into_iter();
+    let panics = panics.filter_map(|(part, outcome)| Some((part, outcome.err()?)));
+    panics
+        .filter(|(_, panic)| panic.is_unimplemented())
+        .collect()
 }
 
 /// A list of primitives as a tree without nodes.

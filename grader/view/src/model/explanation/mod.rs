@@ -67,7 +67,7 @@ fn explain_ray(
     context: &Context,
 ) -> ExplainedRay {
     let rows = rules::rows(ray, context.tree, context.addresses);
-    let violations = rules::violations(ray, &rows, context.tree, spans);
+    let broken = rules::broken_rules(ray, &rows, context.tree, spans);
     let entered: BTreeSet<u32> = rows
         .iter()
         .flat_map(|row| row.enters.iter().chain(&row.may_enter))
@@ -78,14 +78,11 @@ fn explain_ray(
         at_the_end: closest_hit(ray),
         tested: BTreeSet::new(),
     };
-    let all = rows.iter().zip(&ray.tests).enumerate();
+    let all = rows.iter().zip(&ray.tests).zip(broken);
     let tests: Vec<ExplainedTest> = all
-        .map(|(index, (row, test))| {
-            let mut explained = state.explain(row, test, ray, &entered, spans, context);
-            let here = violations.iter().filter(|violation| violation.row == index);
-            let marks = here.map(|violation| (violation.rule, violation.node));
-            explained.marks = marks.collect();
-            explained
+        .map(|((row, test), broken)| ExplainedTest {
+            marks: broken.into_iter().collect(),
+            ..state.explain(row, test, ray, &entered, spans, context)
         })
         .collect();
     let closest = state.closest;

@@ -36,17 +36,6 @@ pub struct Row {
     pub may_enter: Vec<u32>,
 }
 
-/// A violation of a rule, at a test.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Violation {
-    /// The index of the test.
-    pub row: usize,
-    /// The rule.
-    pub rule: Rule,
-    /// The node that should not have been entered then.
-    pub node: u32,
-}
-
 /// A rule of traversal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -141,7 +130,7 @@ pub fn rows(ray: &FollowedRay, tree: &TreeModel, addresses: Option<NodeAddresses
     rows
 }
 
-/// Returns the nodes whose spans [`violations`] and the explanation need: all that are entered, their
+/// Returns the nodes whose spans [`broken_rules`] and the explanation need: all that are entered, their
 /// siblings, and those whose boxes are tested.
 pub fn judged_nodes(rows: &[Row], tree: &TreeModel) -> BTreeSet<u32> {
     let entered = rows.iter().filter_map(|row| row.enters);
@@ -157,29 +146,22 @@ pub fn corners_with_margin(node: u32, tree: &TreeModel) -> Option<[(Vec3, Vec3);
     Some([(node.min, node.max), (node.min - margin, node.max + margin)])
 }
 
-/// Finds the violations in the tests of a ray. `spans` has the spans of the judged nodes.
-pub fn violations(
+/// Returns, for each test of a ray, the rule that is broken with it, if one is, and the node that
+/// should not have been entered then. `spans` has the spans of the judged nodes.
+pub fn broken_rules(
     ray: &FollowedRay,
     rows: &[Row],
     tree: &TreeModel,
     spans: &BTreeMap<u32, NodeSpan>,
-) -> Vec<Violation> {
+) -> Vec<Option<(Rule, u32)>> {
     let mut closest = f32::INFINITY;
     let mut visited = BTreeSet::new();
-    let mut violations = Vec::new();
-    for (index, (row, test)) in rows.iter().zip(&ray.tests).enumerate() {
-        if let Some(node) = row.enters {
-            // The root has no sibling, and its box need not be tested.
-            if node != tree.tree.root
-                && let Some(rule) = broken_rule(node, closest, &visited, tree, spans)
-            {
-                violations.push(Violation {
-                    row: index,
-                    rule,
-                    node,
-                });
-            }
-        }
+    let mut broken = Vec::new();
+    for (row, test) in rows.iter().zip(&ray.tests) {
+        // The root has no sibling, and its box need not be tested.
+        let judged = row.enters.filter(|node| *node != tree.tree.root);
+        let rule = judged.and_then(|node| broken_rule(node, closest, &visited, tree, spans));
+        broken.push(rule.zip(judged));
         // A node is visited as soon as something below it is.
         for node in row.enters.iter().chain(&row.may_enter) {
             let mut above = Some(*node);
@@ -196,7 +178,7 @@ pub fn violations(
             closest = closest.min(*distance);
         }
     }
-    violations
+    broken
 }
 
 fn broken_rule(

@@ -7,6 +7,7 @@
 #[expect(dead_code, reason = "the tests use more of it")]
 #[path = "../../tests/it/harness.rs"]
 mod harness;
+#[path = "../../tests/it/process.rs"]
 mod process;
 
 use std::path::Path;

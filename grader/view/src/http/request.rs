@@ -155,26 +155,6 @@ mod tests {
     }
 
     #[test]
-    fn reads_the_path_the_headers_and_the_body() {
-        let text = "POST /command?n=7&m=x HTTP/1.1\r\nHost: a:1\r\n\
-                    Content-Length: 2\r\n\r\n{}";
-        let request = read(text).unwrap();
-        assert_eq!((request.method, &*request.path), (Method::Post, "/command"));
-        assert_eq!(request.header("host"), Some("a:1"));
-        assert_eq!(
-            (request.parameter("n"), request.parameter("m")),
-            (Some("7"), Some("x"))
-        );
-        assert_eq!(request.body, b"{}");
-    }
-
-    #[test]
-    fn a_header_that_occurs_twice_has_no_value() {
-        let request = read("GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n").unwrap();
-        assert_eq!(request.header("host"), None);
-    }
-
-    #[test]
     fn rejects_what_it_does_not_support() {
         let long = format!("GET /{} HTTP/1.1\r\n\r\n", "x".repeat(20_000));
         assert!(matches!(read(&long), Err(RequestError::TooLong)));

@@ -282,8 +282,8 @@ fn a_second_viewer_takes_another_port() {
     let submission = Submission::starter();
     let mut command = view();
     command.arg("--submission").arg(submission.path());
-    let first = Viewer::run_at_the_usual_port(&mut command);
-    let second = Viewer::run_at_the_usual_port(&mut command);
+    let first = Viewer::spawn(&mut command).unwrap();
+    let second = Viewer::spawn(&mut command).unwrap();
     assert_ne!(first.port, second.port);
     let state = "/state?after=0";
     let with_first = second.request("GET", state, &first.headers(), "");

@@ -119,6 +119,17 @@ fn keys_alone_move_the_camera_in_every_way() {
     }
 }
 
+/// Opens the page and checks it as soon as it is as expected: by the rules, and for its width.
+fn check(viewer: &Viewer, chromium: &Chromium, reader: Reader, is_shown: &str) {
+    let mut tab = open(viewer, chromium, reader);
+    tab.wait_until(is_shown, TEXT);
+    let name = format!("width {}, dark: {}", reader.width, reader.dark);
+    assert_eq!(violations(&mut tab), [""; 0], "{name}");
+    let width = tab.eval("document.documentElement.scrollWidth");
+    let is_whole = width.as_u64() <= Some(reader.width.into());
+    assert!(is_whole, "{name}: {width}");
+}
+
 #[test]
 fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
     let Some(chromium) = Chromium::start() else {
@@ -130,6 +141,7 @@ fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
     viewer.wait_for_picture();
     viewer.explain([16, 4], Some(0));
     viewer.command(&json!({ "view": "tests" }));
+    let is_shown = format!("{HAS_TABLE} && !document.getElementById('tree-content').hidden");
     let phone = Reader {
         width: 390,
         dark: false,
@@ -140,12 +152,7 @@ fn axe_finds_nothing_in_light_and_dark_mode_and_on_a_phone() {
         ..DESKTOP
     };
     for reader in [DESKTOP, dark, phone] {
-        let mut tab = open(&viewer, &chromium, reader);
-        tab.wait_until(HAS_TABLE, TEXT);
-        tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
-        assert_eq!(violations(&mut tab), [""; 0], "width {}", reader.width);
-        let width = tab.eval("document.documentElement.scrollWidth");
-        assert!(width.as_u64() <= Some(reader.width.into()), "{width}");
+        check(&viewer, &chromium, reader, &is_shown);
     }
 }
 
@@ -164,34 +171,18 @@ fn axe_finds_nothing_while_the_code_panics_or_does_not_compile() {
         width: 390,
         ..DESKTOP
     };
-    let readers = [DESKTOP, phone].map(|reader| {
-        [
-            reader,
-            Reader {
-                dark: true,
-                ..reader
-            },
-        ]
-    });
-    let readers = readers.as_flattened();
-    let check = |is_shown: &str| {
-        for reader in readers {
-            let mut tab = open(&viewer, &chromium, *reader);
-            tab.wait_until(is_shown, TEXT);
-            let name = format!("width {}, dark: {}", reader.width, reader.dark);
-            assert_eq!(violations(&mut tab), [""; 0], "{name}");
-            let width = tab.eval("document.documentElement.scrollWidth");
-            assert!(
-                width.as_u64() <= Some(reader.width.into()),
-                "{name}: {width}"
-            );
+    let check_all = |is_shown: &str| {
+        for reader in [DESKTOP, phone] {
+            for dark in [false, true] {
+                check(&viewer, &chromium, Reader { dark, ..reader }, is_shown);
+            }
         }
     };
-    check(
+    check_all(
         "/10 samples, the first in pixel .3, \\d.: column 3 x+ .camera.rs:\\d+/.test(document.getElementById('notes').innerText)",
     );
     submission.write("camera.rs", &format!("{correct}\nlet oops\n"));
-    check(
+    check_all(
         "!document.getElementById('errors').hidden && document.getElementById('stage').className === 'stale'",
     );
 }

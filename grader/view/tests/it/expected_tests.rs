@@ -10,6 +10,7 @@ use grader::exam_source::ExamSource;
 use grader::handed_out::RAYS;
 use protocol::{Geometry, Question, Ray, Shape, Table, Tree, TreeNode};
 use reference::world::Student;
+use serde_json::Value;
 
 use crate::harness::workspace;
 
@@ -180,10 +181,19 @@ fn entry(tree: &Tree, index: u32, ray: &Ray, tests: &mut Vec<String>) -> Option<
     (first <= last).then_some(first)
 }
 
-/// Returns the tests in an explanation as texts.
-pub fn listed_tests(ray: &serde_json::Value) -> Vec<String> {
+/// Returns the broken rules in an explanation of a ray, with the nodes.
+pub fn marks(ray: &Value) -> Vec<(String, u32)> {
     let rows = ray["rows"].as_array().unwrap().iter();
-    let text = |row: &serde_json::Value| {
+    let marks = rows.flat_map(|row| row["marks"].as_array().unwrap());
+    marks
+        .map(|mark| serde_json::from_value(mark.clone()).unwrap())
+        .collect()
+}
+
+/// Returns the tests in an explanation as texts.
+pub fn listed_tests(ray: &Value) -> Vec<String> {
+    let rows = ray["rows"].as_array().unwrap().iter();
+    let text = |row: &Value| {
         if row["is_box"].as_bool().unwrap() {
             assert_eq!(row["nodes"].as_array().unwrap().len(), 1, "{row}");
             format!("node {}", row["nodes"][0])

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::harness::{Submission, Viewer};
+#[cfg(target_os = "linux")]
+use crate::process::family;
 
 /// Returns the texts and locations of a state's notes, one per line.
 fn notes(state: &Value) -> String {
@@ -229,20 +231,6 @@ fn a_panic_or_a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     assert_eq!(viewer.wait_for_picture()["notes"], json!([]));
 }
 
-/// Returns the processes that a process has started.
-#[cfg(target_os = "linux")]
-fn children(parent: u32) -> Vec<u32> {
-    let is_child = |process: &u32| {
-        let status = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
-        // The name in parentheses can contain spaces.
-        let fields = status.rsplit_once(')').map_or("", |(_, fields)| fields);
-        fields.split_whitespace().nth(1) == Some(&parent.to_string())
-    };
-    let entries = std::fs::read_dir("/proc").unwrap().flatten();
-    let processes = entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    processes.filter(is_child).collect()
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
@@ -255,7 +243,7 @@ fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
     let mut programs = Vec::new();
     while programs.is_empty() {
         assert!(Instant::now() < deadline, "no program was started");
-        programs = children(viewer.process());
+        programs = family(viewer.process()).split_off(1);
     }
     viewer.kill();
     let is_running = |program: &u32| {
@@ -278,7 +266,7 @@ fn a_save_ends_programs_that_hang_before_their_limit() {
     submission.write("bvh.rs", "not Rust");
     viewer.wait_for(|state| state["build"] == "failed");
     let deadline = Instant::now() + Duration::from_secs(120);
-    while !children(viewer.process()).is_empty() {
+    while family(viewer.process()).len() > 1 {
         assert!(Instant::now() < deadline, "a program is still running");
         std::thread::sleep(Duration::from_millis(10));
     }

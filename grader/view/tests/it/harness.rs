@@ -138,11 +138,7 @@ impl Viewer {
     }
 
     /// Starts the viewer without a choice of the port.
-    pub fn run_at_the_usual_port(command: &mut Command) -> Self {
-        Viewer::spawn(command).unwrap()
-    }
-
-    fn spawn(command: &mut Command) -> Result<Self, String> {
+    pub fn spawn(command: &mut Command) -> Result<Self, String> {
         let mut child = command
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -192,11 +188,8 @@ impl Viewer {
         stream.write_all((head + body).as_bytes()).unwrap();
         let mut bytes = Vec::new();
         stream.read_to_end(&mut bytes).unwrap();
-        let end = bytes
-            .windows(4)
-            .position(|window| window == b"\r\n\r\n")
-            .unwrap()
-            + 4;
+        let mut windows = bytes.windows(4);
+        let end = windows.position(|end| end == b"\r\n\r\n").unwrap() + 4;
         let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
         Answer {
             status: head.split(' ').nth(1).unwrap().parse().unwrap(),

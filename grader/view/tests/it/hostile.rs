@@ -110,6 +110,7 @@ fn a_long_panic_with_odd_characters_is_short_and_harmless_on_the_page() {
 #[cfg(target_os = "linux")]
 mod pipe {
     use super::*;
+    use crate::process::peak_memory;
 
     /// Writes to the pipe of responses while the tree is built.
     fn write_to_pipe(submission: &Submission, code: &str) {
@@ -127,21 +128,13 @@ mod pipe {
         ));
     }
 
-    /// Returns the maximum memory that the viewer has used, in bytes.
-    fn peak_memory(viewer: &Viewer) -> u64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", viewer.process())).unwrap();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let kilobytes = line.unwrap().trim().trim_end_matches(" kB");
-        kilobytes.parse::<u64>().unwrap() << 10
-    }
-
     #[test]
     fn responses_that_nothing_asked_for_are_refused_in_bounded_memory() {
         let submission = Submission::reference();
         let correct = submission.read("bvh.rs");
         let viewer = Viewer::start(&submission, ARGUMENTS);
         viewer.wait_for_picture();
-        let before = peak_memory(&viewer);
+        let before = peak_memory(viewer.process()).unwrap();
         let header = "send(&LENGTH_u32.to_le_bytes()); send(&1u64.to_le_bytes());";
         let frame = |length: &str| header.replace("LENGTH_u32", length);
         for (code, why) in [
@@ -168,7 +161,7 @@ mod pipe {
             submission.write("bvh.rs", "not Rust");
             viewer.wait_for(|state| state["build"] == "failed");
         }
-        let used = peak_memory(&viewer) - before;
+        let used = peak_memory(viewer.process()).unwrap() - before;
         assert!(used < 64 << 20, "{used} bytes");
         submission.write("bvh.rs", &correct);
         let is_fine =

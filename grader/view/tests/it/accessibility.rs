@@ -5,7 +5,7 @@ use browser_support::{Chromium, DESKTOP, Viewer as Reader, violations};
 use glam::Vec3;
 use serde_json::{Value, json};
 
-use crate::browser::{HAS_TABLE, TEXT, open, start, text};
+use crate::browser::{HAS_TABLE, open, property, start, text, wait};
 use crate::harness::{Submission, Viewer};
 
 #[test]
@@ -16,13 +16,13 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     };
     tab.eval("document.getElementById('stage').focus(); 0");
     tab.press("Enter", 13);
-    tab.wait_until(HAS_TABLE, TEXT);
-    tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+    wait(&mut tab, HAS_TABLE);
+    wait(&mut tab, "!document.getElementById('tree-content').hidden");
     tab.eval("document.getElementById('level').focus(); 0");
     tab.press("ArrowRight", 39);
-    tab.wait_until(
+    wait(
+        &mut tab,
         "document.getElementById('boxes-count').innerText.includes('box')",
-        TEXT,
     );
     assert_eq!(text(&mut tab, "#level-value"), "1");
     tab.eval("document.querySelector('#worst button').focus(); 0");
@@ -34,15 +34,12 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     tab.eval("document.querySelector('#choose-node button').focus(); 0");
     tab.press("Enter", 13);
     let is_root = "document.getElementById('node').innerText.startsWith('Node 0, level 0')";
-    tab.wait_until(is_root, TEXT);
-    assert_eq!(
-        tab.eval("document.getElementById('node-parent').disabled"),
-        true
-    );
+    wait(&mut tab, is_root);
+    assert_eq!(property(&mut tab, "node-parent", "disabled"), true);
     tab.eval("document.getElementById('node-second').focus(); 0");
     tab.press("Enter", 13);
     let is_child = "/^(Node|Leaf) \\d+, level 1/.test(document.getElementById('node').innerText)";
-    tab.wait_until(is_child, TEXT);
+    wait(&mut tab, is_child);
     let rows = tab.eval("document.querySelectorAll('#drawn-boxes tbody tr').length");
     let count = text(&mut tab, "#boxes-count");
     assert_eq!(count, format!("{rows} boxes"));
@@ -122,7 +119,7 @@ fn keys_alone_move_the_camera_in_every_way() {
 /// Opens the page and checks it as soon as it is as expected: by the rules, and for its width.
 fn check(viewer: &Viewer, chromium: &Chromium, reader: Reader, is_shown: &str) {
     let mut tab = open(viewer, chromium, reader);
-    tab.wait_until(is_shown, TEXT);
+    wait(&mut tab, is_shown);
     let name = format!("width {}, dark: {}", reader.width, reader.dark);
     assert_eq!(violations(&mut tab), [""; 0], "{name}");
     let width = tab.eval("document.documentElement.scrollWidth");

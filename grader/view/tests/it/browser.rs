@@ -2,14 +2,14 @@
 
 use browser_support::{Chromium, DESKTOP, Tab, Viewer as Reader};
 use glam::{UVec2, uvec2};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::expected_tests::Expected;
 use crate::harness::{Submission, Viewer};
 
 pub const IS_COMPLETE: &str = "document.body.dataset.complete === 'true'";
 pub const HAS_TABLE: &str = "document.querySelector('#explanation tbody tr') !== null";
-pub const TEXT: &str = "document.body.innerText";
+const TEXT: &str = "document.body.innerText";
 
 /// Opens the address that the viewer has printed.
 pub fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
@@ -21,13 +21,23 @@ pub fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
     tab
 }
 
+/// Waits until a condition is true on the page.
+pub fn wait(tab: &mut Tab, condition: &str) {
+    tab.wait_until(condition, TEXT);
+}
+
+/// Returns a property of the element with this id.
+pub fn property(tab: &mut Tab, id: &str, name: &str) -> Value {
+    tab.eval(&format!("document.getElementById('{id}').{name}"))
+}
+
 /// Starts a browser and the viewer, and waits until the picture is complete. Returns `None` if there is
 /// no browser.
 pub fn start(submission: &Submission, arguments: &str) -> Option<(Chromium, Viewer, Tab)> {
     let chromium = Chromium::start()?;
     let viewer = Viewer::start(submission, arguments);
     let mut tab = open(&viewer, &chromium, DESKTOP);
-    tab.wait_until(IS_COMPLETE, TEXT);
+    wait(&mut tab, IS_COMPLETE);
     Some((chromium, viewer, tab))
 }
 
@@ -49,7 +59,7 @@ fn explain(tab: &mut Tab, viewer: &Viewer, pixel: UVec2) {
     let title = format!("Pixel ({x}, {y})");
     let is_shown =
         format!("document.querySelector('#explanation h3')?.innerText.startsWith('{title}')");
-    tab.wait_until(&is_shown, TEXT);
+    wait(tab, &is_shown);
 }
 
 /// Returns the tests in the page's table, in the form of [`Expected::tests`].
@@ -84,11 +94,11 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     tab.eval("document.getElementById('stage').focus(); 0");
     tab.press("ArrowRight", 39);
     viewer.wait_for(|state| state["camera"] != own["camera"]);
-    tab.wait_until(IS_COMPLETE, TEXT);
+    wait(&mut tab, IS_COMPLETE);
 
     let middle = middle(&mut tab);
     tab.drag(middle, middle);
-    tab.wait_until(HAS_TABLE, TEXT);
+    wait(&mut tab, HAS_TABLE);
     let explanation = viewer.explanation();
     assert_eq!(explanation["pixel"][0], 48, "the middle of 96 pixels");
     let rows = explanation["rays"][0]["rows"].as_array().unwrap().len();
@@ -121,20 +131,20 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     submission.write("bvh.rs", &format!("{correct}\nlet oops\n"));
     // The error of the first save may be shown before.
     let is_second = "/let oops/.test(document.querySelector('#errors pre')?.innerText)";
-    tab.wait_until(is_second, TEXT);
+    wait(&mut tab, is_second);
     let heading = text(&mut tab, "#errors h3");
     let line = correct.lines().count() + 2;
     assert_eq!(heading, format!("bvh.rs:{line}"));
     assert!(text(&mut tab, "#errors pre").contains("let oops"));
-    assert_eq!(
-        tab.eval("document.getElementById('stage').className"),
-        "stale"
-    );
+    assert_eq!(property(&mut tab, "stage", "className"), "stale");
 
     submission.write("bvh.rs", &correct);
-    tab.wait_until("document.getElementById('errors').hidden", TEXT);
-    tab.wait_until(IS_COMPLETE, TEXT);
-    tab.wait_until("document.getElementById('stage').className === ''", TEXT);
+    wait(&mut tab, "document.getElementById('errors').hidden");
+    wait(&mut tab, IS_COMPLETE);
+    wait(
+        &mut tab,
+        "document.getElementById('stage').className === ''",
+    );
     let after = viewer.wait_for_picture();
     assert_eq!(after["camera"], before["camera"]);
     assert_eq!(tab.errors(), [""; 0]);
@@ -173,7 +183,7 @@ fn a_primitive_that_is_tested_twice_is_noted() {
         return;
     };
     let mut tab = open(&viewer, &chromium, DESKTOP);
-    tab.wait_until(HAS_TABLE, TEXT);
+    wait(&mut tab, HAS_TABLE);
     let noted = tab.eval(
         "[...document.querySelectorAll('#explanation tbody tr')]\
          .map((row) => row.innerText.includes('(tested before)'))",
@@ -189,7 +199,7 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
         return;
     };
     tab.eval("document.getElementById('load-tree').click(); 0");
-    tab.wait_until("!document.getElementById('tree-content').hidden", TEXT);
+    wait(&mut tab, "!document.getElementById('tree-content').hidden");
     // Pointed at again until the page reacts, since it draws a canvas some time after it shows it.
     let point = |canvas: &str, x: f64, y: f64| {
         format!(
@@ -202,19 +212,19 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
     let names =
         |start: &str| format!("document.getElementById('node').innerText.startsWith('{start}')");
     let root = point("strip", 0.5, 0.01);
-    tab.wait_until(&format!("{root} && {}", names("Node 0, level 0")), TEXT);
+    wait(&mut tab, &format!("{root} && {}", names("Node 0, level 0")));
     // The boxes of level 1 are drawn over the picture.
     tab.eval(
         "document.getElementById('level').value = 1; \
          document.getElementById('level').dispatchEvent(new Event('input')); 0",
     );
-    tab.wait_until(
+    wait(
+        &mut tab,
         "document.getElementById('boxes-count').innerText !== ''",
-        TEXT,
     );
     let is_named = "document.getElementById('node').innerText.includes(', level 1: ')";
     let middle = point("lines", 0.5, 0.5);
-    tab.wait_until(&format!("{middle} && {is_named}"), TEXT);
+    wait(&mut tab, &format!("{middle} && {is_named}"));
 
     let saved = tab.eval(
         "(async () => { const image = new Image(); image.src = document.getElementById('save').href; \
@@ -229,18 +239,15 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
         .map(|rgba| [rgba[0], rgba[1], rgba[2]])
         .collect();
     assert!(pixels == viewer.picture(), "another picture is saved");
-    assert_eq!(
-        tab.eval("document.getElementById('save').download"),
-        "flat.png"
-    );
+    assert_eq!(property(&mut tab, "save", "download"), "flat.png");
     // A refused command says why.
     tab.eval(
         "document.getElementById('exposure').value = 99; \
          document.getElementById('exposure').dispatchEvent(new Event('change')); 0",
     );
-    tab.wait_until(
+    wait(
+        &mut tab,
         "document.getElementById('refused').innerText.includes('out of range')",
-        TEXT,
     );
 }
 
@@ -254,21 +261,16 @@ fn two_windows_show_the_same_camera_and_pixel() {
     first.eval("document.getElementById('pick-sample').value = '1'; 0");
     explain(&mut first, &viewer, uvec2(20, 10));
     let mut second = open(&viewer, &chromium, DESKTOP);
-    second.wait_until(HAS_TABLE, TEXT);
+    wait(&mut second, HAS_TABLE);
     for tab in [&mut first, &mut second] {
         assert!(text(tab, "#explanation h3").starts_with("Pixel (20, 10), path 2"));
-        assert_eq!(
-            tab.eval("document.getElementById('pick-sample').value"),
-            "1"
-        );
+        assert_eq!(property(tab, "pick-sample", "value"), "1");
     }
     second.eval("document.getElementById('stage').focus(); 0");
     second.press("Enter", 13);
     first.bring_to_front();
-    first.wait_until(
-        "document.querySelector('#explanation h3').innerText.startsWith('Pixel (16, 1')",
-        TEXT,
-    );
+    let title = "document.querySelector('#explanation h3').innerText";
+    wait(&mut first, &format!("{title}.startsWith('Pixel (16, 1')"));
 }
 
 #[test]
@@ -281,18 +283,18 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
     // A hidden tab waits until it is seen.
     for tab in &mut tabs {
         tab.bring_to_front();
-        tab.wait_until(IS_COMPLETE, TEXT);
-        tab.wait_until("document.getElementById('pixels').width === 16", TEXT);
+        wait(tab, IS_COMPLETE);
+        wait(tab, "document.getElementById('pixels').width === 16");
     }
     viewer.command(&json!({ "view": "depth" }));
     for tab in &mut tabs {
         tab.bring_to_front();
-        tab.wait_until("document.querySelector('[value=depth]').checked", TEXT);
+        wait(tab, "document.querySelector('[value=depth]').checked");
     }
     drop(viewer);
     for tab in &mut tabs {
         tab.bring_to_front();
-        tab.wait_until("!document.getElementById('offline').hidden", TEXT);
+        wait(tab, "!document.getElementById('offline').hidden");
     }
 }
 
@@ -307,7 +309,7 @@ fn the_secret_leaves_the_address_and_stays_in_this_browser() {
     let other = Chromium::start().unwrap();
     let [mut again, mut tab] = [chromium.tab(), other.tab()];
     again.open_url(&address, DESKTOP);
-    again.wait_until(IS_COMPLETE, TEXT);
+    wait(&mut again, IS_COMPLETE);
     tab.open_url(&address, DESKTOP);
-    tab.wait_until(&format!("{TEXT}.includes('has printed')"), TEXT);
+    wait(&mut tab, &format!("{TEXT}.includes('has printed')"));
 }

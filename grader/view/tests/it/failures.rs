@@ -86,34 +86,60 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     assert_eq!(ray["boxes"], 0);
 }
 
+/// A viewer whose camera has been moved and in which a pixel is explained.
+struct Explored {
+    viewer: Viewer,
+    state: Value,
+    picture: Vec<[u8; 3]>,
+}
+
+impl Explored {
+    fn start(submission: &Submission) -> Self {
+        let viewer = Viewer::start(submission, "flat --size 24x20 --samples 2");
+        viewer.wait_for_picture();
+        viewer.command(&json!({ "move": { "orbit": [0.3, 0.1] } }));
+        viewer.explain([12, 10], None);
+        Explored {
+            state: viewer.wait_for_picture(),
+            picture: viewer.picture(),
+            viewer,
+        }
+    }
+
+    /// Checks that the picture is still there.
+    fn assert_stale(&self, state: &Value) {
+        assert_eq!(state["is_stale"], true);
+        assert!(self.viewer.picture() == self.picture, "the picture changed");
+    }
+
+    /// Waits until the picture is drawn again, and checks that everything is as it was.
+    fn assert_restored(&self) {
+        let after = self
+            .viewer
+            .wait_for(|state| state["is_stale"] == false && state["is_picture_complete"] == true);
+        for part in ["errors", "notes", "camera", "pinned"] {
+            assert_eq!(after[part], self.state[part], "{part}");
+        }
+        assert!(self.viewer.picture() == self.picture);
+        assert_eq!(self.viewer.explanation()["pixel"], json!([12, 10]));
+    }
+}
+
 #[test]
 fn an_error_of_the_compiler_leaves_the_picture_until_it_is_fixed() {
     let submission = Submission::reference();
-    let viewer = Viewer::start(&submission, "flat --size 24x20 --samples 2");
-    viewer.command(&json!({ "move": { "orbit": [0.3, 0.1] } }));
-    viewer.wait_for_picture();
-    viewer.explain([12, 10], None);
-    let before = viewer.wait_for_picture();
-    let picture = viewer.picture();
-
+    let explored = Explored::start(&submission);
     let correct = submission.read("bvh.rs");
     submission.write("bvh.rs", &format!("{correct}\nfn broken( {{\n"));
-    let failed = viewer.wait_for(|state| state["build"] == "failed");
-    assert_eq!(failed["is_stale"], true);
+    let failed = explored.viewer.wait_for(|state| state["build"] == "failed");
     let error = &failed["errors"][0];
     assert_eq!(error["file"], "bvh.rs");
     let line = correct.lines().count() as u64 + 2;
     assert!(error["line"].as_u64().unwrap() >= line, "{error}");
-    assert!(viewer.picture() == picture, "the last picture stays");
+    explored.assert_stale(&failed);
 
     submission.write("bvh.rs", &correct);
-    let after =
-        viewer.wait_for(|state| state["is_stale"] == false && state["is_picture_complete"] == true);
-    assert_eq!(after["errors"], json!([]));
-    assert_eq!(after["camera"], before["camera"]);
-    assert_eq!(after["pinned"], before["pinned"]);
-    assert!(viewer.picture() == picture);
-    assert_eq!(viewer.explanation()["pixel"], json!([12, 10]));
+    explored.assert_restored();
 }
 
 #[test]
@@ -167,13 +193,8 @@ fn make_build_endless(submission: &Submission) {
 fn an_endless_build_ends_at_its_limit_and_can_be_fixed() {
     let submission = Submission::reference();
     let correct = submission.read("bvh.rs");
-    let viewer = Viewer::start(&submission, "flat --size 24x20 --samples 1");
-    viewer.wait_for_picture();
-    viewer.command(&json!({ "move": { "orbit": [0.3, 0.1] } }));
-    viewer.explain([12, 10], None);
-    let before = viewer.wait_for_picture();
-    let picture = viewer.picture();
-
+    let explored = Explored::start(&submission);
+    let viewer = &explored.viewer;
     make_build_endless(&submission);
     viewer.wait_for(|state| state["is_opening"] == true && state["is_stale"] == true);
     let stopped = viewer.wait_for(|state| state["has_stopped"] == true);
@@ -183,18 +204,12 @@ fn an_endless_build_ends_at_its_limit_and_can_be_fixed() {
         "{notes}"
     );
     assert_eq!(stopped["is_opening"], false);
-    assert_eq!(stopped["is_stale"], true);
     let why = stopped["explanation_fault"].as_str().unwrap();
     assert!(why.contains("as soon as the scene can be opened"), "{why}");
-    assert!(viewer.picture() == picture, "the last picture stays");
+    explored.assert_stale(&stopped);
 
     submission.write("bvh.rs", &correct);
-    let after =
-        viewer.wait_for(|state| state["is_stale"] == false && state["is_picture_complete"] == true);
-    assert_eq!(after["notes"], json!([]));
-    assert_eq!(after["camera"], before["camera"]);
-    assert!(viewer.picture() == picture);
-    assert_eq!(viewer.explanation()["pixel"], json!([12, 10]));
+    explored.assert_restored();
 }
 
 #[test]

@@ -13,11 +13,11 @@ use judging::describe;
 use judging::exam::ExamQuestion;
 use judging::judge::tree::bounds::Bounds;
 use protocol::{Corners, Geometry, PinholeCamera, Query, Question, Ray, Shape, Tree};
-use view_probe::scene_data::TreeSource;
+use view_probe::scene_data::{PathSettings, TreeSource};
 
 use crate::error::ViewError;
 use crate::model::viewpoint::Viewpoint;
-use crate::subject::{ExamRay, PathSettings, Subject, bounds};
+use crate::subject::{ExamRay, Subject, bounds};
 
 /// The film on which a question is drawn.
 const FILM: UVec2 = UVec2::new(480, 360);

@@ -9,13 +9,14 @@ use judging::sanitize::sanitize;
 use serde::Serialize;
 use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
 use tempfile::NamedTempFile;
+use view_probe::scene_data::PathSettings;
 
 use crate::access::Access;
 use crate::http::{Method, Request, Response, Site, Status};
 use crate::model::tree::{Bar, NodeInfo, TreeModel};
 use crate::session::Command;
 use crate::shared_session::SharedSession;
-use crate::subject::{PathSettings, SceneList, Subject};
+use crate::subject::{SceneList, Subject};
 
 /// The time for which a request for news waits. Tunnels end connections that are silent for longer
 /// than a minute.
@@ -164,7 +165,14 @@ impl Routes {
 fn of_tree(tree: &TreeModel, request: &Request) -> Response {
     let index = |name| u32::try_from(number(request, name)).unwrap_or(u32::MAX);
     match request.path.as_str() {
-        "/tree" => json(&summary(tree)),
+        "/tree" => json(&TreeSummary {
+            nodes: tree.tree.nodes.len(),
+            levels: tree.levels(),
+            primitives: tree.tree.order.len(),
+            cost: tree.cost(),
+            bars: tree.strip(NARROWEST),
+            worst: tree.worst(WORST),
+        }),
         "/boxes" => {
             let below = request.parameter("below") == Some("true");
             let (boxes, count) = tree.at_level(index("level"), below, MAX_BOXES);
@@ -174,17 +182,6 @@ fn of_tree(tree: &TreeModel, request: &Request) -> Response {
             Some(node) => json(&node),
             None => not_found("there is no such node"),
         },
-    }
-}
-
-fn summary(tree: &TreeModel) -> TreeSummary {
-    TreeSummary {
-        nodes: tree.tree.nodes.len(),
-        levels: tree.levels(),
-        primitives: tree.tree.order.len(),
-        cost: tree.cost(),
-        bars: tree.strip(NARROWEST),
-        worst: tree.worst(WORST),
     }
 }
 

@@ -15,6 +15,7 @@ use grader::system::available_memory;
 use grader::workspace::Workspace;
 use judging::sanitize::sanitize_line;
 use tempfile::NamedTempFile;
+use view_probe::scene_data::PathSettings;
 
 use crate::access::Access;
 use crate::browser;
@@ -27,7 +28,7 @@ use crate::program::Programs;
 use crate::routes::Routes;
 use crate::session::{Resources, Session, Worker};
 use crate::shared_session::SharedSession;
-use crate::subject::{PathSettings, SceneList, Subject};
+use crate::subject::{SceneList, Subject};
 use crate::watcher;
 use crate::workers;
 

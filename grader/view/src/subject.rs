@@ -11,7 +11,7 @@ use judging::judge::tree::bounds::Bounds;
 use protocol::{Question, Ray};
 use serde::{Serialize, Serializer};
 use view_probe::messages::TreeSize;
-use view_probe::scene_data::{Aim, SceneData, TreeSource};
+use view_probe::scene_data::{Aim, PathSettings, SceneData, TreeSource};
 
 use crate::error::ViewError;
 use crate::model::viewpoint::Viewpoint;
@@ -58,24 +58,19 @@ fn is_some<S: Serializer>(ray: &Option<Ray>, out: S) -> Result<S::Ok, S::Error> 
     out.serialize_bool(ray.is_some())
 }
 
-/// The settings of paths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PathSettings {
-    /// The maximum number of times that a path is scattered.
-    pub bounces: u32,
-    /// The seed of all random numbers.
-    pub seed: u64,
-}
-
 impl Subject {
     /// Creates the subject of a scene.
     pub fn of_scene(name: &str, scene: &Scene, settings: PathSettings) -> Self {
         let bounds = bounds(scene.shapes.iter().map(Bounds::of_shape));
         let viewpoint = Viewpoint::of_scene(&scene.camera, &bounds);
+        let aim = Aim {
+            camera: scene.camera,
+            settings,
+        };
         Subject {
             name: name.to_owned(),
             about: scene.about.clone(),
-            data: Arc::new(SceneData::new(scene, aim(&scene.camera, settings))),
+            data: Arc::new(SceneData::new(scene, aim)),
             bounds,
             extent: scene.extent(),
             camera: scene.camera,
@@ -123,17 +118,6 @@ pub fn bounds(boxes: impl Iterator<Item = Bounds>) -> Bounds {
         min: -half,
         max: half,
     })
-}
-
-/// Returns the aim of a camera.
-pub fn aim(camera: &Camera, settings: PathSettings) -> Aim {
-    Aim {
-        pinhole: camera.pinhole,
-        position: camera.placement.position,
-        axes: camera.placement.axes,
-        bounces: settings.bounces,
-        seed: settings.seed,
-    }
 }
 
 /// The scenes that the page may name: those in the workspace's folder, and the one on the command

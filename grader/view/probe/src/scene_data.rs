@@ -14,7 +14,7 @@ pub struct SceneData {
     pub materials: Vec<SceneMaterial>,
     /// All shapes, numbered like those of a [`Scene`].
     pub shapes: Vec<Shape>,
-    /// For each shape, the index of its shape.
+    /// For each shape, the index of its material.
     pub shape_materials: Vec<u32>,
     /// The maximum number of primitives in a leaf.
     pub max_leaf_size: u32,
@@ -37,7 +37,7 @@ pub enum TreeSource {
     List,
 }
 
-/// A shape that can be sent.
+/// A material that can be sent.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneMaterial(#[serde(with = "MaterialDef")] pub Material);
 
@@ -71,9 +71,13 @@ impl SceneData {
     pub(crate) fn into_scene(self) -> Scene {
         Scene {
             about: String::new(),
-            camera: self.aim.camera(),
+            camera: self.aim.camera,
             environment: self.environment,
-            materials: self.materials.into_iter().map(|shape| shape.0).collect(),
+            materials: self
+                .materials
+                .into_iter()
+                .map(|material| material.0)
+                .collect(),
             shapes: self.shapes,
             shape_materials: self.shape_materials,
             max_leaf_size: self.max_leaf_size as usize,
@@ -81,31 +85,39 @@ impl SceneData {
     }
 }
 
-/// A camera and its position, and the settings of paths.
+/// A camera, and the settings of paths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
-    /// The parameters of the submission's camera.
-    pub pinhole: PinholeCamera,
-    /// The position of the camera in world space.
-    pub position: Vec3,
-    /// The camera's axes in world space, as columns.
-    pub axes: Mat3,
+    /// The camera and its position.
+    #[serde(with = "CameraDef")]
+    pub camera: Camera,
+    /// The settings.
+    pub settings: PathSettings,
+}
+
+/// The settings of paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PathSettings {
     /// The maximum number of times that a path is scattered.
     pub bounces: u32,
     /// The seed of all random numbers.
     pub seed: u64,
 }
 
-impl Aim {
-    /// Returns the camera of a scene.
-    pub fn camera(&self) -> Camera {
-        Camera {
-            pinhole: self.pinhole,
-            placement: Placement {
-                position: self.position,
-                axes: self.axes,
-            },
-            fixed_aspect: true,
-        }
-    }
+/// The fields of [`Camera`], for `serde`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Camera")]
+struct CameraDef {
+    pinhole: PinholeCamera,
+    #[serde(with = "PlacementDef")]
+    placement: Placement,
+    fixed_aspect: bool,
+}
+
+/// The fields of [`Placement`], for `serde`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Placement")]
+struct PlacementDef {
+    position: Vec3,
+    axes: Mat3,
 }

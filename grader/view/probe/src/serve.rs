@@ -11,6 +11,7 @@ use protocol::wire::{self, WireError};
 
 use crate::draw::{draw, follow};
 use crate::messages::{Request, Response, TreeData};
+use crate::scene_data::PathSettings;
 use crate::stage::Stage;
 
 /// The maximum size of a request: a scene with some millions of triangles. The viewer is trusted,
@@ -63,11 +64,12 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
 /// Responds to requests that leave the scene and the camera as they are, and returns the first
 /// other request. So the integrator, which lists the scene's lights, is created once per camera.
 fn serve_aimed(stage: &Stage, first: Request, pipe: &mut Pipe) -> Result<Request, WireError> {
+    let PathSettings { bounces, seed } = stage.aim.settings;
     let settings = RenderSettings {
-        film: stage.aim.pinhole.film,
+        film: stage.aim.camera.pinhole.film,
         samples: 1,
-        bounces: stage.aim.bounces,
-        seed: stage.aim.seed,
+        bounces,
+        seed,
     };
     let integrator = Integrator::new(&stage.scene, &stage.world, settings);
     let mut request = first;

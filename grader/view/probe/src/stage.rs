@@ -82,7 +82,7 @@ impl<'a> Stage<'a> {
         if let Ok(camera) = catch_panic(|| camera(self.submission, &aim, self.has_camera)) {
             self.world.set_camera(camera);
         }
-        self.scene.camera = aim.camera();
+        self.scene.camera = aim.camera;
         self.aim = aim;
     }
 
@@ -96,9 +96,9 @@ impl<'a> Stage<'a> {
 
 fn camera(submission: &dyn Submission, aim: &Aim, has_camera: bool) -> Box<dyn CameraRays> {
     if has_camera {
-        submission.camera(&aim.pinhole)
+        submission.camera(&aim.camera.pinhole)
     } else {
-        Box::new(ViewerCamera::new(&aim.pinhole))
+        Box::new(ViewerCamera::new(&aim.camera.pinhole))
     }
 }
 

@@ -17,7 +17,7 @@ use glam::{UVec2, Vec3};
 use grader::submission::Submission;
 use protocol::Trace;
 use view_probe::messages::{Opened, TestCounts};
-use view_probe::scene_data::Aim;
+use view_probe::scene_data::{Aim, PathSettings};
 
 use crate::model::explanation::Explanation;
 use crate::model::layer::Layer;
@@ -25,7 +25,7 @@ use crate::model::tiles::{LayerKind, Tiles};
 use crate::model::tree::TreeModel;
 use crate::model::viewpoint::Viewpoint;
 use crate::program::BuildState;
-use crate::subject::{PathSettings, Subject, aim};
+use crate::subject::Subject;
 
 pub use commands::Command;
 pub use notes::{Note, PanicNote};
@@ -102,15 +102,9 @@ impl Session {
         let shown = Shown {
             version: 1,
             scenes,
-            loading: None,
-            view: View::Shaded,
-            exposure: 0.0,
             film,
             samples,
-            panics: Vec::new(),
-            picture: 0,
-            is_stale: false,
-            is_picture_complete: false,
+            ..Shown::default()
         };
         let mut session = Session {
             shown,
@@ -205,7 +199,10 @@ impl Session {
     }
 
     fn aim(&self) -> Aim {
-        aim(&self.camera(), self.settings)
+        Aim {
+            camera: self.camera(),
+            settings: self.settings,
+        }
     }
 
     /// Returns the key of new work.

@@ -38,27 +38,19 @@ pub struct PanicNote {
 impl Session {
     /// Returns the remarks, the most important first.
     pub(super) fn notes(&self) -> Vec<Note> {
-        let mut notes = Vec::new();
-        let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
-        if let Some(fault) = &self.fault {
-            add(fault.clone(), None);
-        }
-        if let Some(why) = &self.loading_error {
-            add(why.clone(), None);
-        }
-        if let Some(BuildState::Broken(why)) = &self.recording {
-            add(
-                format!("The program that records tests cannot be built: {why}"),
-                None,
-            );
-        }
-        if let (View::Tests, Some(BuildState::Failed(errors))) = (self.shown.view, &self.recording)
-        {
-            add(recording_failed(errors), None);
-        }
+        let recording = match (&self.recording, self.shown.view) {
+            (Some(BuildState::Broken(why)), _) => Some(format!(
+                "The program that records tests cannot be built: {why}"
+            )),
+            (Some(BuildState::Failed(errors)), View::Tests) => Some(recording_failed(errors)),
+            _ => None,
+        };
+        let texts = [self.fault.clone(), self.loading_error.clone(), recording];
+        let mut notes: Vec<Note> = texts.into_iter().flatten().map(without_location).collect();
         let Some(opened) = &self.opened else {
             return notes;
         };
+        let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
             let (id, effect) = match part {
                 Part::Camera => ("camera", "the viewer's own camera is used"),
@@ -83,14 +75,12 @@ impl Session {
             add(text, self.line_of(build));
         }
         if self.invalid_paths > 0 {
-            add(
-                format!(
-                    "{} paths are black, because a hit contains NaN or infinity, a normal of \
-                     length zero, or an unknown shape.",
-                    self.invalid_paths
-                ),
-                None,
+            let text = format!(
+                "{} paths are black, because a hit contains NaN or infinity, a normal of length \
+                 zero, or an unknown shape.",
+                self.invalid_paths
             );
+            add(text, None);
         }
         notes
     }
@@ -152,6 +142,13 @@ impl Session {
                 count,
             }),
         }
+    }
+}
+
+fn without_location(text: String) -> Note {
+    Note {
+        text,
+        location: None,
     }
 }
 

@@ -17,10 +17,11 @@ pub struct Resources {
 }
 
 /// The quantity that the picture shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum View {
     /// The scene with its lighting.
+    #[default]
     Shaded,
     /// The scene without materials, lit from the camera.
     Clay,
@@ -77,7 +78,7 @@ pub struct Pinned {
 }
 
 /// The part of the state that the page sees as it is.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub struct Shown {
     /// Changes with everything that the page shows.
     pub version: u64,

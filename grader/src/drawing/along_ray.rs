@@ -6,7 +6,7 @@ use protocol::Interval;
 
 use super::Drawing;
 use super::bars::{self, BarRow, BarStyle};
-use super::hit_comparison::{HitAnswer, HitComparison};
+use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 
@@ -14,12 +14,9 @@ use super::sheet::{Sheet, Symbol};
 /// submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;
-    let before = |distance: f64| Interval::new(range.min, distance as f32);
+    let before = |distance: f32| Interval::new(range.min, distance);
     let (got, got_text) = match comparison.got {
-        HitAnswer::Hit(hit) => (
-            Some(before(hit.distance)),
-            describe::number(hit.distance as f32),
-        ),
+        HitAnswer::Hit(hit) => (Some(before(hit.distance)), describe::number(hit.distance)),
         HitAnswer::Miss => (None, "no hit".to_owned()),
         HitAnswer::NoAnswer => (None, "no answer".to_owned()),
     };
@@ -37,10 +34,10 @@ pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     sheet.title("along the ray, up to the hit");
     sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, distances);
     if let Some(hit) = comparison.wanted {
-        sheet.add_wanted(Symbol::Line(LineStyle::Right), &hit.text());
+        sheet.add_wanted(Symbol::Line(LineStyle::Right), &hit_text(&hit));
     }
     if let HitAnswer::Hit(hit) = comparison.got {
-        sheet.add_got(Symbol::Line(LineStyle::Wrong), &hit.text());
+        sheet.add_got(Symbol::Line(LineStyle::Wrong), &hit_text(&hit));
     }
     sheet.finish("The hits along the ray", comparison.caption())
 }

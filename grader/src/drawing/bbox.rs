@@ -74,13 +74,13 @@ fn deciding_plane(query: &BoxQuery) -> Plane {
 
 fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, plane: Plane) {
     let (origin, dir) = (query.ray.origin.as_dvec3(), query.ray.dir.as_dvec3());
-    let at = |t: f32| plane.project(origin + f64::from(t) * dir);
+    let along = |t: f64| plane.project(origin + t * dir);
     let corners = query.corners.map(|corner| plane.project(corner.as_dvec3()));
     let size = corners[0].distance(corners[1]).max(1e-9);
     let middle = 0.5 * (corners[0] + corners[1]);
     let ends = |span: Option<Interval>| {
         let ends = span.map_or([f32::NAN; 2], |span| [span.min, span.max]);
-        ends.map(at)
+        ends.map(|t| along(t.into()))
     };
     let is_near = |at: &DVec2| at.distance(middle) < 4.0 * size;
     let spans = [query.wanted, query.got.flatten(), Some(query.times)];
@@ -89,15 +89,10 @@ fn draw_picture(sheet: &mut Sheet, query: &BoxQuery, plane: Plane) {
     let seen: Vec<DVec2> = corners.into_iter().chain(others.filter(is_near)).collect();
     let window = sheet.window(seen);
     let canvas = &mut sheet.canvas;
-    let (low, high) = (
-        window.page_position(corners[0]),
-        window.page_position(corners[1]),
-    );
+    let [low, high] = corners.map(|corner| window.page_position(corner));
     // An outline makes a flat box visible.
     canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.08));
-    canvas.ray(&window, Some(query.times), 1e6, |t| {
-        plane.project(origin + t * dir)
-    });
+    canvas.ray(&window, Some(query.times), 1e6, along);
     canvas.mark_inside(&window, plane.project(origin), Mark::Origin);
     let spans = [
         (query.wanted, LineStyle::Right, Mark::Right),
@@ -135,11 +130,8 @@ fn rows(query: &BoxQuery) -> Vec<BarRow> {
 /// first exit.
 fn axis_distances(query: &BoxQuery) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];
-    let mut seen: Vec<f64> = [query.wanted, Some(query.times)]
-        .into_iter()
-        .flatten()
-        .flat_map(ends)
-        .collect();
+    let spans = [query.wanted, Some(query.times)].into_iter().flatten();
+    let mut seen: Vec<f64> = spans.flat_map(ends).collect();
     seen.push(0.0);
     if let Some(slabs) = query.slabs {
         let finite = |t: &f64| t.is_finite();

@@ -129,8 +129,11 @@ impl Canvas {
         }
     }
 
-    /// Draws an arrow with its head at `to`.
-    pub(super) fn arrow(&mut self, from: DVec2, to: DVec2, line: LineStyle, ink: Ink) {
+    /// Draws the part of an arrow that is in a window, with its head at the second point.
+    pub(super) fn arrow(&mut self, window: &Window, [from, to]: [DVec2; 2], line: LineStyle) {
+        let Some((from, to)) = window.clip_segment(from, to) else {
+            return;
+        };
         self.line(from, to, line);
         let Some(dir) = (to - from).try_normalize() else {
             return;
@@ -138,7 +141,7 @@ impl Canvas {
         let (back, across) = (to - 9.0 * dir, 4.0 * dir.perp());
         if is_drawable(to) {
             let head = svg::closed_path(&[to, back + across, back - across]);
-            self.add(&html! { path d=(head) fill=(ink.paint()) {} });
+            self.add(&html! { path d=(head) fill=(line.stroke().paint) {} });
         }
     }
 

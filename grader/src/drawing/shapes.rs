@@ -11,7 +11,7 @@ use super::{Drawing, sphere, triangle};
 pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
     let hit = comparison.wanted.or(comparison.got.hit());
     let distance = |shape: &&Shape| match hit {
-        Some(hit) => distance_to_surface(shape, hit.position),
+        Some(hit) => distance_to_surface(shape, hit.position.as_dvec3()),
         None => distance_to_line(shape, comparison),
     };
     let shape = shapes
@@ -48,19 +48,13 @@ fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
 
 /// Returns the distance of a shape's centre from the line of the ray.
 fn distance_to_line(shape: &Shape, comparison: &HitComparison) -> f64 {
-    let middle = match *shape {
-        Shape::Sphere { center, .. } => center.as_dvec3(),
-        Shape::Triangle { .. } | Shape::FlatTriangle { .. } => {
-            let [p0, p1, p2] = corners(shape);
-            (p0 + p1 + p2) / 3.0
-        }
-    };
-    let aside = middle - comparison.ray.origin.as_dvec3();
+    let [p0, p1, p2] = corners(shape);
+    let aside = (p0 + p1 + p2) / 3.0 - comparison.ray.origin.as_dvec3();
     aside.cross(comparison.dir()).length()
 }
 
 /// Returns the corners of a triangle; for a sphere, its centre three times.
-fn corners(shape: &Shape) -> [DVec3; 3] {
+pub(super) fn corners(shape: &Shape) -> [DVec3; 3] {
     match *shape {
         Shape::Triangle { vertices, .. } => vertices.map(|vertex| vertex.position.as_dvec3()),
         Shape::FlatTriangle { corners, .. } => corners.map(|corner| corner.as_dvec3()),

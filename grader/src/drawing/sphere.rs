@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Canvas};
 use super::hit_comparison::{Focus, HitComparison};
 use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::Sheet;
-use super::side::{self, SideView};
+use super::side::SideView;
 use super::uv;
 use super::window::Window;
 
@@ -18,24 +18,21 @@ pub(super) fn draw(comparison: &HitComparison, center: DVec3, radius: f64) -> Dr
     let middle = side.project(center);
     let corner = DVec2::splat(radius);
     let shape = [middle - corner, middle + corner];
-    let seen = side::landmarks(comparison, &side, &shape);
+    let seen = side.landmarks(&shape);
 
     let mut sheet = Sheet::default();
-    let window = match comparison.focus {
-        Focus::Uv => {
-            let titles = ["from the side", "texture coordinates"];
-            let [left, right] = sheet.panels(titles, 150.0);
-            uv::draw_square(&mut sheet.canvas, right, comparison, &[]);
-            Window::around(left, seen)
-        }
-        Focus::Distance | Focus::Position | Focus::Normal | Focus::Origin | Focus::Shape => {
-            sheet.window(seen)
-        }
+    let window = if comparison.focus == Focus::Uv {
+        let titles = ["from the side", "texture coordinates"];
+        let [left, right] = sheet.panels(titles, 150.0);
+        uv::draw_square(&mut sheet.canvas, right, comparison, &[]);
+        Window::around(left, seen)
+    } else {
+        sheet.window(seen)
     };
     draw_circle(&mut sheet.canvas, &window, middle, radius);
-    side::draw_ray(&mut sheet.canvas, &window, comparison);
-    side::draw_hits(&mut sheet.canvas, &window, comparison, &side);
-    side::draw_legend(&mut sheet, comparison, &side, &window);
+    side.draw_ray(&mut sheet.canvas, &window);
+    side.draw_hits(&mut sheet.canvas, &window);
+    side.draw_legend(&mut sheet, &window);
     let title = "The ray and the sphere, in the plane through the ray and the centre";
     sheet.finish(title, comparison.caption())
 }

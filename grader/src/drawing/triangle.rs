@@ -9,7 +9,7 @@ use super::canvas::{Anchor, Canvas, Mark};
 use super::hit_comparison::{Focus, HitComparison};
 use super::ink::{Fill, Ink, LineStyle};
 use super::sheet::Sheet;
-use super::side::{self, SideView};
+use super::side::SideView;
 use super::uv;
 use super::window::{Panel, Window};
 
@@ -32,16 +32,16 @@ pub(super) fn draw(comparison: &HitComparison, vertices: &[Vertex; 3]) -> Drawin
     let [left, right] = sheet.panels(["seen along the ray", beside], 168.0);
     draw_along_ray(&mut sheet.canvas, left, comparison, &side, corners);
     let seen = corners.map(|corner| side.project(corner));
-    let window = Window::around(right, side::landmarks(comparison, &side, &seen));
+    let window = Window::around(right, side.landmarks(&seen));
     if is_uv {
         let uvs = vertices.map(|vertex| vertex.uv.as_dvec2());
         uv::draw_square(&mut sheet.canvas, right, comparison, &uvs);
     } else {
         draw_outline(&mut sheet.canvas, &window, seen);
-        side::draw_ray(&mut sheet.canvas, &window, comparison);
-        side::draw_hits(&mut sheet.canvas, &window, comparison, &side);
+        side.draw_ray(&mut sheet.canvas, &window);
+        side.draw_hits(&mut sheet.canvas, &window);
     }
-    side::draw_legend(&mut sheet, comparison, &side, &window);
+    side.draw_legend(&mut sheet, &window);
     let title = "The ray and the triangle, seen along the ray and from the side";
     sheet.finish(title, comparison.caption())
 }

@@ -20,10 +20,7 @@ pub(super) fn draw_square(
         max: panel.max - dvec2(0.0, 10.0),
     };
     let window = Window::around(around, [DVec2::ZERO, DVec2::ONE]);
-    let (low, high) = (
-        window.page_position(DVec2::ZERO),
-        window.page_position(DVec2::ONE),
-    );
+    let [low, high] = [DVec2::ZERO, DVec2::ONE].map(|corner| window.page_position(corner));
     canvas.rectangle(low, high, LineStyle::Grid, Fill::None);
     let name = |canvas: &mut Canvas, at: DVec2, anchor, text| {
         canvas.text(at, anchor, Ink::Faint, text);
@@ -46,7 +43,7 @@ pub(super) fn draw_square(
     let got = comparison.got.hit().map(|hit| hit.uv);
     for (uv, mark) in [(wanted, Mark::Right), (got, Mark::Wrong)] {
         let at = uv
-            .map(|uv| window.page_position(uv))
+            .map(|uv| window.page_position(uv.as_dvec2()))
             .filter(|at| at.is_finite());
         if let Some(at) = at {
             canvas.mark(at.clamp(panel.min + 7.0, panel.max - 7.0), mark);

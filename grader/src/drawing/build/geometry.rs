@@ -15,6 +15,7 @@ use crate::drawing::canvas::{Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::point;
 use crate::drawing::plane::{AXIS_NAMES, Plane};
+use crate::drawing::shapes;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
@@ -64,15 +65,10 @@ fn largest(value: impl Fn(usize) -> f64) -> usize {
 fn draw_boxes(sheet: &mut Sheet, shapes: &[Shape], below: &[usize], node: &ReachedNode) {
     let (needs, has) = (node.tight_bounds, Bounds::of_node(node.node));
     let out = |axis: usize| {
-        let below = (needs.min[axis] - has.min[axis]).abs();
-        let above = (needs.max[axis] - has.max[axis]).abs();
+        let out = [needs.min - has.min, needs.max - has.max].map(|out| out[axis].abs());
         // A box with a NaN counts as infinitely wrong.
-        let out = below.max(above);
-        if below.is_nan() || above.is_nan() {
-            f64::INFINITY
-        } else {
-            out
-        }
+        let [below, above] = out.map(|out| if out.is_nan() { f64::INFINITY } else { out });
+        below.max(above)
     };
     let plane = plane_containing(largest(out), needs.max - needs.min);
     let corners = |bounds: Bounds| [bounds.min, bounds.max].map(|corner| plane.project(corner));
@@ -183,23 +179,17 @@ fn draw_outlines<'a>(
     canvas: &mut Canvas,
     window: &Window,
     plane: Plane,
-    shapes: impl Iterator<Item = &'a Shape>,
+    all: impl Iterator<Item = &'a Shape>,
 ) {
     let fill = Fill::Tint(Ink::Text, 0.12);
     let page = |at: DVec3| window.page_position(plane.project(at));
     let mut triangles = Vec::new();
-    for shape in shapes.take(MAX_PRIMITIVES) {
-        match *shape {
-            Shape::Triangle { vertices, .. } => {
-                triangles.push(vertices.map(|vertex| page(vertex.position.as_dvec3())));
-            }
-            Shape::FlatTriangle { corners, .. } => {
-                triangles.push(corners.map(|corner| page(corner.as_dvec3())));
-            }
-            Shape::Sphere { center, radius, .. } => {
-                let radius = window.page_length(radius.into());
-                canvas.circle(page(center.as_dvec3()), radius, LineStyle::Grid, fill);
-            }
+    for shape in all.take(MAX_PRIMITIVES) {
+        if let Shape::Sphere { center, radius, .. } = *shape {
+            let radius = window.page_length(radius.into());
+            canvas.circle(page(center.as_dvec3()), radius, LineStyle::Grid, fill);
+        } else {
+            triangles.push(shapes::corners(shape).map(page));
         }
     }
     canvas.polygons(&triangles, LineStyle::Grid, fill);

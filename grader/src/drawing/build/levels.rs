@@ -40,12 +40,8 @@ pub(super) fn draw(
         for node in on_level.take(MAX_NODES) {
             draw_node(canvas, node, ends(node), y);
         }
-        canvas.text(
-            at_right(y + 13.5),
-            Anchor::End,
-            Ink::Text,
-            &format!("{cost:.2}"),
-        );
+        let cost = format!("{cost:.2}");
+        canvas.text(at_right(y + 13.5), Anchor::End, Ink::Text, &cost);
     }
     if let Some(node) = mark {
         let y = top + ROW_HEIGHT * f64::from(node.level.min(deepest));
@@ -79,11 +75,7 @@ fn draw_node(canvas: &mut Canvas, node: &LevelNode, [from, to]: [f64; 2], y: f64
     let times = if node.is_leaf { node.count.max(1) } else { 1 };
     let area = f64::from(node.cost) / f64::from(times);
     let area = if area.is_finite() { area } else { 0.0 };
-    let height = if node.is_leaf {
-        0.5 * (ROW_HEIGHT - 3.0)
-    } else {
-        ROW_HEIGHT - 3.0
-    };
+    let height = if node.is_leaf { 0.5 } else { 1.0 } * (ROW_HEIGHT - 3.0);
     // Neighbours are separated by a small gap, which is narrower for narrow nodes.
     let gap = (0.1 * (to - from)).min(1.0);
     let (low, high): (DVec2, DVec2) = (dvec2(from, y), dvec2(to - gap, y + height));

@@ -37,11 +37,9 @@ pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<R
     let canvas = &mut sheet.canvas;
     let (low, high) = (window.page_position(-half), window.page_position(half));
     canvas.rectangle(low, high, LineStyle::Outline, Fill::Tint(Ink::Text, 0.04));
-    let (x, y) = (
-        dvec2(high.x, low.y + 13.0),
-        dvec2(low.x - 5.0, high.y + 10.0),
-    );
+    let x = dvec2(high.x, low.y + 13.0);
     canvas.text(x, Anchor::End, Ink::Faint, "x →");
+    let y = dvec2(low.x - 5.0, high.y + 10.0);
     canvas.text(y, Anchor::End, Ink::Faint, "y ↑");
     let pixel = window.page_length(sensor.pixel_size().min_element());
     if pixel >= MIN_PIXEL {
@@ -52,7 +50,7 @@ pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<R
 
     let is_close = near.is_some_and(|at| at.distance(wanted) < 0.15 * sensor.size.max_element());
     if pixel < 2.0 * MIN_PIXEL && is_close {
-        let seen: Vec<DVec2> = closeup_points(sensor, sample.pixel, wanted, near);
+        let seen = closeup_points(sensor, sample.pixel, wanted, near);
         sheet.title("close-up");
         let panel = sheet.panel(180.0);
         let window = Window::around(panel, seen);
@@ -68,11 +66,7 @@ pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<R
     match (got, seen) {
         (None, _) => {}
         (Some(_), Some(at)) => {
-            let off = if near.is_some() {
-                ""
-            } else {
-                ", outside the picture"
-            };
+            let off = near.map_or(", outside the picture", |_| "");
             let text = format!("through {}{off}", point_text(at));
             sheet.add_got(Symbol::Mark(Mark::Wrong), &text);
         }
@@ -100,14 +94,9 @@ pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<R
 /// and submitted points, with a margin.
 fn closeup_points(sensor: &Sensor, pixel: UVec2, wanted: DVec2, got: Option<DVec2>) -> Vec<DVec2> {
     let corners = sensor.pixel_corners(pixel);
-    let mut seen: Vec<DVec2> = corners.into_iter().chain([wanted]).chain(got).collect();
+    let seen = corners.into_iter().chain([wanted]).chain(got);
     let margin = 0.7 * sensor.pixel_size();
-    let wider: Vec<DVec2> = seen
-        .iter()
-        .flat_map(|at| [*at - margin, *at + margin])
-        .collect();
-    seen.extend(wider);
-    seen
+    seen.flat_map(|at| [at - margin, at + margin]).collect()
 }
 
 fn draw_sampled_pixel(canvas: &mut Canvas, window: &Window, sensor: &Sensor, pixel: UVec2) {

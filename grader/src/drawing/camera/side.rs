@@ -35,13 +35,8 @@ pub(super) fn draw(sensor: &Sensor, wanted: DVec3, ray: &Ray) -> Drawing {
         canvas.text(at, Anchor::Start, Ink::Faint, "z = -1");
     }
     draw_unit_arc(canvas, &window);
-    let mut arrow = |from: DVec2, to: DVec2, line, ink| {
-        if let Some((from, to)) = window.clip_segment(from, to) {
-            canvas.arrow(from, to, line, ink);
-        }
-    };
-    arrow(DVec2::ZERO, see(wanted), LineStyle::Right, Ink::Right);
-    arrow(see(start), tip, LineStyle::Wrong, Ink::Wrong);
+    canvas.arrow(&window, [DVec2::ZERO, see(wanted)], LineStyle::Right);
+    canvas.arrow(&window, [see(start), tip], LineStyle::Wrong);
     canvas.mark(window.page_position(DVec2::ZERO), Mark::Origin);
     if see(start).length() > 1e-4 {
         canvas.mark_pinned(&window, Some(see(start)), Mark::Wrong);

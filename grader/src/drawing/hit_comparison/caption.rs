@@ -1,9 +1,10 @@
 //! Captions that say what is wrong with a hit.
 
-use glam::DVec3;
+use glam::Vec3;
 use judging::describe;
+use protocol::Trace;
 
-use super::{DrawnHit, Focus, HitAnswer, HitComparison};
+use super::{Focus, HitAnswer, HitComparison};
 use crate::drawing::numbers::short;
 
 impl HitComparison {
@@ -15,25 +16,25 @@ impl HitComparison {
             }
             (Some(wanted), HitAnswer::NoAnswer) => format!(
                 "The ray hits at {}; your code gave no answer.",
-                short(wanted.distance)
+                short(wanted.distance.into())
             ),
             (None, HitAnswer::Miss) => "The ray hits nothing.".to_owned(),
             (None, HitAnswer::Hit(got)) => format!(
                 "The ray hits nothing; your code reports a hit at {}{}.",
-                short(got.distance),
+                short(got.distance.into()),
                 self.range_note(got.distance)
             ),
             (Some(wanted), HitAnswer::Miss) => format!(
                 "Your code reports no hit; the ray hits at {}.",
-                short(wanted.distance)
+                short(wanted.distance.into())
             ),
             (Some(wanted), HitAnswer::Hit(got)) => self.difference(&wanted, &got),
         }
     }
 
-    fn range_note(&self, distance: f64) -> String {
+    fn range_note(&self, distance: f32) -> String {
         let range = self.ray.range;
-        if range.contains(distance as f32) {
+        if range.contains(distance) {
             return String::new();
         }
         match self.limited_range() {
@@ -43,60 +44,52 @@ impl HitComparison {
         }
     }
 
-    fn difference(&self, wanted: &DrawnHit, got: &DrawnHit) -> String {
+    fn difference(&self, wanted: &Trace, got: &Trace) -> String {
         match self.focus {
             Focus::Distance => format!(
                 "Your code reports a hit at {}{}; the first hit in range is at {}.",
-                number(got.distance),
+                describe::number(got.distance),
                 self.range_note(got.distance),
-                number(wanted.distance)
+                describe::number(wanted.distance)
             ),
             Focus::Position => format!(
                 "Your position is {}; the ray hits at {}.",
-                describe::point(got.position.as_vec3()),
-                describe::point(wanted.position.as_vec3())
+                describe::point(got.position),
+                describe::point(wanted.position)
             ),
             Focus::Normal => normal_difference(wanted.normal, got.normal),
             Focus::Uv => format!(
                 "Your uv is {}; the correct uv is {}.",
-                describe::uv(got.uv.as_vec2()),
-                describe::uv(wanted.uv.as_vec2())
+                describe::uv(got.uv),
+                describe::uv(wanted.uv)
             ),
             Focus::Origin => format!(
                 "Your hit says that the ray starts at {}; it starts at {}.",
-                describe::point(got.origin.as_vec3()),
-                describe::point(wanted.origin.as_vec3())
+                describe::point(got.origin),
+                describe::point(wanted.origin)
             ),
-            Focus::Shape => {
-                let name =
-                    |hit: &DrawnHit| hit.shape.map_or("none".to_owned(), |id| id.to_string());
-                format!(
-                    "Your hit is of shape {}; the ray hits shape {}.",
-                    name(got),
-                    name(wanted)
-                )
-            }
+            Focus::Shape => format!(
+                "Your hit is of shape {}; the ray hits shape {}.",
+                got.shape, wanted.shape
+            ),
         }
     }
 }
 
-/// Formats a number with as many digits as in the text of the report.
-fn number(value: f64) -> String {
-    describe::number(value as f32)
-}
-
-fn normal_difference(wanted: DVec3, got: DVec3) -> String {
+fn normal_difference(wanted: Vec3, normal: Vec3) -> String {
+    let (wanted, got) = (wanted.as_dvec3(), normal.as_dvec3());
     let length = got.length();
     if !(length.is_finite() && length > 0.0) {
-        return format!(
-            "Your normal {} has no direction.",
-            describe::point(got.as_vec3())
-        );
+        let normal = describe::point(normal);
+        return format!("Your normal {normal} has no direction.");
     }
     let degrees = got.angle_between(wanted).to_degrees();
     match degrees {
         _ if degrees > 179.5 => "Your normal points in the opposite direction.".to_owned(),
         _ if degrees > 0.05 => format!("Your normal is off by {}°.", short(degrees)),
-        _ => format!("Your normal has length {}; it must be 1.", number(length)),
+        _ => format!(
+            "Your normal has length {}; it must be 1.",
+            describe::number(length as f32)
+        ),
     }
 }

@@ -2,7 +2,7 @@
 
 mod caption;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec3, Vec3};
 use protocol::{Answer, Interval, Question, Ray, Trace};
 
 use judging::describe;
@@ -10,16 +10,9 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
 
-/// A hit to draw. If it comes from the key of a picture, the shape's number is not known.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::drawing) struct DrawnHit {
-    pub(in crate::drawing) distance: f64,
-    pub(in crate::drawing) position: DVec3,
-    pub(in crate::drawing) normal: DVec3,
-    pub(in crate::drawing) uv: DVec2,
-    pub(in crate::drawing) origin: DVec3,
-    pub(in crate::drawing) shape: Option<u32>,
-}
+/// The number of an expected hit's shape if it is not known, because the key is that of a picture. No
+/// shape has it.
+const UNKNOWN_SHAPE: u32 = u32::MAX;
 
 /// The submission's answer for one ray.
 #[derive(Clone, Copy, Debug)]
@@ -27,12 +20,12 @@ pub(in crate::drawing) enum HitAnswer {
     /// The code panicked or gave no answer, so there is nothing to draw.
     NoAnswer,
     Miss,
-    Hit(DrawnHit),
+    Hit(Trace),
 }
 
 impl HitAnswer {
     /// Returns the hit, if there is one.
-    pub(in crate::drawing) fn hit(self) -> Option<DrawnHit> {
+    pub(in crate::drawing) fn hit(self) -> Option<Trace> {
         match self {
             HitAnswer::Hit(hit) => Some(hit),
             HitAnswer::Miss | HitAnswer::NoAnswer => None,
@@ -61,7 +54,7 @@ pub(in crate::drawing) enum Focus {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) struct HitComparison {
     pub(in crate::drawing) ray: Ray,
-    pub(in crate::drawing) wanted: Option<DrawnHit>,
+    pub(in crate::drawing) wanted: Option<Trace>,
     pub(in crate::drawing) got: HitAnswer,
     pub(in crate::drawing) focus: Focus,
 }
@@ -89,15 +82,14 @@ impl HitComparison {
                 rows: ExpectedRows::Hits(hits),
                 ..
             } => {
-                let hit = hits.get(element)?.as_ref();
                 let judged = judged.iter().map(String::as_str);
-                (judged.collect(), hit.map(DrawnHit::from_trace))
+                (judged.collect(), *hits.get(element)?)
             }
             Key::FirstHits { hits, .. } => {
                 let surface = hits.get(element)?.as_ref();
                 (
                     vec!["distance", "normal", "uv"],
-                    surface.map(|surface| DrawnHit::from_surface(surface, &ray)),
+                    surface.map(|surface| trace_of(surface, &ray)),
                 )
             }
             Key::Table { .. } | Key::Tree { .. } | Key::Radiance { .. } => return None,
@@ -116,9 +108,9 @@ impl HitComparison {
     pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
         let hit = self.got.hit()?;
         Some(if self.focus == Focus::Position {
-            hit.position
+            hit.position.as_dvec3()
         } else {
-            self.at(hit.distance)
+            self.at(hit.distance.into())
         })
     }
 
@@ -143,24 +135,24 @@ fn hit_answer(element: usize, answer: Option<&Answer>) -> HitAnswer {
         return HitAnswer::NoAnswer;
     };
     match value(hits, element) {
-        Some(Some(trace)) => HitAnswer::Hit(DrawnHit::from_trace(trace)),
+        Some(Some(trace)) => HitAnswer::Hit(*trace),
         Some(None) => HitAnswer::Miss,
         None => HitAnswer::NoAnswer,
     }
 }
 
-fn choose_focus(judged: &[&str], wanted: Option<&DrawnHit>, got: &HitAnswer) -> Focus {
+fn choose_focus(judged: &[&str], wanted: Option<&Trace>, got: &HitAnswer) -> Focus {
     let (Some(wanted), HitAnswer::Hit(got)) = (wanted, got) else {
         return Focus::Distance;
     };
     let is_wrong = |quantity: &&&str| match **quantity {
-        "position" => vectors_differ(got.position, wanted.position),
-        "normal" => vectors_differ(got.normal.normalize(), wanted.normal),
-        "unit_normal" => numbers_differ(got.normal.length(), 1.0),
-        "uv" => vectors_differ(got.uv.extend(0.0), wanted.uv.extend(0.0)),
-        "origin" => vectors_differ(got.origin, wanted.origin),
+        "position" => vectors_differ(got.position.as_dvec3(), wanted.position),
+        "normal" => vectors_differ(got.normal.as_dvec3().normalize(), wanted.normal),
+        "unit_normal" => numbers_differ(got.normal.as_dvec3().length(), 1.0),
+        "uv" => vectors_differ(got.uv.extend(0.0).as_dvec3(), wanted.uv.extend(0.0)),
+        "origin" => vectors_differ(got.origin.as_dvec3(), wanted.origin),
         "shape" => got.shape != wanted.shape,
-        _ => numbers_differ(got.distance, wanted.distance),
+        _ => numbers_differ(got.distance.into(), wanted.distance.into()),
     };
     match judged.iter().find(is_wrong).or(judged.first()) {
         Some(&"position") => Focus::Position,
@@ -179,35 +171,22 @@ fn numbers_differ(a: f64, b: f64) -> bool {
     !is_close
 }
 
-fn vectors_differ(a: DVec3, b: DVec3) -> bool {
-    numbers_differ(a.distance(b), 0.0)
+fn vectors_differ(a: DVec3, b: Vec3) -> bool {
+    numbers_differ(a.distance(b.as_dvec3()), 0.0)
 }
 
-impl DrawnHit {
-    /// Returns a text with the distance.
-    pub(in crate::drawing) fn text(&self) -> String {
-        format!("a hit at {}", describe::number(self.distance as f32))
+fn trace_of(surface: &Surface, ray: &Ray) -> Trace {
+    Trace {
+        distance: surface.depth,
+        position: ray.at(surface.depth),
+        normal: surface.normal,
+        uv: surface.uv,
+        origin: ray.origin,
+        shape: UNKNOWN_SHAPE,
     }
+}
 
-    fn from_surface(surface: &Surface, ray: &Ray) -> DrawnHit {
-        DrawnHit {
-            distance: surface.depth.into(),
-            position: ray.at(surface.depth).as_dvec3(),
-            normal: surface.normal.as_dvec3(),
-            uv: surface.uv.as_dvec2(),
-            origin: ray.origin.as_dvec3(),
-            shape: None,
-        }
-    }
-
-    fn from_trace(trace: &Trace) -> DrawnHit {
-        DrawnHit {
-            distance: trace.distance.into(),
-            position: trace.position.as_dvec3(),
-            normal: trace.normal.as_dvec3(),
-            uv: trace.uv.as_dvec2(),
-            origin: trace.origin.as_dvec3(),
-            shape: Some(trace.shape),
-        }
-    }
+/// Returns a text with the distance of a hit.
+pub(in crate::drawing) fn hit_text(hit: &Trace) -> String {
+    format!("a hit at {}", describe::number(hit.distance))
 }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use protocol::{Interval, TreeNode};
+use judging::judge::tree::reached_nodes::{ReachedNode, reached_nodes};
+use protocol::{Interval, Shape, Tree};
 
 use super::RecordedTraversal;
 use crate::drawing::hit_comparison::HitComparison;
@@ -60,43 +61,60 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn new(comparison: &HitComparison, traversal: &RecordedTraversal) -> Layout {
-        let parents = ParentMap::new(traversal);
-        let leaf_with = |shape: Option<u32>| parents.leaf_with(traversal, shape?);
-        let wanted = leaf_with(comparison.wanted.and_then(|hit| hit.shape));
-        let got = leaf_with(comparison.got.hit().and_then(|hit| hit.shape));
-        let paths =
-            [wanted, got].map(|leaf| leaf.map_or(Vec::new(), |leaf| parents.path_to_root(leaf)));
+    /// Returns the layout of a traversal, or `None` if its nodes do not form a tree.
+    pub(super) fn new(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Layout> {
+        let tree = Tree {
+            nodes: traversal.nodes.to_vec(),
+            root: traversal.root,
+            order: traversal.shapes.iter().map(Shape::number).collect(),
+        };
+        let nodes = reached_nodes(traversal.shapes, &tree).ok()?;
+        let by_index: BTreeMap<u32, &ReachedNode> =
+            nodes.iter().map(|node| (node.index, node)).collect();
+        let interior = nodes.iter().filter(|node| node.leaf_primitives.is_none());
+        let children =
+            interior.flat_map(|node| [(node.node.l, node.index), (node.node.r, node.index)]);
+        let parents: BTreeMap<u32, u32> = children.collect();
+        let path_to_root = |node: u32| -> Vec<u32> {
+            std::iter::successors(Some(node), |node| parents.get(node).copied()).collect()
+        };
+        let leaf_with = |number: Option<u32>| {
+            let mut shapes = traversal.shapes.iter();
+            let index = shapes.position(|shape| Some(shape.number()) == number)?;
+            let holds =
+                |node: &&ReachedNode| node.leaf_primitives.iter().flatten().any(|i| *i == index);
+            nodes.iter().find(holds).map(|leaf| leaf.index)
+        };
+        let wanted = leaf_with(comparison.wanted.map(|hit| hit.shape));
+        let got = leaf_with(comparison.got.hit().map(|hit| hit.shape));
+        let [path_to_wanted, path_to_got] =
+            [wanted, got].map(|leaf| leaf.map_or(Vec::new(), path_to_root));
 
         let mut number = 0;
-        let rows: Vec<NodeRow> = traversal
-            .steps
-            .iter()
-            .map(|step| {
-                number += usize::from(step.is_entered);
-                let node = traversal.nodes.get(step.node as usize);
-                NodeRow {
-                    node: step.node,
-                    number,
-                    depth: parents.depth(step.node),
-                    is_leaf: node.is_some_and(TreeNode::is_leaf),
-                    status: node_status(step.is_entered, step.span, comparison),
-                    span: step.span.filter(|span| !span.is_empty()),
-                }
+        let steps = traversal.steps.iter().map(|step| {
+            number += usize::from(step.is_entered);
+            let node = by_index.get(&step.node)?;
+            Some(NodeRow {
+                node: step.node,
+                number,
+                depth: node.level as usize,
+                is_leaf: node.leaf_primitives.is_some(),
+                status: node_status(step.is_entered, step.span, comparison),
+                span: step.span.filter(|span| !span.is_empty()),
             })
-            .collect();
+        });
+        let rows = steps.collect::<Option<Vec<NodeRow>>>()?;
+        let of = |node: u32| path_to_wanted.contains(&node) || path_to_got.contains(&node);
         let matters = |row: &NodeRow| {
-            let parent = parents.parent(row.node);
-            let of = |node: u32| paths.iter().any(|path| path.contains(&node));
-            (of(row.node), parent.is_some_and(of))
+            let parent = parents.get(&row.node);
+            (of(row.node), parent.is_some_and(|parent| of(*parent)))
         };
-        let [_, path_to_got] = paths.clone();
-        Layout {
+        Some(Layout {
             rows: shorten(&rows, matters),
             wanted_leaf: wanted,
             got_leaf: got,
             path_to_got,
-        }
+        })
     }
 
     /// Returns the deepest row on the path to the submitted hit's leaf: the node at which a correct
@@ -137,22 +155,16 @@ fn node_status(is_entered: bool, span: Option<Interval>, comparison: &HitCompari
 /// of nodes on such a path, then the others in order. Each run of omitted rows becomes a single
 /// row.
 fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<NodeRow> {
-    let mut ranks: Vec<(usize, usize)> = rows
-        .iter()
-        .enumerate()
-        .map(|(index, row)| match matters(row) {
-            (true, _) => (0, index),
-            (false, true) => (1, index),
-            (false, false) => (2, index),
-        })
-        .collect();
     // The end of a long path matters most.
-    ranks.sort_by_key(|&(rank, index)| match rank {
-        0 => (0, rows.len() - index),
-        _ => (rank, index),
-    });
+    let rank = |index: usize| match matters(&rows[index]) {
+        (true, _) => (0, rows.len() - index),
+        (false, true) => (1, index),
+        (false, false) => (2, index),
+    };
+    let mut by_rank: Vec<usize> = (0..rows.len()).collect();
+    by_rank.sort_by_key(|index| rank(*index));
     let mut is_kept = vec![false; rows.len()];
-    for (_, index) in ranks.into_iter().take(MAX_ROWS) {
+    for index in by_rank.into_iter().take(MAX_ROWS) {
         is_kept[index] = true;
     }
     let mut shown: Vec<NodeRow> = Vec::new();
@@ -169,53 +181,4 @@ fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<
         }
     }
     shown
-}
-
-/// The parent of each node that can be reached from the root. The root has none.
-struct ParentMap(BTreeMap<u32, Option<u32>>);
-
-impl ParentMap {
-    fn new(traversal: &RecordedTraversal) -> ParentMap {
-        let mut parents = BTreeMap::new();
-        let mut open = vec![(traversal.root, None)];
-        while let Some((index, parent)) = open.pop() {
-            let Some(node) = traversal.nodes.get(index as usize) else {
-                continue;
-            };
-            // A node that was reached before is shared or closes a cycle: do not follow it again.
-            if parents.contains_key(&index) {
-                continue;
-            }
-            parents.insert(index, parent);
-            if !node.is_leaf() {
-                open.extend([(node.l, Some(index)), (node.r, Some(index))]);
-            }
-        }
-        ParentMap(parents)
-    }
-
-    fn parent(&self, node: u32) -> Option<u32> {
-        self.0.get(&node).copied().flatten()
-    }
-
-    /// Returns the nodes from `node` up to the root, both included.
-    fn path_to_root(&self, node: u32) -> Vec<u32> {
-        std::iter::successors(Some(node), |node| self.parent(*node)).collect()
-    }
-
-    fn depth(&self, node: u32) -> usize {
-        self.path_to_root(node).len() - 1
-    }
-
-    /// Returns the leaf that contains the first primitive with this number.
-    fn leaf_with(&self, traversal: &RecordedTraversal, number: u32) -> Option<u32> {
-        let mut shapes = traversal.shapes.iter();
-        let index = shapes.position(|shape| shape.number() == number)? as u64;
-        let holds = |node: &&u32| {
-            let node = &traversal.nodes[**node as usize];
-            let start = u64::from(node.start);
-            node.is_leaf() && (start..start + u64::from(node.size)).contains(&index)
-        };
-        self.0.keys().find(holds).copied()
-    }
 }

@@ -10,14 +10,14 @@ use protocol::{Shape, TreeNode};
 use super::Drawing;
 use super::bars::Axis;
 use super::canvas::{Anchor, Mark, WIDTH};
-use super::hit_comparison::{HitAnswer, HitComparison};
+use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
 use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
 use super::side::add_range_legend;
 
 use judging::drawing_data::TraversalStep;
-use layout::{Layout, NodeStatus};
+use layout::{Layout, NodeRow, NodeStatus};
 
 /// The exam's tree, and one correct traversal of it.
 #[derive(Clone, Copy, Debug)]
@@ -32,12 +32,13 @@ pub(super) struct RecordedTraversal<'a> {
     pub(super) steps: &'a [TraversalStep],
 }
 
-/// Draws the traversal. Returns `None` if it has no steps, because the tree is empty.
+/// Draws the traversal. Returns `None` if it has no steps, because the tree is empty, or if the nodes
+/// do not form a tree.
 pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Drawing> {
     if traversal.steps.is_empty() {
         return None;
     }
-    let layout = Layout::new(comparison, traversal);
+    let layout = Layout::new(comparison, traversal)?;
     let mut sheet = Sheet::default();
     let canvas = &mut sheet.canvas;
     let left = dvec2(0.0, sheet.y + 12.0);
@@ -57,12 +58,12 @@ pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) ->
 fn axis_distances(comparison: &HitComparison, layout: &Layout) -> Vec<f64> {
     let range = comparison.ray.range;
     let mut seen = vec![f64::from(range.min)];
-    seen.extend(comparison.wanted.map(|hit| hit.distance));
+    seen.extend(comparison.wanted.map(|hit| f64::from(hit.distance)));
     let spans = layout.rows.iter().filter_map(|row| row.span);
     seen.extend(spans.flat_map(|span| [f64::from(span.min), f64::from(span.max)]));
     let reach = seen.iter().copied().filter(|t| t.is_finite());
     let reach = 3.0 * reach.fold(1e-3, f64::max);
-    let got = comparison.got.hit().map(|hit| hit.distance);
+    let got = comparison.got.hit().map(|hit| f64::from(hit.distance));
     seen.extend(got.filter(|distance| distance.abs() < reach));
     if range.max.is_finite() {
         seen.push(f64::from(range.max).min(reach));
@@ -74,7 +75,7 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
     let leaf = |leaf: Option<u32>| leaf.map_or(String::new(), |leaf| format!(", in leaf {leaf}"));
     match comparison.wanted {
         Some(hit) => {
-            let text = hit.text() + &leaf(layout.wanted_leaf);
+            let text = hit_text(&hit) + &leaf(layout.wanted_leaf);
             sheet.add_wanted(Symbol::Mark(Mark::Right), &text);
         }
         None => sheet.add_wanted(Symbol::None, "no hit"),
@@ -82,7 +83,7 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
     match comparison.got {
         HitAnswer::Hit(hit) => {
             let decoy = layout.decoy().map_or("", |_| ", a decoy");
-            let text = hit.text() + &leaf(layout.got_leaf) + decoy;
+            let text = hit_text(&hit) + &leaf(layout.got_leaf) + decoy;
             sheet.add_got(Symbol::Mark(Mark::Wrong), &text);
         }
         HitAnswer::Miss => sheet.add_got(Symbol::None, "no hit"),
@@ -100,18 +101,12 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
         (HitAnswer::Hit(hit), None, _) => format!(
             "Your hit at {} is with a primitive in no leaf below the root: a traversal of the tree \
              never reaches it.",
-            short(hit.distance)
+            short(hit.distance.into())
         ),
-        (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Missed))) => {
-            if row.node == leaf {
-                format!("Your hit is in leaf {leaf}, whose box the ray misses.")
-            } else {
-                format!(
-                    "Your hit is in leaf {leaf}, below node {}, whose box the ray misses.",
-                    row.node
-                )
-            }
-        }
+        (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Missed))) => format!(
+            "Your hit is in leaf {leaf}, {} box the ray misses.",
+            whose(row, leaf)
+        ),
         (HitAnswer::Hit(hit), Some(leaf), Some((_, NodeStatus::Beyond)))
             if is_farther(comparison, hit.distance) =>
         {
@@ -124,16 +119,12 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
             let begin = row
                 .span
                 .map_or(String::new(), |span| short(span.min.into()));
-            let closest = comparison.wanted.map_or(f64::NAN, |hit| hit.distance);
-            let node = if row.node == leaf {
-                "whose".to_owned()
-            } else {
-                format!("below node {}, whose", row.node)
-            };
+            let closest = comparison.wanted.map_or(f32::NAN, |hit| hit.distance);
             format!(
-                "Your hit is in leaf {leaf}, {node} box the ray enters at {begin}, beyond the closest \
+                "Your hit is in leaf {leaf}, {} box the ray enters at {begin}, beyond the closest \
                  hit at {}.",
-                short(closest)
+                whose(row, leaf),
+                short(closest.into())
             )
         }
         (HitAnswer::Hit(_), Some(leaf), Some((_, NodeStatus::OutOfRange))) => {
@@ -156,7 +147,17 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
     }
 }
 
-fn is_farther(comparison: &HitComparison, distance: f64) -> bool {
+/// Returns the words that lead from a leaf to the box of a row, which is that of the leaf or of a node
+/// above it.
+fn whose(row: &NodeRow, leaf: u32) -> String {
+    if row.node == leaf {
+        "whose".to_owned()
+    } else {
+        format!("below node {}, whose", row.node)
+    }
+}
+
+fn is_farther(comparison: &HitComparison, distance: f32) -> bool {
     comparison
         .wanted
         .is_some_and(|wanted| wanted.distance < distance)

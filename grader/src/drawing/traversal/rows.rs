@@ -31,21 +31,12 @@ pub(super) fn draw(
     let range = comparison.ray.range;
     if comparison.limited_range().is_some() {
         let [from, to] = [range.min, range.max].map(|end| axis.page_position(end.into()));
-        let line = foot + 2.0;
-        canvas.line(
-            dvec2(from, line),
-            dvec2(to.max(from), line),
-            LineStyle::Range,
-        );
+        let ends = [from, to.max(from)].map(|x| dvec2(x, foot + 2.0));
+        canvas.line(ends[0], ends[1], LineStyle::Range);
     }
-    let hits = [
-        (comparison.wanted.map(|hit| hit.distance), LineStyle::Right),
-        (
-            comparison.got.hit().map(|hit| hit.distance),
-            LineStyle::Wrong,
-        ),
-    ];
-    for (distance, line) in hits {
+    let hits = [comparison.wanted, comparison.got.hit()];
+    let [wanted, got] = hits.map(|hit| hit.map(|hit| f64::from(hit.distance)));
+    for (distance, line) in [(wanted, LineStyle::Right), (got, LineStyle::Wrong)] {
         if let Some(t) = distance.filter(|t| axis.contains(*t)) {
             let x = axis.page_position(t);
             canvas.line(dvec2(x, y), dvec2(x, foot), line);
@@ -60,8 +51,8 @@ pub(super) fn draw(
         }
         draw_span(canvas, axis, y, row);
         let marks = [
-            (hits[0].0, layout.wanted_leaf, Mark::Right),
-            (hits[1].0, layout.got_row().map(|row| row.node), Mark::Wrong),
+            (wanted, layout.wanted_leaf, Mark::Right),
+            (got, layout.got_row().map(|row| row.node), Mark::Wrong),
         ];
         for (distance, node, mark) in marks {
             let is_here = node == Some(row.node) && row.status != NodeStatus::Elided;

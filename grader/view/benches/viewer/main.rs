@@ -90,21 +90,14 @@ fn moves_and_rays() {
         "camera move to the first coarse picture",
         &format!("{:.0} ms (slowest {slowest:.0} ms)", median(moves.clone())),
     );
-    let least = ratios
-        .iter()
-        .copied()
-        .reduce(f64::min)
-        .expect("there are rounds");
-    print(
-        "rays per second, compared with `cargo render`",
-        &format!("{:.2} (least {least:.2})", median(ratios)),
-    );
-    if !costs.is_empty() {
-        let least = costs.iter().copied().reduce(f64::min).unwrap_or_default();
-        print(
-            "the same per second of CPU time",
-            &format!("{:.2} (least {least:.2})", median(costs)),
-        );
+    let ratio = "rays per second, compared with `cargo render`";
+    for (quantity, values) in [(ratio, ratios), ("the same per second of CPU time", costs)] {
+        if let Some(least) = values.iter().copied().reduce(f64::min) {
+            print(
+                quantity,
+                &format!("{:.2} (least {least:.2})", median(values)),
+            );
+        }
     }
 }
 

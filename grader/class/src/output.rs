@@ -13,7 +13,7 @@ use crate::hand_back::{ARCHIVE, hand_back};
 use crate::list_kind::ListKind;
 use crate::lists::ListFindings;
 use crate::outcome::EntryResult;
-use crate::regrade_diff::Changes;
+use crate::regrade_diff::{Changes, find_regrade_changes, find_resubmitted};
 use crate::report::{grades, page, text};
 use crate::run::Run;
 use crate::store::{Store, json};
@@ -43,12 +43,19 @@ pub struct ClassContext<'a> {
 }
 
 impl ClassContext<'_> {
-    /// Counts the points, writes the files of the class and prints a summary.
-    pub fn finish(self, results: Vec<EntryResult>, changes: Changes) -> Result<Completion, Error> {
+    /// Counts the points, writes the files of the class and prints a summary. `removed` has sentences
+    /// about the entries that are no longer in the input.
+    pub fn finish(
+        self,
+        results: Vec<EntryResult>,
+        removed: Vec<String>,
+    ) -> Result<Completion, Error> {
         let ClassContext {
             store, run, lists, ..
         } = self;
         let settings = &run.settings;
+        let regrade = find_regrade_changes(store, run, &results)?;
+        let resubmitted = find_resubmitted(store, &results)?;
         let rows = count_points(results, self.policy, &self.findings.manual, &run.tasks)?;
         let class = &GradedClass {
             exam: settings.exam.clone(),
@@ -60,8 +67,13 @@ impl ClassContext<'_> {
         // Written first: a run that is killed later is repeated, and lists the same changes again.
         let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
         store.write(final_grades::FILE, json(&history))?;
-        let grades = history.changes();
-        write_results(class, store, &Changes { grades, ..changes })?;
+        let changes = Changes {
+            regrade,
+            resubmitted,
+            removed,
+            grades: history.changes(),
+        };
+        write_results(class, store, &changes)?;
         write_for_platforms(class, store, lists)?;
         print_line("");
         for name in ["grades.csv", "class.html"] {

@@ -21,7 +21,7 @@ use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
 use crate::paths::contains;
-use crate::regrade_diff::{Changes, find_regrade_changes, find_removed, find_resubmitted};
+use crate::regrade_diff::find_removed;
 use crate::report::preview::{render_preview, render_warnings};
 use crate::roster;
 use crate::run::{RoundState, Run, Settings};
@@ -137,12 +137,6 @@ pub fn grade_class_with(
     run.state = RoundState::Finished;
     store.write_run(&run)?;
 
-    let changes = Changes {
-        regrade: find_regrade_changes(&store, &run, &results)?,
-        resubmitted: find_resubmitted(&store, &results)?,
-        removed,
-        grades: None,
-    };
     print(warnings);
     let class = ClassContext {
         store: &store,
@@ -151,7 +145,7 @@ pub fn grade_class_with(
         policy: grader.policy(),
         findings,
     };
-    class.finish(results, changes)
+    class.finish(results, removed)
 }
 
 /// Returns the lists given on the command line. If no roster is given, the one that classroom50

@@ -1,7 +1,7 @@
 //! `cargo class merge`: merges the parts of a class that several machines have graded.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use grader::handed_out::HandedOut;
 use grader::policy::Policy;
@@ -13,10 +13,9 @@ use crate::entry::EntryInfo;
 use crate::error::Error;
 use crate::list_memory::{KeptIn, UsedLists};
 use crate::lists;
-use crate::outcome::EntryResult;
 use crate::output::{ClassContext, Completion};
 use crate::paths::contains;
-use crate::regrade_diff::{Changes, find_removed, find_resubmitted};
+use crate::regrade_diff::find_removed;
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
 use crate::store::Store;
@@ -28,11 +27,10 @@ pub fn merge_shards(
 ) -> Result<Completion, Error> {
     check_out(arguments)?;
     let shards = arguments.shards.iter();
-    let shards = shards.map(|path| Ok((path, read_finished_run(path)?)));
-    let shards: Vec<(&PathBuf, Run)> = shards.collect::<Result<_, Error>>()?;
-    let (first, run) = &shards[0];
-    for (other, theirs) in &shards[1..] {
-        check_compatible((first, run), (other, theirs))?;
+    let shards = shards.map(|path| read_finished_run(Store::new(path)));
+    let shards: Vec<(Store, Run)> = shards.collect::<Result<_, Error>>()?;
+    for other in &shards[1..] {
+        check_compatible(&shards[0], other)?;
     }
     let parts: Vec<Shard> = shards.iter().filter_map(|(_, run)| run.shard).collect();
     let missing = Shard::missing(&parts);
@@ -51,7 +49,7 @@ pub fn merge_shards(
     };
     let parts = shards
         .iter()
-        .map(|(folder, run)| (folder.as_path(), &run.lists));
+        .map(|(shard, run)| (shard.folder(), &run.lists));
     let parts: Vec<KeptIn> = parts.collect();
     let used = UsedLists::choose(given, Some(&arguments.out), &parts)?;
     let lists = &used.lists;
@@ -59,36 +57,34 @@ pub fn merge_shards(
         Some(path) => Policy::read(path)?,
         None => Policy::default(),
     };
-    let mut sources: BTreeMap<String, &Path> = BTreeMap::new();
-    for (path, run) in &shards {
-        let shard = Store::new(path);
+    let mut sources: BTreeMap<String, &Store> = BTreeMap::new();
+    for (shard, run) in &shards {
         // The folder may also have the entries of students who are gone.
         let current = |id: &String| run.entries.contains(id);
         for id in shard.ids()?.into_iter().filter(current) {
-            if let Some(other) = sources.insert(id.clone(), path) {
+            if let Some(other) = sources.insert(id.clone(), shard) {
                 return Err(Error::user(format!(
                     "{id} is in {} and in {}: were both given the same --shard?",
-                    other.display(),
-                    path.display()
+                    other.folder().display(),
+                    shard.folder().display()
                 )));
             }
         }
     }
     out.remove_temporary_files()?;
-    for (id, path) in &sources {
-        out.copy_entry(id, &Store::new(path))?;
+    for (id, shard) in &sources {
+        out.copy_entry(id, shard)?;
     }
     let run = &Run {
         shard: None,
         entries: sources.keys().cloned().collect(),
         lists: used.kept.clone(),
-        ..run.clone()
+        ..shards[0].1.clone()
     };
     used.save(&out, run)?;
 
-    let rows: Vec<EntryResult> = out.results()?;
-    let rows = rows.into_iter().filter(|row| sources.contains_key(&row.id));
-    let mut rows: Vec<EntryResult> = rows.collect();
+    let mut rows = out.results()?;
+    rows.retain(|row| sources.contains_key(&row.id));
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if lists.roster.is_some() {
         for info in &mut infos {
@@ -102,14 +98,9 @@ pub fn merge_shards(
     }
     findings.warn_about_extensions(&policy);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
-    let stores: Vec<Store> = shards.iter().map(|(path, _)| Store::new(path)).collect();
-    let stores: Vec<&Store> = [&out].into_iter().chain(&stores).collect();
-    let changes = Changes {
-        regrade: None,
-        resubmitted: find_resubmitted(&out, &rows)?,
-        removed: find_removed(&stores, &ids)?,
-        grades: None,
-    };
+    let stores = shards.iter().map(|(shard, _)| shard);
+    let stores: Vec<&Store> = [&out].into_iter().chain(stores).collect();
+    let removed = find_removed(&stores, &ids)?;
     let class = ClassContext {
         store: &out,
         run,
@@ -117,7 +108,7 @@ pub fn merge_shards(
         policy: &policy,
         findings,
     };
-    class.finish(rows, changes)
+    class.finish(rows, removed)
 }
 
 /// Rejects an output folder in the results of a shard: each entry would be replaced while it is
@@ -134,11 +125,11 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     }
 }
 
-fn read_finished_run(path: &Path) -> Result<Run, Error> {
-    let run = Store::new(path).read_run()?;
-    let path = path.display();
+fn read_finished_run(shard: Store) -> Result<(Store, Run), Error> {
+    let run = shard.read_run()?;
+    let path = shard.folder().display();
     match run {
-        Some(run) if run.state == RoundState::Finished => Ok(run),
+        Some(run) if run.state == RoundState::Finished => Ok((shard, run)),
         Some(_) => Err(Error::user(format!(
             "{path} is not finished: run its `cargo class --shard` again"
         ))),
@@ -151,7 +142,7 @@ fn read_finished_run(path: &Path) -> Result<Run, Error> {
 /// Checks that two shards are parts of the same class, and that their scores can be compared: the
 /// exam, the isolation and the options must be the same. The grader's executable and the compiler may
 /// differ between machines.
-fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<(), Error> {
+fn check_compatible(one: &(Store, Run), other: &(Store, Run)) -> Result<(), Error> {
     let local = [
         "the grader",
         "the compiler, the dependencies or the reference",
@@ -167,7 +158,7 @@ fn check_compatible(one: (&PathBuf, &Run), other: (&PathBuf, &Run)) -> Result<()
     } else {
         return Ok(());
     };
-    let (one, other) = (one.0.display(), other.0.display());
+    let [one, other] = [one, other].map(|(shard, _)| shard.folder().display());
     Err(Error::user(format!(
         "{one} and {other} cannot be merged{why}"
     )))

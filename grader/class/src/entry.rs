@@ -136,16 +136,16 @@ impl Person {
         }
     }
 
+    /// Returns the identifiers that are one person's alone; those that are unknown are empty.
+    pub fn own_identifiers(&self) -> [&str; 3] {
+        [&self.email, &self.sid, &self.login]
+    }
+
     /// Returns everything that is known to identify the person, without empty texts.
     pub fn identifiers(&self) -> impl Iterator<Item = &str> + Clone {
-        let all = [
-            self.email.as_str(),
-            &self.sid,
-            &self.login,
-            self.own_number(),
-            &self.name,
-        ];
-        all.into_iter().filter(|text| !text.is_empty())
+        let all = self.own_identifiers().into_iter();
+        let all = all.chain([self.own_number(), &self.name]);
+        all.filter(|text| !text.is_empty())
     }
 
     /// Returns the platform's number, or an empty text if it may be a group's.
@@ -214,23 +214,17 @@ impl Person {
     /// Returns whether both records describe the same person. Only unique identifiers are compared,
     /// never names alone, since two people may have the same name; and never numbers alone.
     pub fn matches(&self, other: &Person) -> bool {
-        let pairs = [
-            (&self.email, &other.email),
-            (&self.sid, &other.sid),
-            (&self.login, &other.login),
-        ];
-        let same =
-            |(mine, theirs): &(&String, &String)| !mine.is_empty() && are_equal(mine, theirs);
-        pairs.iter().any(same) || self.has_number(&other.number, &other.name)
+        let pairs = self.own_identifiers().into_iter();
+        let mut pairs = pairs.zip(other.own_identifiers());
+        pairs.any(|(mine, theirs)| !mine.is_empty() && are_equal(mine, theirs))
+            || self.has_number(&other.number, &other.name)
     }
 
     /// Returns whether both records describe the same person, or there is nothing but an equal name.
     pub fn is_same(&self, other: &Person) -> bool {
-        let bare = |person: &Person| {
-            let known = [&person.email, &person.sid, &person.login, &person.number];
-            known.iter().all(|text| text.is_empty())
-        };
-        let has_only_name = bare(self) && bare(other) && !self.name.is_empty();
+        let is_bare =
+            |person: &Person| person.own_identifiers() == [""; 3] && person.number.is_empty();
+        let has_only_name = is_bare(self) && is_bare(other) && !self.name.is_empty();
         self.matches(other)
             || self == other
             || (has_only_name && are_equal(&self.name, &other.name))

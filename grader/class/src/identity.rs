@@ -1,6 +1,6 @@
 //! Which records are of the same person.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::Person;
 use crate::names::fold;
@@ -11,45 +11,34 @@ pub type Attempt = (usize, usize);
 /// Returns the attempts of each person. Only unique identifiers are compared, unless nothing but a
 /// name is known.
 pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<Vec<Attempt>> {
-    let mut groups: Vec<Vec<Attempt>> = Vec::new();
-    let mut known: BTreeMap<(u8, String), usize> = BTreeMap::new();
-    for (row, people) in rows.enumerate() {
-        for (index, person) in people.iter().enumerate() {
-            let keys = keys(person);
-            let mut found: Vec<usize> = keys
-                .iter()
-                .filter_map(|key| known.get(key).copied())
-                .collect();
-            found.sort_unstable();
-            found.dedup();
-            let group = found.first().copied().unwrap_or(groups.len());
-            if group == groups.len() {
-                groups.push(Vec::new());
-            }
-            // This record shows that earlier ones, with different identifiers, are one person's.
-            for other in found.into_iter().skip(1) {
-                let moved = std::mem::take(&mut groups[other]);
-                groups[group].extend(moved);
-                for of in known.values_mut().filter(|of| **of == other) {
-                    *of = group;
-                }
-            }
-            groups[group].push((row, index));
-            known.extend(keys.into_iter().map(|key| (key, group)));
-        }
+    let (mut attempts, mut people) = (Vec::new(), Vec::new());
+    for (row, own) in rows.enumerate() {
+        attempts.extend((0..own.len()).map(|index| (row, index)));
+        people.extend(own);
     }
-    groups.retain(|group| !group.is_empty());
-    groups
+    let mut groups: BTreeMap<usize, Vec<Attempt>> = BTreeMap::new();
+    for (id, attempt) in person_ids(&people).into_iter().zip(attempts) {
+        groups.entry(id).or_default().push(attempt);
+    }
+    groups.into_values().collect()
 }
 
 /// Returns a number for each person in the list, which is equal for all records of one person.
 pub fn person_ids(people: &[&Person]) -> Vec<usize> {
-    let mut ids = vec![0; people.len()];
-    let records = people.iter().map(|person| std::slice::from_ref(*person));
-    for (id, attempts) in attempts_by_person(records).into_iter().enumerate() {
-        for (index, _) in attempts {
-            ids[index] = id;
+    let mut ids = Vec::new();
+    let mut known: BTreeMap<(u8, String), usize> = BTreeMap::new();
+    for (index, person) in people.iter().enumerate() {
+        let keys = keys(person);
+        let found = keys.iter().filter_map(|key| known.get(key).copied());
+        let found: BTreeSet<usize> = found.collect();
+        let id = found.first().copied().unwrap_or(index);
+        if found.len() > 1 {
+            // This record shows that earlier ones, with different identifiers, are one person's.
+            let all = ids.iter_mut().chain(known.values_mut());
+            all.filter(|of| found.contains(of)).for_each(|of| *of = id);
         }
+        ids.push(id);
+        known.extend(keys.into_iter().map(|key| (key, id)));
     }
     ids
 }
@@ -60,12 +49,10 @@ fn keys(person: &Person) -> Vec<(u8, String)> {
         number if number.is_empty() || person.is_listed => number.to_owned(),
         number => format!("{number} {}", person.name),
     };
-    let identifiers = [&person.email, &person.sid, &person.login, &number];
-    let mut keys: Vec<(u8, String)> = (0..)
-        .zip(identifiers)
-        .filter(|(_, text)| !text.is_empty())
-        .map(|(kind, text)| (kind, fold(text)))
-        .collect();
+    let identifiers = person.own_identifiers().into_iter();
+    let identifiers = (0..).zip(identifiers.chain([number.as_str()]));
+    let known = identifiers.filter(|(_, text)| !text.is_empty());
+    let mut keys: Vec<(u8, String)> = known.map(|(kind, text)| (kind, fold(text))).collect();
     if keys.is_empty() {
         keys.push((u8::MAX, fold(&person.name)));
     }

@@ -83,14 +83,11 @@ impl Member {
     /// number.
     fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
-        let is_bare = [&person.email, &person.sid, &person.login]
-            .iter()
-            .all(|text| text.is_empty());
+        let is_bare = person.own_identifiers() == [""; 3];
         let is_numbered = !person.number.is_empty() && !known.number.is_empty();
-        let name = (!self.has_namesake).then_some(&known.name);
-        let names = [&known.login, &known.sid, &known.email];
-        let mut names = names.into_iter().chain(name);
-        let same = |known: &String| !known.is_empty() && are_equal(known, &person.name);
+        let name = (!self.has_namesake).then_some(known.name.as_str());
+        let mut names = known.own_identifiers().into_iter().chain(name);
+        let same = |known: &str| !known.is_empty() && are_equal(known, &person.name);
         is_bare && !is_numbered && names.any(same)
     }
 
@@ -192,10 +189,7 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
 fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
     let mut rows: BTreeMap<(usize, String), usize> = BTreeMap::new();
     for (index, member) in members.iter().enumerate() {
-        let Person {
-            email, sid, login, ..
-        } = &member.person;
-        for (kind, key) in [email, sid, login].into_iter().enumerate() {
+        for (kind, key) in member.person.own_identifiers().into_iter().enumerate() {
             if key.is_empty() {
                 continue;
             }
@@ -215,15 +209,13 @@ fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
 
 /// Returns whether two rows say the same about a person.
 fn is_repetition(one: &Person, other: &Person) -> bool {
-    let pairs = [
-        (&one.name, &other.name),
-        (&one.email, &other.email),
-        (&one.sid, &other.sid),
-        (&one.login, &other.login),
-        (&one.group, &other.group),
-        (&one.extension, &other.extension),
-    ];
-    pairs.iter().all(|(one, other)| are_equal(one, other))
+    let [own, others] = [one, other].map(|person| {
+        let others = [&person.name, &person.group, &person.extension];
+        let others = others.into_iter().map(String::as_str);
+        person.own_identifiers().into_iter().chain(others)
+    });
+    let mut pairs = own.zip(others);
+    pairs.all(|(one, other)| are_equal(one, other))
 }
 
 /// Reads the people on all lists. A person has a row in each list that knows them. No two people in

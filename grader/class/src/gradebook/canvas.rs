@@ -37,7 +37,7 @@ pub fn fill_canvas(
 ) -> Result<FilledGradebook, Error> {
     let table = Table::read(path)?;
     let student = table.require_column(path, "Student", REMEDY)?;
-    let id = table.require_column(path, "ID", REMEDY)?;
+    table.require_column(path, "ID", REMEDY)?;
     let section = table.require_column(path, SECTION, REMEDY)?;
     let target = find_target(&table, section, path, column)?;
     let title = table.header[target].clone();
@@ -48,19 +48,19 @@ pub fn fill_canvas(
     let mut rows = table.rows.iter();
     let possible = rows.find(|row| row[student].trim() == POINTS_POSSIBLE);
     let keys = [
-        (KeyKind::Number, Some(id)),
-        (KeyKind::Sid, table.column("SIS User ID")),
-        (KeyKind::Login, table.column("SIS Login ID")),
+        (KeyKind::Number, "ID"),
+        (KeyKind::Sid, "SIS User ID"),
+        (KeyKind::Login, "SIS Login ID"),
     ];
-    let keys = keys.map(|(kind, column)| Some(Key::new(kind, column?)));
-    let names = Key {
+    let mut keys = Key::of_columns(&table, &keys);
+    keys.push(Key {
         text: given_name_first,
         ..Key::new(KeyKind::Name, student)
-    };
+    });
     let gradebook = Gradebook {
         title: format!("Canvas, {title}"),
         target,
-        keys: keys.into_iter().flatten().chain([names]).collect(),
+        keys,
         names: vec![student],
         changeable: None,
         maximum: possible.map(|row| row[target].clone()),

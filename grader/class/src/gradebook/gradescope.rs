@@ -15,16 +15,13 @@ const REMEDY: &str =
 pub fn fill_gradescope(path: &Path, class: &GradedClass) -> Result<FilledGradebook, Error> {
     let table = Table::read(path)?;
     let target = table.require_column(path, "Total Score", REMEDY)?;
-    let email = table.require_column(path, "Email", REMEDY)?;
-    let sid = table
-        .column("SID")
-        .map(|column| Key::new(KeyKind::Sid, column));
-    let email = Key::new(KeyKind::Email, email);
+    table.require_column(path, "Email", REMEDY)?;
+    let keys = [(KeyKind::Email, "Email"), (KeyKind::Sid, "SID")];
     let names = ["First Name", "Last Name", "Name"];
     let gradebook = Gradebook {
         title: "Gradescope".to_owned(),
         target,
-        keys: [email].into_iter().chain(sid).collect(),
+        keys: Key::of_columns(&table, &keys),
         names: names.iter().filter_map(|name| table.column(name)).collect(),
         changeable: None,
         maximum: table.first_cell("Max Points"),

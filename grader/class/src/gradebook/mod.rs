@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
-use crate::names::{are_alike, are_equal, fold};
+use crate::names::{are_alike, are_equal, fold, number_at_end};
 use crate::roster::POINTS_POSSIBLE;
 use crate::table::Table;
 
@@ -85,10 +85,19 @@ enum KeyKind {
 }
 
 impl Key {
-    /// Returns the key of a column whose cells are compared unchanged.
+    /// Returns the key of a column whose cells are compared unchanged, or by the number at their ends.
     fn new(kind: KeyKind, column: usize) -> Self {
-        let text = str::to_owned;
+        let text = match kind {
+            KeyKind::Number => number_in,
+            KeyKind::Sid | KeyKind::Login | KeyKind::Email | KeyKind::Name => str::to_owned,
+        };
         Key { kind, column, text }
+    }
+
+    /// Returns the keys of those of the columns that the table has.
+    fn of_columns(table: &Table, columns: &[(KeyKind, &str)]) -> Vec<Self> {
+        let key = |(kind, name): &(KeyKind, &str)| Some(Key::new(*kind, table.column(name)?));
+        columns.iter().filter_map(key).collect()
     }
 
     fn row_text(&self, row: &[String]) -> String {
@@ -120,6 +129,11 @@ impl Key {
         let differs = !known.is_empty() && !texts.is_empty() && !texts.contains(&known);
         matches!(self.kind, KeyKind::Sid | KeyKind::Number) && differs
     }
+}
+
+/// Returns `123` for `Participant 123`, in any language of the site.
+fn number_in(cell: &str) -> String {
+    number_at_end(cell.trim()).to_owned()
 }
 
 /// The content of an excused student's cell, which is never overwritten.

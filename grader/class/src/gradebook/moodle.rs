@@ -26,23 +26,16 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     let identifier = table.require_column(path, "Identifier", remedy)?;
     let target = table.require_column(path, "Grade", remedy)?;
     let name = table.column("Full name");
-    let numbers = Key {
-        text: participant,
-        ..Key::new(KeyKind::Number, identifier)
-    };
-    let others = [
-        (KeyKind::Sid, table.column("ID number")),
-        (KeyKind::Email, table.column("Email address")),
-        (KeyKind::Name, name),
+    let keys = [
+        (KeyKind::Number, "Identifier"),
+        (KeyKind::Sid, "ID number"),
+        (KeyKind::Email, "Email address"),
+        (KeyKind::Name, "Full name"),
     ];
-    let others = others.map(|(kind, column)| Some(Key::new(kind, column?)));
     let gradebook = Gradebook {
         title: "Moodle".to_owned(),
         target,
-        keys: [numbers]
-            .into_iter()
-            .chain(others.into_iter().flatten())
-            .collect(),
+        keys: Key::of_columns(&table, &keys),
         names: vec![name.unwrap_or(identifier)],
         changeable: table.column("Grade can be changed"),
         maximum: table.first_cell("Maximum Grade"),
@@ -64,9 +57,4 @@ fn is_translated(table: &Table) -> bool {
     table.column("Identifier").is_none()
         && !table.rows.is_empty()
         && table.rows.iter().all(is_numbered)
-}
-
-/// Returns `123` for `Participant 123`, in any language of the site.
-fn participant(identifier: &str) -> String {
-    number_at_end(identifier.trim()).to_owned()
 }

@@ -152,17 +152,15 @@ pub fn collect_submission(
     handed_out: &'static HandedOut,
 ) -> Result<Submission, NotCollected> {
     let mut submission = match &entry.source {
-        Source::Path(path) => collect_path(path, handed_out)?,
+        Source::Path(path) => {
+            Submission::collect(path, handed_out).map_err(|error| not_collected(&error, path))?
+        }
         Source::Files(files) => Submission::from_files(&entry.id, files, handed_out)
             .map_err(|error| not_collected(&error, Path::new(&entry.id)))?,
         Source::Missing(why) => return Err(NotCollected::NothingToGrade(why.clone())),
     };
     submission.name.clone_from(&entry.id);
     Ok(submission)
-}
-
-fn collect_path(path: &Path, handed_out: &'static HandedOut) -> Result<Submission, NotCollected> {
-    Submission::collect(path, handed_out).map_err(|error| not_collected(&error, path))
 }
 
 fn not_collected(error: &SubmissionError, input: &Path) -> NotCollected {

@@ -57,22 +57,10 @@ impl ManualPointsList {
             all: Vec::new(),
         };
         for (row, cells) in table.numbered_rows() {
-            let [student, task, delta, comment, author] =
-                columns.map(|index| cells[index].trim().to_owned());
-            check_row(&student, &task, &author, handed_out)
-                .map_err(|problem| list.error(row, problem))?;
-            let delta = delta.parse().map_err(|_| {
-                let advice = "it must be a whole number of points, such as 2 or -1";
-                list.error(row, format!("delta is {delta:?}: {advice}"))
-            })?;
-            list.all.push(ManualPoints {
-                row,
-                student,
-                task,
-                delta,
-                comment,
-                author,
-            });
+            let cells = columns.map(|index| cells[index].trim().to_owned());
+            let points = ManualPoints::parse(row, cells, handed_out);
+            let points = points.map_err(|problem| list.error(row, problem))?;
+            list.all.push(points);
         }
         Ok(list)
     }
@@ -161,6 +149,32 @@ impl ManualPointsList {
 }
 
 impl ManualPoints {
+    /// Parses the cells of a row, in the order of [`COLUMNS`].
+    fn parse(row: usize, cells: [String; 5], handed_out: &HandedOut) -> Result<Self, String> {
+        let [student, task, delta, comment, author] = cells;
+        let tasks = handed_out.assignment.tasks.iter().map(|task| task.id);
+        let tasks: Vec<&str> = tasks.collect();
+        if !tasks.contains(&task.as_str()) {
+            let tasks = tasks.join(", ");
+            return Err(format!("there is no task {task:?}; the tasks are {tasks}"));
+        }
+        if student.is_empty() || author.is_empty() {
+            return Err("the columns student and author must not be empty".to_owned());
+        }
+        let Ok(delta) = delta.parse() else {
+            let advice = "it must be a whole number of points, such as 2 or -1";
+            return Err(format!("delta is {delta:?}: {advice}"));
+        };
+        Ok(ManualPoints {
+            row,
+            student,
+            task,
+            delta,
+            comment,
+            author,
+        })
+    }
+
     fn is_for(&self, person: &Person) -> bool {
         let mut texts = person.identifiers();
         texts.any(|text| are_equal(text, &self.student))
@@ -186,24 +200,6 @@ impl fmt::Display for ManualPoints {
             comment => write!(f, ": {comment}"),
         }
     }
-}
-
-fn check_row(
-    student: &str,
-    task: &str,
-    author: &str,
-    handed_out: &HandedOut,
-) -> Result<(), String> {
-    let tasks = handed_out.assignment.tasks.iter().map(|task| task.id);
-    let tasks: Vec<&str> = tasks.collect();
-    if !tasks.contains(&task) {
-        let tasks = tasks.join(", ");
-        return Err(format!("there is no task {task:?}; the tasks are {tasks}"));
-    }
-    if student.is_empty() || author.is_empty() {
-        return Err("the columns student and author must not be empty".to_owned());
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -110,11 +110,10 @@ impl Run {
     /// Returns the run when it is started again.
     #[must_use]
     pub fn resume(self) -> Self {
-        let state = match self.state {
-            RoundState::Finished => RoundState::Resumed,
-            state @ (RoundState::SavesPrevious | RoundState::Started | RoundState::Resumed) => {
-                state
-            }
+        let state = if self.was_finished() {
+            RoundState::Resumed
+        } else {
+            self.state
         };
         Run { state, ..self }
     }

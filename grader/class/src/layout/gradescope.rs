@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, EntryInfo, Person, Source};
+use crate::entry::{Entry, Person, Source};
 use crate::error::Error;
 use crate::listing::Node;
 
@@ -47,19 +47,17 @@ pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, Error>
     let (mut entries, mut others) = (Vec::new(), Vec::new());
     for node in root.children() {
         match known.remove(&node.name) {
-            Some(metadata) => entries.push(entry(node, metadata)),
+            Some(metadata) => {
+                let source = Source::Path(node.path.clone());
+                entries.push(entry(&node.name, metadata, source));
+            }
             None if node.name == METADATA => {}
             None => others.push(unmatched_path(node, "it is not in submission_metadata.yml")),
         }
     }
     for (name, metadata) in known {
-        let info = entry_info(&name, metadata);
         let source = Source::Missing("its folder is not in the export".to_owned());
-        entries.push(Entry {
-            id: name,
-            info,
-            source,
-        });
+        entries.push(entry(&name, metadata, source));
     }
     Ok((entries, others))
 }
@@ -82,15 +80,7 @@ fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, Error> {
     })
 }
 
-fn entry(node: &Node, metadata: Metadata) -> Entry {
-    Entry {
-        id: node.name.clone(),
-        info: entry_info(&node.name, metadata),
-        source: Source::Path(node.path.clone()),
-    }
-}
-
-fn entry_info(name: &str, metadata: Metadata) -> EntryInfo {
+fn entry(name: &str, metadata: Metadata, source: Source) -> Entry {
     let text = |scalar: Option<Scalar>| scalar.and_then(Scalar::text).unwrap_or_default();
     let person = |submitter: Submitter| Person {
         name: text(submitter.name),
@@ -98,16 +88,13 @@ fn entry_info(name: &str, metadata: Metadata) -> EntryInfo {
         sid: text(submitter.sid),
         ..Person::default()
     };
-    let mut people: Vec<Person> = metadata.submitters.into_iter().map(person).collect();
-    if people.is_empty() {
-        people.push(Person::named_by_file(name));
+    let people: Vec<Person> = metadata.submitters.into_iter().map(person).collect();
+    let mut entry = Entry::new(name, Person::named_by_file(name), name, source);
+    if !people.is_empty() {
+        entry.info.people = people;
     }
-    EntryInfo {
-        people,
-        submitted: metadata.created_at.and_then(Scalar::text),
-        from: name.to_owned(),
-        ..EntryInfo::default()
-    }
+    entry.info.submitted = metadata.created_at.and_then(Scalar::text);
+    entry
 }
 
 impl Scalar {

@@ -14,12 +14,8 @@ pub(super) fn read(root: &Node) -> LayoutContents {
                 strip_archive_extension(&node.name)
             };
             let source = Source::Path(node.path.clone());
-            entries.push(Entry::new(
-                name,
-                Person::named_by_file(name),
-                &node.name,
-                source,
-            ));
+            let person = Person::named_by_file(name);
+            entries.push(Entry::new(name, person, &node.name, source));
         } else {
             others.push(unmatched_path(node, "neither a folder nor an archive"));
         }

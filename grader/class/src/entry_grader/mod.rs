@@ -73,10 +73,10 @@ impl EntryGrader<'_> {
     /// Returns whether an entry needs no grading: it has a valid result, or nothing to grade.
     fn is_done(&self, entry: &Entry) -> bool {
         match collect_submission(entry, self.grader.handed_out()) {
-            Ok(submission) => self
-                .store
-                .cached_result(entry, &self.key(&submission))
-                .is_some(),
+            Ok(submission) => {
+                let key = self.key(&submission);
+                self.store.cached_score(&entry.id, &key).is_some()
+            }
             Err(NotCollected::NothingToGrade(_)) => true,
             Err(NotCollected::MachineFault(_)) => false,
         }
@@ -93,36 +93,49 @@ impl EntryGrader<'_> {
         entry: &Entry,
         show_status: &dyn Fn(&str),
     ) -> Result<(EntryResult, bool), Error> {
+        let mut key = String::new();
         let (outcome, is_new) = match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {
-                let key = self.key(&submission);
-                return match self.store.cached_result(entry, &key) {
-                    // The result is saved again, because the rosters may contain new information
-                    // about the people.
-                    Some(result) => Ok((self.save(result, &key)?, false)),
+                key = self.key(&submission);
+                match self.store.cached_score(&entry.id, &key) {
+                    Some(score) => (EntryOutcome::Graded(Box::new(score)), false),
                     None => {
-                        let graded = self.grade_with_retries(entry, &submission, &key, show_status);
-                        Ok((graded?, true))
+                        let graded = self.grade_with_retries(entry, &submission, show_status);
+                        (graded?, true)
                     }
-                };
+                }
             }
-            Err(NotCollected::MachineFault(why)) => (fault(&why), true),
-            Err(NotCollected::NothingToGrade(why)) => {
-                let is_new = !self.store.has_nothing_to_grade(&entry.id, &why);
-                (EntryOutcome::NothingToGrade(why), is_new)
+            Err(not_collected) => {
+                self.store.set_score_aside(&entry.id, self.run.round)?;
+                match not_collected {
+                    NotCollected::MachineFault(why) => (fault(&why), true),
+                    NotCollected::NothingToGrade(why) => {
+                        let is_new = !self.store.has_nothing_to_grade(&entry.id, &why);
+                        (EntryOutcome::NothingToGrade(why), is_new)
+                    }
+                }
             }
         };
-        self.store.set_score_aside(&entry.id, self.run.round)?;
-        Ok((self.finish(entry, outcome, "")?, is_new))
+        let result = EntryResult {
+            id: entry.id.clone(),
+            info: entry.info.clone(),
+            outcome,
+        };
+        // Only a score can be valid in the next run.
+        let key = result.score().map_or("", |_| &key);
+        // A stored result is saved again, because the rosters may contain new information about the
+        // people.
+        self.store.save_result(&result, key, self.run.round)?;
+        Ok((result, is_new))
     }
 
+    /// Grades an entry, with several attempts.
     fn grade_with_retries(
         &self,
         entry: &Entry,
         submission: &Submission,
-        key: &str,
         show_status: &dyn Fn(&str),
-    ) -> Result<EntryResult, Error> {
+    ) -> Result<EntryOutcome, Error> {
         self.store.set_score_aside(&entry.id, self.run.round)?;
         self.store.remove_stamp(&entry.id)?;
         let mut why = String::new();
@@ -132,14 +145,12 @@ impl EntryGrader<'_> {
                 self.grade_once(entry, submission, show_status)
             }));
             match graded {
-                Ok(Ok(score)) => {
-                    return self.finish(entry, EntryOutcome::Graded(Box::new(score)), key);
-                }
+                Ok(Ok(score)) => return Ok(EntryOutcome::Graded(Box::new(score))),
                 Ok(Err(error)) => why = error.to_string(),
                 Err(_) => why = "the grader panicked, with the message above".to_owned(),
             }
         }
-        self.finish(entry, fault(&why), "")
+        Ok(fault(&why))
     }
 
     /// Grades an entry once. Its score and its pages are written when all items are graded.
@@ -154,25 +165,6 @@ impl EntryGrader<'_> {
         let (score, page) = self.grader.grade(submission, &mut files, show_status)?;
         self.store.save_feedback(&entry.id, &page)?;
         ScoreSummary::parse(&score.to_json()).map_err(Error::user)
-    }
-
-    fn finish(
-        &self,
-        entry: &Entry,
-        outcome: EntryOutcome,
-        key: &str,
-    ) -> Result<EntryResult, Error> {
-        let result = EntryResult {
-            id: entry.id.clone(),
-            info: entry.info.clone(),
-            outcome,
-        };
-        self.save(result, key)
-    }
-
-    fn save(&self, result: EntryResult, key: &str) -> Result<EntryResult, Error> {
-        self.store.save_result(&result, key, self.run.round)?;
-        Ok(result)
     }
 }
 

@@ -13,7 +13,6 @@ use grader::submission::Submission;
 use serde::de::DeserializeOwned;
 
 use crate::archive::ArchiveWriter;
-use crate::entry::Entry;
 use crate::error::Error;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
 use crate::run::Run;
@@ -111,15 +110,10 @@ impl Store {
         Ok(files::remove_if_exists(self.folder.join(name))?)
     }
 
-    /// Returns the stored result of an entry if it was graded with this cache key.
-    pub fn cached_result(&self, entry: &Entry, key: &str) -> Option<EntryResult> {
-        let stamp = self.read_stamp(&entry.id).ok()??;
-        let score = (stamp.key == key && stamp.is_graded()).then(|| self.read_score(&entry.id));
-        Some(EntryResult {
-            id: entry.id.clone(),
-            info: entry.info.clone(),
-            outcome: EntryOutcome::Graded(Box::new(score?.ok()?)),
-        })
+    /// Returns the score of an entry if it was graded with this cache key.
+    pub fn cached_score(&self, id: &str, key: &str) -> Option<ScoreSummary> {
+        let stamp = self.read_stamp(id).ok()??;
+        (stamp.key == key).then(|| self.read_score(id))?.ok()
     }
 
     /// Returns whether the entry is stored with nothing to grade, for this reason.
@@ -291,8 +285,7 @@ impl Store {
     fn read_kept_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, Error> {
         let path = self.entry_folder(id).join(name);
         let text = files::read_if_exists(&path)?;
-        let score = text.map(|text| ScoreSummary::parse(&text)).transpose();
-        score.map_err(|error| damaged(&path, &error))
+        text.map(|text| parse_score(&path, &text)).transpose()
     }
 
     /// Returns the ids of all entries, sorted.
@@ -304,8 +297,7 @@ impl Store {
 
     fn read_score(&self, id: &str) -> Result<ScoreSummary, Error> {
         let path = self.entry_folder(id).join(SCORE);
-        let text = files::read_to_string(&path)?;
-        ScoreSummary::parse(&text).map_err(|error| damaged(&path, &error))
+        parse_score(&path, &files::read_to_string(&path)?)
     }
 
     fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, Error> {
@@ -319,6 +311,10 @@ fn list_if_exists(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
         Err(error) if error.source.kind() == ErrorKind::NotFound => Ok(Vec::new()),
         listed => listed,
     }
+}
+
+fn parse_score(path: &Path, text: &str) -> Result<ScoreSummary, Error> {
+    ScoreSummary::parse(text).map_err(|error| damaged(path, &error))
 }
 
 fn is_temporary(name: &OsStr) -> bool {

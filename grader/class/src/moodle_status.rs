@@ -60,30 +60,3 @@ impl<'a> MoodleStatus<'a> {
         status
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_sentence_of_a_status_is_read() {
-        let late =
-            "Submitted for grading - 3 days 2 hours late - Graded - follow up submission received";
-        let expected = MoodleStatus {
-            is_late: true,
-            ..MoodleStatus::default()
-        };
-        assert_eq!(MoodleStatus::parse(late), expected);
-        let draft = "Draft (not submitted) - Assignment is overdue by: 5 days - Not marked - \
-                     Extension granted until: Thursday, 26 November 2026, 11:59 PM";
-        let expected = MoodleStatus {
-            unsubmitted: Some("Draft (not submitted)"),
-            extension: Some("Thursday, 26 November 2026, 11:59 PM"),
-            ..MoodleStatus::default()
-        };
-        assert_eq!(MoodleStatus::parse(draft), expected);
-        let german = MoodleStatus::parse("Entwurf (nicht abgegeben)");
-        assert_eq!(german.unknown, Some("Entwurf (nicht abgegeben)"));
-        assert_eq!(MoodleStatus::parse(""), MoodleStatus::default());
-    }
-}

@@ -114,9 +114,14 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
         ("Ext", format!("Submitted for grading - {english}")),
         (
             "Late",
-            "Submitted for grading - 4 days 12 hours late".to_owned(),
+            "Submitted for grading - 4 days 12 hours late - Graded - follow up submission received"
+                .to_owned(),
         ),
-        ("Draft", "Draft (not submitted)".to_owned()),
+        (
+            "Draft",
+            "Draft (not submitted) - Assignment is overdue by: 5 days - Not marked".to_owned(),
+        ),
+        ("None", String::new()),
         (
             "Other",
             format!("Submitted for grading - {until} lundi 26 octobre 2026, 23:59"),
@@ -134,13 +139,20 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
     let text = grade(&class, "moodle", &worksheet);
     assert_late_days(&class, "Ext_0", "Ext", "0");
     assert_late_days(&class, "Late_1", "Late", "5");
-    assert_open(&class, "Draft_2", "Draft", "draft", "Draft (not submitted)");
+    assert_late_days(&class, "None_3", "None", "5");
+    let flag = |id, name| cell(&class, id, name, "late_flag");
+    assert_eq!(
+        [flag("Late_1", "Late"), flag("None_3", "None")],
+        ["LATE", ""]
+    );
+    let draft = "the status in Moodle's worksheet is \"Draft (not submitted)\"";
+    assert_open(&class, "Draft_2", "Draft", "draft", draft);
     let is_open = |id, name, reason| assert_open(&class, id, name, "time unclear", reason);
     is_open(
-        "Other_3",
+        "Other_4",
         "Other",
         "the extension \"lundi 26 octobre 2026, 23:59\"",
     );
-    is_open("German_4", "German", "set Moodle's language to English");
+    is_open("German_5", "German", "set Moodle's language to English");
     assert_contains(&text, &["Draft: the status in Moodle's worksheet"]);
 }

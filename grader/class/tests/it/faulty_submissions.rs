@@ -5,7 +5,7 @@ use std::process::Output;
 
 use serde_json::Value;
 
-use crate::harness::{TestClass, assert_contains, exit_code_and_stderr, successful_stdout};
+use crate::harness::{TestClass, assert_contains, cell, exit_code_and_stderr, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 
@@ -27,27 +27,25 @@ fn a_faulty_submission_does_not_affect_the_others() {
     let exam = class.small_exam(&ITEMS);
     let output = class.grade(&exam, &[]);
     let text = successful_stdout(&output);
-    let grades = class.read("grades.csv");
-    let line = |id: &str| {
-        let begin = format!("{id},");
-        let line = grades.lines().find(|line| line.starts_with(&begin));
-        line.unwrap_or_else(|| panic!("{id}: {grades}")).to_owned()
-    };
     let summary: Value = serde_json::from_str(&class.read("class.json")).unwrap();
     let most = summary["points"]["of"].as_u64().unwrap();
-    assert!(line("fine").contains(&format!("graded,{most},{most},{most}")));
+    let of =
+        |id: &str, columns: [&'static str; 4]| columns.map(|column| cell(&class, id, id, column));
+    let points = |id: &str| of(id, ["status", "counts", "points", "max_points"]);
+    let all = most.to_string();
+    assert_eq!(points("fine"), ["graded", &all, &all, &all]);
     // A name that a spreadsheet would take for a formula is escaped.
-    assert!(line("_starter").contains("'=starter,,,,graded,0,0,"));
-    assert!(
-        line("bad").contains("nothing to grade,,,"),
-        "{}",
-        line("bad")
-    );
-    assert!(line("bad").contains("it is damaged"), "{}", line("bad"));
-    assert!(line("empty").contains("nothing was handed in"));
-    let points = |id: &str| -> u64 { line(id).split(',').nth(6).unwrap().parse().unwrap() };
-    assert!((1..most).contains(&points("panics")), "{grades}");
-    assert!((1..most).contains(&points("broken")), "{grades}");
+    let counts = cell(&class, "_starter", "'=starter", "counts");
+    assert_eq!(counts, "0");
+    for (id, reason) in [("bad", "it is damaged"), ("empty", "nothing was handed in")] {
+        let [status, counts, points, why] = of(id, ["status", "counts", "points", "why"]);
+        assert_eq!([&*status, &counts, &points], ["nothing to grade", "", ""]);
+        assert!(why.contains(reason), "{why}");
+    }
+    for id in ["panics", "broken"] {
+        let points = points(id)[2].parse().unwrap();
+        assert!((1..most).contains(&points), "{id}: {points}");
+    }
 
     assert_eq!(summary["graded"], 4);
     assert_eq!(summary["nothing_to_grade"], 2);
@@ -102,21 +100,18 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     link("../alice.zip", "linked-archive/work.zip");
     let exam = class.small_exam(&ITEMS);
     class.graded(&exam, &[]);
-    let grades = class.read("grades.csv");
-    let line = |id: &str| {
-        let line = grades.lines().find(|line| line.starts_with(id));
-        line.unwrap_or_else(|| panic!("{id}: {grades}")).to_owned()
-    };
-    assert!(line("alice,").contains("graded"));
+    assert_eq!(cell(&class, "alice", "alice", "status"), "graded");
     for (id, link) in [
-        ("linked-source,", "student/src"),
-        ("linked-folder,", "student"),
-        ("linked-file,", "camera.rs"),
-        ("linked-student,", "linked-student"),
-        ("linked-archive,", "work.zip"),
+        ("linked-source", "student/src"),
+        ("linked-folder", "student"),
+        ("linked-file", "camera.rs"),
+        ("linked-student", "linked-student"),
+        ("linked-archive", "work.zip"),
     ] {
-        let (line, why) = (line(id), format!("{link} is a link"));
-        assert_contains(&line, &["nothing to grade,,,", &why]);
+        let row = ["status", "counts", "points", "why"].map(|column| cell(&class, id, id, column));
+        let [status, counts, points, why] = row.each_ref().map(String::as_str);
+        assert_eq!([status, counts, points], ["nothing to grade", "", ""]);
+        assert!(why.starts_with(&format!("{link} is a link")), "{id}: {why}");
     }
     assert!(class.preview().contains(".hidden"), "{}", class.preview());
 }
@@ -208,14 +203,15 @@ fn a_transient_fault_is_retried_and_a_lasting_fault_gives_no_score() {
     let (code, error) = exit_code_and_stderr(&output);
     assert_eq!(code, 3, "{error}");
     assert_contains(&error, &["not graded, and not the student's fault"]);
-    let grades = class.read("grades.csv");
-    assert!(grades.contains("ann,ann,,,,not graded,,,"), "{grades}");
+    let ann = |column| cell(&class, "ann", "ann", column);
+    assert_eq!([ann("status"), ann("points")], ["not graded", ""]);
     let score = class.out().join("students/ann/score.json");
     assert!(!score.exists(), "there must be no score");
 
     let text = successful_stdout(&grade_with_faults(1, &class, &exam));
     assert!(!text.contains("not graded"), "{text}");
-    let grades = class.read("grades.csv");
-    let points: Vec<&str> = grades.lines().nth(1).unwrap().split(',').collect();
-    assert_eq!((points[5], points[6]), ("graded", points[7]), "{grades}");
+    assert_eq!(
+        [ann("status"), ann("counts")],
+        ["graded".to_owned(), ann("points")]
+    );
 }

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::harness::{class_command, successful_stdout};
+use crate::harness::{class_command, successful_stdout, table};
 use crate::stored_class::{StoredEntry, id, people, stored_class, write_shard};
 
 /// The rules of a course.
@@ -178,13 +178,8 @@ impl Files {
             ("late_days", text(&|numbers| numbers.late_days)),
             ("manual", self::text(manual.filter(|sum| *sum != 0))),
         ];
-        for (index, task) in RAYS
-            .assignment
-            .tasks
-            .iter()
-            .enumerate()
-            .filter(|_| has_tasks)
-        {
+        let tasks = RAYS.assignment.tasks.iter().enumerate();
+        for (index, task) in tasks.filter(|_| has_tasks) {
             let points = entry.points.as_ref().map(|points| points[index]);
             cells.push((task.id, self::text(points)));
         }
@@ -201,24 +196,19 @@ impl Files {
     /// Checks the cells in a table's row, in which `key` is the content of a cell.
     fn check_row(&self, file: &str, key: &str, cells: &[(&str, String)]) {
         let text = self.read(file);
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let header = reader.headers().unwrap().clone();
-        let mut rows = reader.records().map(Result::unwrap);
-        let row = rows.find(|row| row.iter().any(|cell| cell == key));
+        let mut rows = table(&text).into_iter();
+        let row = rows.find(|row| row.values().any(|cell| cell == key));
         let row = row.unwrap_or_else(|| panic!("{file} lacks {key}: {text}"));
         for (title, expected) in cells {
-            let column = header.iter().position(|name| name == *title);
-            let column = column.unwrap_or_else(|| panic!("{file} lacks {title}"));
-            assert_eq!(&row[column], expected, "{file}: {title} of {key}");
+            let cell = row.get(*title);
+            assert_eq!(cell, Some(expected), "{file}: {title} of {key}");
         }
     }
 
     /// Checks the row of a submission on the class's page.
     fn check_row_of_page(&self, index: usize, entry: &StoredEntry, rules: Rules) {
-        let names: Vec<String> = people(index, entry)
-            .into_iter()
-            .map(|who| who.name)
-            .collect();
+        let names = people(index, entry).into_iter().map(|who| who.name);
+        let names: Vec<String> = names.collect();
         let page = self.read("class.html");
         let table = page.split("id=\"students\"").nth(1).unwrap();
         let row = row_of_page(table, &names.join(" + "));

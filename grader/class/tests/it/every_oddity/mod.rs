@@ -10,17 +10,11 @@ use serde_json::Value;
 
 use self::cases::{PART, cases};
 use self::platforms::{Platform, Student, students};
-use crate::harness::{TestClass, assert_contains};
+use crate::harness::{TestClass, assert_contains, table};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str = "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T23:59:59+01:00\n\
                       timezone = \"Europe/Berlin\"\npercent_per_day = 10\n";
-
-/// Returns the rows of a table, each by the titles of its columns.
-fn table(text: &str) -> Vec<BTreeMap<String, String>> {
-    let mut reader = csv::Reader::from_reader(text.trim_start_matches('\u{feff}').as_bytes());
-    reader.deserialize().map(Result::unwrap).collect()
-}
 
 /// Grades the class of a platform. Every person must be graded or listed with a reason, and the
 /// counts must add up.

@@ -2,6 +2,7 @@
 
 mod files;
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -212,12 +213,15 @@ impl TestClass {
 /// Returns a cell of `grades.csv`, by submission, name and column.
 pub fn cell(class: &TestClass, submission: &str, name: &str, column: &str) -> String {
     let grades = class.read("grades.csv");
-    let mut reader = csv::Reader::from_reader(grades.as_bytes());
-    let header = reader.headers().unwrap().clone();
-    let column = header.iter().position(|title| title == column).unwrap();
-    let mut rows = reader.records().map(Result::unwrap);
-    let row = rows.find(|row| &row[0] == submission && &row[1] == name);
-    row.unwrap_or_else(|| panic!("{submission}, {name}: {grades}"))[column].to_owned()
+    let mut rows = table(&grades).into_iter();
+    let row = rows.find(|row| row["submission"] == submission && row["name"] == name);
+    row.unwrap_or_else(|| panic!("{submission}, {name}: {grades}"))[column].clone()
+}
+
+/// Returns the rows of a table, each by the titles of its columns.
+pub fn table(text: &str) -> Vec<BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_reader(text.trim_start_matches('\u{feff}').as_bytes());
+    reader.deserialize().map(Result::unwrap).collect()
 }
 
 /// Returns a command for the binary, run in the root folder of the repository.

@@ -121,7 +121,7 @@ mod tests {
 
     use super::*;
     use crate::entry::Person;
-    use crate::graded_class::tests::{graded, person, policy, result};
+    use crate::graded_class::tests::{fault, graded, nothing, person, policy, result};
 
     /// Returns a row for each submission: its id, its outcome and its time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
@@ -147,10 +147,6 @@ mod tests {
         rows.iter().map(text).collect()
     }
 
-    fn nothing() -> EntryOutcome {
-        EntryOutcome::NothingToGrade("empty".to_owned())
-    }
-
     /// Three submissions: the first has the most points, and the second is the last.
     fn three() -> [(&'static str, EntryOutcome, Option<&'static str>); 3] {
         [
@@ -166,12 +162,11 @@ mod tests {
         let at = |attempt: &(&'static str, EntryOutcome, _), time| {
             (attempt.0, attempt.1.clone(), Some(time))
         };
-        let fault = EntryOutcome::Fault("disk".to_owned());
         let is_open = ["or b, c", "or a, c", "or a, b"];
         let last_at_once = at(&c, "2026-11-22T11:00:00+01:00");
         let first_at_once = at(&c, "2026-11-20T10:00:00Z");
         let undated = ("c", graded(80), None);
-        let failed = ("c", fault, Some("2026-11-19T10:00:00Z"));
+        let failed = ("c", fault(), Some("2026-11-19T10:00:00Z"));
         for (rule, third, expected) in [
             ("ask", &c, is_open),
             ("latest", &c, ["see b", "60", "see b"]),
@@ -195,9 +190,9 @@ mod tests {
     #[test]
     fn of_two_attempts_one_may_be_without_files_or_a_time() {
         let is_open = ["or b", "or a"];
-        let nothing = |time| ("a", nothing(), time);
+        let empty_at = |time| ("a", nothing(), time);
         let graded_at = |time| ("a", graded(80), time);
-        let empty = ("b", super::tests::nothing(), None);
+        let empty = ("b", nothing(), None);
         let undated = ("b", graded(60), None);
         let future = ("b", graded(60), Some("2062-11-20T10:00:00Z"));
         for (rule, attempts, expected) in [
@@ -205,15 +200,15 @@ mod tests {
             // With a rule, an attempt without files does not count.
             (
                 "best",
-                [nothing(Some("2026-11-23T10:00:00Z")), undated.clone()],
+                [empty_at(Some("2026-11-23T10:00:00Z")), undated.clone()],
                 ["see b", "60"],
             ),
             (
                 "latest",
-                [nothing(Some("2026-11-23T10:00:00Z")), undated.clone()],
+                [empty_at(Some("2026-11-23T10:00:00Z")), undated.clone()],
                 ["see b", "60"],
             ),
-            ("best", [nothing(None), empty], is_open),
+            ("best", [empty_at(None), empty], is_open),
             // Points whose time is unclear are not compared.
             ("best", [graded_at(Some("yesterday")), undated], is_open),
             // One of the years must be wrong.

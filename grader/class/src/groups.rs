@@ -88,8 +88,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::cli::Lists;
-    use crate::graded_class::tests::person;
+    use crate::graded_class::tests::{lists, person};
     use crate::roster::read_lists;
 
     fn submitted_by(login: &str) -> EntryInfo {
@@ -101,14 +100,8 @@ mod tests {
 
     #[test]
     fn adds_group_members_who_did_not_submit_themselves() {
-        let folder = tempfile::TempDir::new().unwrap();
-        let roster = folder.path().join("groups.csv");
         let rows = "name,login_id,group_name\nAnn,ann,One\nBob,bob,One\nCarl,carl,One\nDora,dora,\nEve,eve,\n";
-        std::fs::write(&roster, rows).unwrap();
-        let lists = Lists {
-            roster: Some(roster),
-            ..Lists::default()
-        };
+        let (_folder, lists) = lists(&[(ListKind::Roster, rows)]);
         let rows = read_lists(&lists).unwrap();
         let mut entries = ["ann", "carl", "dora"].map(submitted_by);
         let mut entries: Vec<&mut EntryInfo> = entries.iter_mut().collect();

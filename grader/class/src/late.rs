@@ -242,10 +242,11 @@ mod tests {
     }
 
     #[test]
-    fn a_late_flag_without_a_time_counts_as_one_day() {
+    fn a_late_flag_without_a_time_counts_as_the_first_second_after_the_grace_period() {
         let mut policy = policy("[late]\npercent_per_day = 10\ngrace_minutes = 5");
         let nobody = Person::default();
         let late = lateness(&policy, &late_flag(), &nobody).unwrap();
+        assert_eq!(late, Lateness::of_seconds(301));
         assert_eq!(policy.counted_points(80, 100, late).points, 72);
         let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
         assert_eq!(on_time, Ok(Lateness::NONE));
@@ -284,13 +285,6 @@ mod tests {
         assert!(shared(&[&one, &one]).is_empty(), "two attempts of one");
         let [one, other] = ["u1", "u2"].map(|sid| ann(sid, "Ann Lee"));
         assert!(shared(&[&one, &other]).is_empty(), "it is their group's");
-    }
-
-    #[test]
-    fn a_late_flag_counts_as_the_first_second_after_the_grace_period() {
-        let policy = policy("[late]\ngrace_minutes = 5");
-        let late = lateness(&policy, &late_flag(), &Person::default());
-        assert_eq!(late, Ok(Lateness::of_seconds(301)));
     }
 
     fn submitted(time: &str, late: bool) -> EntryInfo {

@@ -134,27 +134,18 @@ fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use grader::handed_out::RAYS;
 
     use serde_json::json;
 
     use super::*;
-    use crate::graded_class::tests::person;
+    use crate::graded_class::tests::{lists, person};
+    use crate::list_kind::ListKind::{self, Canvas, Gradescope, Roster};
 
-    /// Writes a list into the folder.
-    fn list(folder: &tempfile::TempDir, name: &str, text: &str) -> Option<PathBuf> {
-        let path = folder.path().join(name);
-        std::fs::write(&path, text).unwrap();
-        Some(path)
-    }
-
-    /// Returns the people on these lists who are not in the entry, and fills in the entry.
-    fn missing(lists: &Lists, entry: &mut EntryInfo) -> Vec<Person> {
-        complete_entries(lists, &RAYS, &mut [entry])
-            .unwrap()
-            .missing
+    /// Returns the people on these lists who are not in the entries, and fills in the entries.
+    fn missing(texts: &[(ListKind, &str)], entries: &mut [&mut EntryInfo]) -> Vec<Person> {
+        let (_folder, lists) = lists(texts);
+        complete_entries(&lists, &RAYS, entries).unwrap().missing
     }
 
     fn with_login(login: &str) -> Person {
@@ -172,19 +163,14 @@ mod tests {
     /// of the first, which has her extension.
     #[test]
     fn a_list_may_be_found_by_what_a_later_one_says() {
-        let folder = tempfile::tempdir().unwrap();
         let canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
             \"Lee, Ann\",7001,u1,ann,A,\n\"Kim, Bob\",7002,u2,bob,A,\n";
         let gradescope = "First Name,Last Name,SID,Email,Total Score,Max Points\n\
             Ann,Lee,u1,ann@x.edu,,100\nBob,Kim,u2,bob@x.edu,,100\n";
-        let lists = Lists {
-            roster: list(&folder, "roster.csv", "username,extension\nann,2\nbob,3\n"),
-            canvas: list(&folder, "canvas.csv", canvas),
-            gradescope: list(&folder, "gradescope.csv", gradescope),
-            ..Lists::default()
-        };
+        let roster = "username,extension\nann,2\nbob,3\n";
+        let lists = [(Roster, roster), (Canvas, canvas), (Gradescope, gradescope)];
         let mut ann = entry(person(json!({ "email": "ann@x.edu" })));
-        let missing = missing(&lists, &mut ann);
+        let missing = missing(&lists, &mut [&mut ann]);
         let known = |person: &Person| (person.login.clone(), person.extension.clone());
         let known = [&ann.people[0], &missing[0]].map(known);
         let wanted = [("ann", "2"), ("bob", "3")];
@@ -195,19 +181,14 @@ mod tests {
     /// Bob is in Ann's group, and each of them has a time.
     #[test]
     fn the_last_time_counts_unless_one_cannot_be_read() {
-        let folder = tempfile::tempdir().unwrap();
         let submitted = |times: [&str; 2], by_platform: Option<&str>| {
             let [ann, bob] = times;
             let rows = format!("name,group,datetime\nAnn,One,{ann}\nBob,One,{bob}\n");
-            let lists = Lists {
-                roster: list(&folder, "roster.csv", &rows),
-                ..Lists::default()
-            };
             let mut entry = EntryInfo {
                 submitted: by_platform.map(str::to_owned),
                 ..entry(Person::named("Ann"))
             };
-            missing(&lists, &mut entry);
+            missing(&[(Roster, &rows)], &mut [&mut entry]);
             assert_eq!(entry.listed.is_some(), by_platform.is_none());
             entry.submitted().unwrap().to_owned()
         };
@@ -223,16 +204,11 @@ mod tests {
 
     #[test]
     fn other_lists_know_more_of_the_members_of_a_group() {
-        let folder = tempfile::tempdir().unwrap();
         let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\
             \"Lee, Ann\",7001,ann,A,\n\"Kim, Bob\",7002,bob,A,\n";
-        let lists = Lists {
-            roster: list(&folder, "roster.csv", "username,group\nann,One\nbob,One\n"),
-            canvas: list(&folder, "canvas.csv", canvas),
-            ..Lists::default()
-        };
+        let roster = "username,group\nann,One\nbob,One\n";
         let mut entry = entry(with_login("ann"));
-        let missing = missing(&lists, &mut entry);
+        let missing = missing(&[(Roster, roster), (Canvas, canvas)], &mut [&mut entry]);
         let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
         assert_eq!(numbers, ["7001", "7002"]);
         assert_eq!(missing, []);
@@ -240,38 +216,24 @@ mod tests {
 
     #[test]
     fn a_list_takes_no_late_flag_away() {
-        let folder = tempfile::tempdir().unwrap();
         let roster = "name,datetime,late\nAnn,2026-11-20 12:00:00 +0000,false\n\
             Bob,2026-11-20 12:00:00 +0000,true\nEve,2026-11-20 12:00:00 +0000,false\n";
-        let lists = Lists {
-            roster: list(&folder, "roster.csv", roster),
-            ..Lists::default()
-        };
         let mut entries = ["Ann", "Bob", "Eve"].map(|name| entry(Person::named(name)));
         entries[0].late = true;
-        complete_entries(&lists, &RAYS, &mut entries.iter_mut().collect::<Vec<_>>()).unwrap();
+        missing(&[(Roster, roster)], &mut entries.each_mut());
         assert_eq!(entries.map(|info| info.is_late()), [true, true, false]);
     }
 
     /// Ann's submission is found, and the roster knows only when her partner handed it in.
     #[test]
     fn the_time_of_any_member_of_the_group_counts() {
-        let folder = tempfile::tempdir().unwrap();
         let rows = "name,username,sid,group,datetime\n\
             Ann,ann,u1,One,\n\
             Bob,bob,u2,One,2026-11-20 12:00:00 +0000\n\
             Eve,eve,u3,Two,2026-11-21 12:00:00 +0000\n";
-        let lists = Lists {
-            roster: list(&folder, "roster.csv", rows),
-            ..Lists::default()
-        };
         let mut entry = entry(with_login("ann"));
-        let missing = missing(&lists, &mut entry);
-        let sids: Vec<&str> = entry
-            .people
-            .iter()
-            .map(|person| person.sid.as_str())
-            .collect();
+        let missing = missing(&[(Roster, rows)], &mut [&mut entry]);
+        let sids: Vec<&str> = entry.people.iter().map(|p| p.sid.as_str()).collect();
         assert_eq!(sids, ["u1", "u2"]);
         assert_eq!(entry.submitted(), Some("2026-11-20 12:00:00 +0000"));
         let missing: Vec<&str> = missing.iter().map(Person::display_name).collect();

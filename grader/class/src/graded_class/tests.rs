@@ -2,10 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use grader::handed_out::RAYS;
+use tempfile::TempDir;
+
 use super::*;
 use crate::attempts::count_points;
+use crate::cli::Lists;
 use crate::entry::EntryInfo;
 use crate::late::ONLY_A_FLAG;
+use crate::list_kind::ListKind;
 use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};
 
@@ -42,12 +47,24 @@ pub(crate) fn graded(points: u32) -> EntryOutcome {
     }))
 }
 
-fn nothing() -> EntryOutcome {
+pub(crate) fn nothing() -> EntryOutcome {
     EntryOutcome::NothingToGrade("the folder is empty".to_owned())
 }
 
-fn fault() -> EntryOutcome {
+pub(crate) fn fault() -> EntryOutcome {
     EntryOutcome::Fault("the disk is full".to_owned())
+}
+
+/// Writes lists into a temporary folder.
+pub(crate) fn lists(texts: &[(ListKind, &str)]) -> (TempDir, Lists) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut lists = Lists::default();
+    for (kind, text) in texts {
+        let path = folder.path().join(kind.name());
+        std::fs::write(&path, text).unwrap();
+        *lists.path(*kind) = Some(path);
+    }
+    (folder, lists)
 }
 
 pub(crate) fn policy(text: &str) -> Policy {
@@ -286,11 +303,9 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
 
 /// Returns the points by hand in a file with this row.
 fn manual_list(row: &str) -> ManualPointsList {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("manual.csv");
     let text = format!("student,task,delta,comment,author\n{row}\n");
-    std::fs::write(&path, text).unwrap();
-    ManualPointsList::read(&path, &grader::handed_out::RAYS).unwrap()
+    let (_folder, lists) = lists(&[(ListKind::ManualPoints, &text)]);
+    ManualPointsList::read(&lists.manual_points.unwrap(), &RAYS).unwrap()
 }
 
 /// Returns the points that count for each person.

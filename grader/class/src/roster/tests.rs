@@ -3,10 +3,16 @@
 use serde_json::json;
 
 use super::*;
-use crate::graded_class::tests::person;
+use crate::graded_class::tests::{lists, person};
 
 fn parse_roster(table: &str) -> Vec<Member> {
     parse_members(&Table::parse(table.as_bytes()).unwrap(), ListKind::Roster).unwrap()
+}
+
+/// Returns the names of all people in a roster.
+fn names(table: &str) -> Vec<String> {
+    let rows = parse_roster(table).into_iter();
+    rows.map(|row| row.person.name).collect()
 }
 
 #[test]
@@ -75,26 +81,20 @@ fn a_name_does_not_count_beside_another_identifier() {
 fn rows_without_a_person_are_left_out() {
     let canvas = "Student,ID,SIS Login ID\n\"Points Possible\",,\n\"Student, Test\",9,test\n,,\n\
         \"Lee, Ann\",1,ann\n";
-    let list = parse_roster(canvas);
-    let names: Vec<&str> = list.iter().map(|row| row.person.name.as_str()).collect();
-    assert_eq!(names, ["Lee, Ann"]);
+    assert_eq!(names(canvas), ["Lee, Ann"]);
 }
 
 #[test]
 fn a_name_may_be_in_two_columns() {
-    let list = parse_roster("First Name,Last Name,Name,SID\nAnn,Lee,,1\nAnn,Lee,A. Lee,2\n");
-    let names: Vec<&str> = list.iter().map(|row| row.person.name.as_str()).collect();
+    let names = names("First Name,Last Name,Name,SID\nAnn,Lee,,1\nAnn,Lee,A. Lee,2\n");
     assert_eq!(names, ["Ann Lee", "A. Lee"]);
 }
 
 #[test]
 fn everybody_who_is_missing_is_named_once() {
     let names = |table: &str, people: &[&Person]| {
-        let missing = missing(&parse_roster(table), people);
-        missing
-            .into_iter()
-            .map(|person| person.name)
-            .collect::<Vec<_>>()
+        let missing = missing(&parse_roster(table), people).into_iter();
+        missing.map(|person| person.name).collect::<Vec<_>>()
     };
     let table = "name\nAnn\nBob\nEve\nBob\n";
     assert_eq!(names(table, &[]), ["Ann", "Bob", "Eve"]);
@@ -108,14 +108,8 @@ fn everybody_who_is_missing_is_named_once() {
 
 #[test]
 fn a_key_belongs_to_one_person() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("roster.csv");
     let check = |table: &str| {
-        std::fs::write(&path, table).unwrap();
-        let lists = Lists {
-            roster: Some(path.clone()),
-            ..Lists::default()
-        };
+        let (_folder, lists) = lists(&[(ListKind::Roster, table)]);
         read_lists(&lists).map(drop)
     };
     let sections = "name,email,section\nAnn,a@x.edu,1\nann,A@x.edu,2\n";

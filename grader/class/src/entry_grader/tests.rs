@@ -192,17 +192,6 @@ fn an_estimate_grades_two_open_submissions_per_slot() {
 }
 
 #[test]
-fn entries_are_graded_in_their_order() {
-    let entries = ["b", "a"].map(missing);
-    let results = Folder::new().with(|grader| grader.grade_all(&entries, 2).unwrap());
-    let ids: Vec<&str> = results
-        .iter()
-        .map(|(result, _)| result.id.as_str())
-        .collect();
-    assert_eq!(ids, ["b", "a"]);
-}
-
-#[test]
 fn every_input_of_a_score_changes_its_key() {
     let folder = tempfile::tempdir().unwrap();
     let submission = collect_submission(&written("a", folder.path()), &RAYS).unwrap();

@@ -6,25 +6,7 @@ use std::fs;
 use grader::handed_out::RAYS;
 
 use super::*;
-use crate::graded_class::tests::{graded, result};
-use crate::store::tests::{other_settings, run};
-
-/// Returns an empty store in a temporary folder.
-fn store() -> (tempfile::TempDir, Store) {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(&folder.path().join("out"));
-    fs::create_dir(store.folder()).unwrap();
-    (folder, store)
-}
-
-#[test]
-fn a_folder_without_scores_starts_the_first_round_and_cannot_be_regraded() {
-    let (_folder, store) = store();
-    let first = start_or_resume(&store, run().settings, false).unwrap();
-    assert_eq!(first, run());
-    let error = start_or_resume(&store, run().settings, true).unwrap_err();
-    assert!(error.to_string().contains("holds no scores yet"), "{error}");
-}
+use crate::store::tests::{run, store};
 
 #[test]
 fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
@@ -45,33 +27,6 @@ fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
     // Its second run was stopped, or was an estimate.
     assert_eq!(next(Resumed, false), (1, Resumed));
     assert_eq!(next(Resumed, true), (2, SavesPrevious));
-}
-
-#[test]
-fn other_settings_need_a_regrade() {
-    let (_folder, store) = store();
-    store.write_run(&run()).unwrap();
-    let error = start_or_resume(&store, other_settings(), false).unwrap_err();
-    assert!(error.to_string().contains(": the exam changed;"), "{error}");
-    let next = start_or_resume(&store, other_settings(), true).unwrap();
-    assert_eq!((next.round, next.settings), (2, other_settings()));
-}
-
-#[test]
-fn the_scores_before_a_regrade_are_saved_once() {
-    let (_folder, store) = store();
-    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-    let unchanged = save_previous_scores(&store, run()).unwrap();
-    assert_eq!(unchanged, run());
-    assert_eq!(store.previous_score("a").unwrap(), None);
-    let regrade = Run {
-        state: RoundState::SavesPrevious,
-        ..run()
-    };
-    let saved = save_previous_scores(&store, regrade).unwrap();
-    assert_eq!(saved, run());
-    assert_eq!(store.read_run().unwrap(), Some(run()));
-    assert_eq!(store.previous_score("a").unwrap().unwrap().points, 80);
 }
 
 #[test]

@@ -3,8 +3,7 @@
 use std::fs;
 
 use super::*;
-use crate::entry::{Person, Source};
-use crate::graded_class::tests::{graded, result};
+use crate::graded_class::tests::{fault, graded, nothing, result};
 use crate::run::Settings;
 
 impl Store {
@@ -37,23 +36,12 @@ fn names(folder: &Path) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-fn nothing() -> EntryOutcome {
-    EntryOutcome::NothingToGrade("empty".to_owned())
-}
-
-fn fault() -> EntryOutcome {
-    EntryOutcome::Fault("disk".to_owned())
-}
-
 /// Returns an empty store in a temporary folder.
-fn store() -> (tempfile::TempDir, Store) {
+pub(crate) fn store() -> (tempfile::TempDir, Store) {
     let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(folder.path());
+    let store = Store::new(&folder.path().join("out"));
+    fs::create_dir(store.folder()).unwrap();
     (folder, store)
-}
-
-fn entry(id: &str) -> Entry {
-    Entry::new(id, Person::named("Ann"), "", Source::Missing(String::new()))
 }
 
 fn points(score: Result<Option<ScoreSummary>, Error>) -> Option<u32> {
@@ -77,18 +65,6 @@ pub(crate) fn other_settings() -> Settings {
         exam_hash: "other".to_owned(),
         ..run().settings
     }
-}
-
-#[test]
-fn a_new_folder_has_no_run_and_no_results() {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::new(&folder.path().join("new"));
-    assert_eq!(store.folder(), folder.path().join("new"));
-    assert_eq!(store.read_run().unwrap(), None);
-    assert_eq!(store.results().unwrap(), []);
-    assert_eq!(store.result("a").unwrap(), None);
-    assert_eq!(store.ids().unwrap(), Vec::<String>::new());
-    store.remove_temporary_files().unwrap();
 }
 
 #[test]
@@ -119,7 +95,7 @@ fn a_damaged_file_is_an_error_that_names_it() {
         let error = error.unwrap_err().to_string();
         assert!(error.contains(&format!("{name} is damaged")), "{error}");
     }
-    assert_eq!(store.cached_result(&entry("a"), "key"), None);
+    assert_eq!(store.cached_score("a", "key"), None);
 }
 
 #[test]
@@ -127,40 +103,6 @@ fn a_folder_that_cannot_be_listed_is_not_an_empty_one() {
     let (_folder, store) = store();
     fs::write(store.folder().join("students"), "a file").unwrap();
     assert!(store.ids().is_err());
-}
-
-#[test]
-fn results_are_read_in_the_order_of_their_ids() {
-    let (_folder, store) = store();
-    let results = [
-        result("a", &["Ann"], nothing()),
-        result("b", &["Bob", "Eve"], graded(70)),
-        result("c", &["Carl"], fault()),
-    ];
-    for result in results.iter().rev() {
-        store.save_graded(result, "key", 1);
-    }
-    // A killed run leaves a folder without a stamp.
-    fs::create_dir(store.entry_folder("aa")).unwrap();
-    assert_eq!(store.ids().unwrap(), ["a", "aa", "b", "c"]);
-    assert_eq!(store.results().unwrap(), results);
-    assert_eq!(store.result("b").unwrap().as_ref(), Some(&results[1]));
-    assert_eq!(store.result("aa").unwrap(), None);
-}
-
-#[test]
-fn a_result_is_valid_for_its_key_only_and_takes_the_entrys_new_people() {
-    let (_folder, store) = store();
-    store.save_graded(&result("a", &["A. L."], graded(80)), "key", 1);
-    let cached = store.cached_result(&entry("a"), "key");
-    assert_eq!(cached, Some(result("a", &["Ann"], graded(80))));
-    assert_eq!(store.cached_result(&entry("a"), "other"), None);
-    assert_eq!(store.cached_result(&entry("b"), "key"), None);
-    store.save_graded(&result("a", &["Ann"], nothing()), "key", 1);
-    let score = r#"{"points": 80, "max_points": 100, "tasks": []}"#;
-    fs::write(store.entry_folder("a").join(SCORE), score).unwrap();
-    let cached = store.cached_result(&entry("a"), "key");
-    assert_eq!(cached, None, "there was nothing to grade");
 }
 
 /// The run ends while the files of an earlier result are removed.
@@ -178,12 +120,12 @@ fn a_stamp_is_never_left_without_its_score() {
 #[test]
 fn a_state_is_compared_with_its_reason() {
     let (_folder, store) = store();
-    assert!(!store.has_nothing_to_grade("a", "empty"));
+    let is_stored = |why| store.has_nothing_to_grade("a", why);
+    assert!(!is_stored("the folder is empty"));
     store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
-    assert!(store.has_nothing_to_grade("a", "empty"));
-    assert!(!store.has_nothing_to_grade("a", "other"));
+    assert!(is_stored("the folder is empty") && !is_stored("other"));
     store.save_graded(&result("a", &["Ann"], graded(80)), "", 1);
-    assert!(!store.has_nothing_to_grade("a", "empty"));
+    assert!(!is_stored("the folder is empty"));
 }
 
 #[test]
@@ -198,15 +140,6 @@ fn an_entry_without_a_score_keeps_no_files_of_one() {
     assert_eq!(names(&folder), [STAMP, FEEDBACK, PREVIOUS, REPORT, SCORE]);
     store.save_graded(&result("a", &["Ann"], fault()), "", 1);
     assert_eq!(names(&folder), [STAMP, PREVIOUS]);
-}
-
-#[test]
-fn the_students_page_is_read_as_it_was_written() {
-    let (_folder, store) = store();
-    fs::create_dir_all(store.entry_folder("a")).unwrap();
-    store.save_feedback("a", "the page").unwrap();
-    assert_eq!(store.read_feedback("a").unwrap(), "the page");
-    assert!(store.read_feedback("b").is_err());
 }
 
 #[test]
@@ -265,20 +198,6 @@ fn the_scores_from_before_a_regrade_are_kept() {
             assert_eq!(points(store.replaced_score(id)), None, "{id}");
         }
     }
-}
-
-#[test]
-fn temporary_files_are_removed_and_no_others() {
-    let (_folder, store) = store();
-    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-    let entry = store.entry_folder("a");
-    for folder in [store.folder(), &entry] {
-        fs::write(folder.join(".tmp123"), "").unwrap();
-        fs::write(folder.join("a.tmp"), "").unwrap();
-    }
-    store.remove_temporary_files().unwrap();
-    assert_eq!(names(store.folder()), ["a.tmp", "students"]);
-    assert_eq!(names(&entry), ["a.tmp", STAMP, SCORE]);
 }
 
 #[test]

@@ -49,16 +49,14 @@ impl Progress {
     pub fn finish_entry(&self, slot: usize, result: &EntryResult, is_new: bool) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         let is_failed = result.score().is_none();
-        let failed = self
-            .failed
-            .fetch_add(usize::from(is_failed), Ordering::Relaxed);
+        let failed = usize::from(is_failed);
+        let failed = self.failed.fetch_add(failed, Ordering::Relaxed) + failed;
         let line = result_line(result);
         match &self.bars {
             Some(bars) => {
                 if let Some(bar) = bars.slots.get(slot) {
                     bar.set_message("");
                 }
-                let failed = failed + usize::from(is_failed);
                 bars.all.set_message(format!("{failed} without a score"));
                 bars.all.inc(1);
                 if is_failed {

@@ -151,42 +151,38 @@ pub fn grade_class_with(
 /// Returns the lists given on the command line. If no roster is given, the one that classroom50
 /// writes beside its clones is used.
 fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
-    let own = match input.class.layout {
-        Layout::GitHub => input.root.find(CLASSROOM50_SCORES),
-        Layout::Gradescope | Layout::Canvas | Layout::Moodle | Layout::Plain => None,
-    };
     let mut lists = lists.clone();
-    lists.roster = lists.roster.or(own.map(|node| node.path.clone()));
+    if lists.roster.is_none() && input.class.layout == Layout::GitHub {
+        let own = input.root.find(CLASSROOM50_SCORES);
+        lists.roster = own.map(|node| node.path.clone());
+    }
     lists
 }
 
 /// Returns the run to resume or to start. Scores that depend on other settings are never mixed with
 /// the existing ones, and existing scores are replaced only with `--regrade`.
 fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error> {
-    let run = match (store.read_run()?, regrade) {
+    match (store.read_run()?, regrade) {
         (None, true) => {
             let out = store.folder().display();
-            return Err(Error::user(format!(
+            Err(Error::user(format!(
                 "{out} holds no scores yet: leave out --regrade"
-            )));
+            )))
         }
-        (None, false) => Run::first_round(settings),
+        (None, false) => Ok(Run::first_round(settings)),
         // A stopped regrade is resumed, with or without `--regrade`. But a round that was finished once
         // is regraded, even if a later run of it, or an estimate, has not come to its end.
         (Some(run), _) if run.settings == settings && (!regrade || !run.was_finished()) => {
-            run.resume()
+            Ok(run.resume())
         }
-        (Some(run), true) => run.next_round(settings),
-        (Some(run), false) => {
-            return Err(Error::user(format!(
-                "{} has scores that cannot be compared with new ones: {} changed; use --regrade to \
-                 grade everything again and list the changes, or name a new folder",
-                store.folder().display(),
-                run.settings.differences(&settings).join(", ")
-            )));
-        }
-    };
-    Ok(run)
+        (Some(run), true) => Ok(run.next_round(settings)),
+        (Some(run), false) => Err(Error::user(format!(
+            "{} has scores that cannot be compared with new ones: {} changed; use --regrade to \
+             grade everything again and list the changes, or name a new folder",
+            store.folder().display(),
+            run.settings.differences(&settings).join(", ")
+        ))),
+    }
 }
 
 /// Saves the scores from before a regrade, unless that has been done. The round has already started in

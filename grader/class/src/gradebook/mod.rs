@@ -161,12 +161,8 @@ impl Gradebook {
 
 /// Fills in the points of a class.
 fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
-    let (matches, mut warnings) = match_rows(&gradebook, class);
+    let (matches_of, mut warnings) = match_rows(&gradebook, class);
     let mut changes = Vec::new();
-    let mut matches_of: BTreeMap<usize, Vec<GradebookMatch>> = BTreeMap::new();
-    for (row_index, matched) in matches {
-        matches_of.entry(row_index).or_default().push(matched);
-    }
     for (row_index, matches) in matches_of {
         let row = &gradebook.table.rows[row_index];
         let (who, is_locked) = (gradebook.name(row), gradebook.is_locked(row));
@@ -198,33 +194,21 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
             }
         }
         let cell = &mut gradebook.table.rows[row_index][gradebook.target];
-        let Some(counted) = grade.counted else {
-            let why = match &grade.problem {
-                Some(problem) => problem.to_string(),
-                None => class_row.status(grade).to_owned(),
-            };
-            warnings.push(format!("{who}: {why}; left unchanged"));
-            continue;
+        let why = match (grade.counted, &grade.problem) {
+            (None, Some(problem)) => format!(": {problem}"),
+            (None, None) => format!(": {}", class_row.status(grade)),
+            (Some(_), _) if is_locked => ": the platform does not allow changes".to_owned(),
+            (Some(_), _) if cell.trim() == EXCUSED => " is excused".to_owned(),
+            (Some(counted), _) => {
+                if !cell_equals(cell, counted.points) {
+                    let now = counted.points.to_string();
+                    let was = std::mem::replace(cell, now.clone());
+                    changes.push(CellChange { who, was, now });
+                }
+                continue;
+            }
         };
-        if is_locked {
-            warnings.push(format!(
-                "{who}: the platform does not allow changes; left unchanged"
-            ));
-            continue;
-        }
-        if cell.trim() == EXCUSED {
-            warnings.push(format!("{who} is excused; left unchanged"));
-            continue;
-        }
-        let now = counted.points.to_string();
-        if !cell_equals(cell, counted.points) {
-            changes.push(CellChange {
-                who,
-                was: cell.clone(),
-                now: now.clone(),
-            });
-            *cell = now;
-        }
+        warnings.push(format!("{who}{why}; left unchanged"));
     }
     warnings.extend(maximum_warning(class, gradebook.maximum.as_deref()));
     FilledGradebook {
@@ -243,7 +227,7 @@ type GradebookMatch<'c> = (&'c ClassRow, &'c Person, &'c PersonGrade);
 fn match_rows<'c>(
     gradebook: &Gradebook,
     class: &'c GradedClass,
-) -> (Vec<(usize, GradebookMatch<'c>)>, Vec<String>) {
+) -> (BTreeMap<usize, Vec<GradebookMatch<'c>>>, Vec<String>) {
     let Gradebook { keys, table, .. } = gradebook;
     let name_in = |row_index: &usize| gradebook.name(&table.rows[*row_index]);
     // For each key, the indices of the rows with each text. A text that is in several rows
@@ -259,7 +243,8 @@ fn match_rows<'c>(
         index
     };
     let indices: Vec<BTreeMap<String, Vec<usize>>> = keys.iter().map(index_rows).collect();
-    let (mut matches, mut warnings) = (Vec::new(), Vec::new());
+    let mut matches: BTreeMap<usize, Vec<GradebookMatch>> = BTreeMap::new();
+    let mut warnings = Vec::new();
     for class_row in &class.rows {
         for (person, grade) in class_row.people() {
             // The row gets the points of the attempt that counts.
@@ -298,7 +283,8 @@ fn match_rows<'c>(
                     });
                 }
                 Some((_, [row_index])) => {
-                    matches.push((*row_index, (class_row, person, grade)));
+                    let of_row = matches.entry(*row_index).or_default();
+                    of_row.push((class_row, person, grade));
                 }
                 Some((_, several)) => {
                     let names: Vec<String> = several.iter().map(name_in).collect();

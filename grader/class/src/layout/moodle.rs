@@ -71,27 +71,19 @@ pub(super) fn read(root: &Node) -> LayoutContents {
         }
         let beside = |(_, node): &(MoodleName, &Node)| unmatched_path(node, TEXT_BESIDE_FILES);
         others.extend(texts.iter().map(beside));
-        let (first, files) = source(&files);
-        entries.push(entry(first, files));
+        let folder = files.iter().find(|(_, node)| node.is_folder());
+        let source = match (folder, files.as_slice()) {
+            (Some((_, folder)), [_]) => Source::Path(folder.path.clone()),
+            (Some(_), _) => Source::Missing(SEVERAL.to_owned()),
+            (None, files) => {
+                let files = files.iter();
+                let files = files.map(|(name, node)| (name.file.to_owned(), node.path.clone()));
+                Source::Files(files.collect())
+            }
+        };
+        entries.push(entry(folder.unwrap_or(&files[0]), source));
     }
     (entries, others)
-}
-
-/// Returns a participant's files. Also returns the file whose name identifies the entry.
-fn source<'f, 'n>(
-    files: &'f [(MoodleName<'n>, &'n Node)],
-) -> (&'f (MoodleName<'n>, &'n Node), Source) {
-    if let Some(folder) = files.iter().find(|(_, node)| node.is_folder()) {
-        let source = match files {
-            [_] => Source::Path(folder.1.path.clone()),
-            _ => Source::Missing(SEVERAL.to_owned()),
-        };
-        return (folder, source);
-    }
-    let name_and_path =
-        |(name, node): &(MoodleName, &Node)| (name.file.to_owned(), node.path.clone());
-    let source = Source::Files(files.iter().map(name_and_path).collect());
-    (&files[0], source)
 }
 
 fn entry((name, node): &(MoodleName, &Node), source: Source) -> Entry {

@@ -84,12 +84,7 @@ impl Input {
             class.mixtures.first().filter(|_| is_most).cloned()
         };
         if let Some(why) = of_several {
-            let is_unpacked = path.is_dir();
-            let unpack = if is_unpacked {
-                ""
-            } else {
-                "; unpack the archive first"
-            };
+            let unpack = archive.map_or("", |_| "; unpack the archive first");
             let why = sanitize_line(&why, MAX_CHARS);
             return refused(&format!("cannot be read as a class: {why}{unpack}"));
         }

@@ -11,13 +11,9 @@ pub fn contains(outer: &Path, inner: &Path) -> bool {
 fn real_path(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut existing = absolute.ancestors();
-    let real = existing.find_map(|folder| Some((folder, folder.canonicalize().ok()?)));
-    match real {
-        Some((folder, real)) => match absolute.strip_prefix(folder) {
-            Ok(rest) if rest.as_os_str().is_empty() => real,
-            Ok(rest) => real.join(rest),
-            Err(_) => absolute.clone(),
-        },
-        None => absolute.clone(),
-    }
+    let real = existing.find_map(|folder| {
+        let rest = absolute.strip_prefix(folder).ok()?;
+        Some(folder.canonicalize().ok()?.join(rest))
+    });
+    real.unwrap_or_else(|| absolute.clone())
 }

@@ -67,10 +67,9 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
 
 fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<String, String> {
     let submission = collect_submission(entry, handed_out).map_err(NotCollected::into_text)?;
-    let missing = submission.files.iter().filter(|(_, text)| text.is_err());
-    let missing: Vec<String> = missing
-        .filter_map(|(file, text)| Some(text.as_ref().err()?.message(file.name)))
-        .collect();
+    let missing = submission.files.iter();
+    let missing = missing.filter_map(|(file, text)| Some(text.as_ref().err()?.message(file.name)));
+    let missing: Vec<String> = missing.collect();
     let count = submission.files.len();
     let mut text = match missing.as_slice() {
         [] if submission.is_as_handed_out() => {
@@ -84,8 +83,7 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
         ),
     };
     for note in &submission.ignored_copies {
-        text += "; ";
-        text += note;
+        text += &format!("; {note}");
     }
     Ok(text)
 }

@@ -1,5 +1,4 @@
-//! Exams of a few seeds, generated once for all tests of a file.
-#![allow(dead_code, reason = "not every test file uses all of this module")]
+//! Exams of a few seeds, generated once for all tests.
 
 use std::sync::LazyLock;
 
@@ -23,7 +22,7 @@ pub fn exam_of(seed: u64) -> &'static Exam {
 }
 
 /// Generates an exam with a placeholder for the path-traced picture.
-pub fn make_exam(seed: u64) -> Exam {
+fn make_exam(seed: u64) -> Exam {
     let question = Question::Radiance {
         scene: String::new(),
         film: UVec2::ONE,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::BUNDLE;
+use crate::harness::BUNDLE;
 
 /// A simple workflow: no matrix, no services, no reusable workflows.
 #[derive(Debug, Deserialize)]

@@ -2,8 +2,7 @@
 //! substitution goes through the starter, the bundle, a package, grading and a class.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::path::Path;
 
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
@@ -11,7 +10,6 @@ use author::package::{self, Course, Platform};
 use author::starter;
 use class::cli::{ClassArguments, GradingArguments, Lists};
 use class::grade::{Completion, grade_class};
-use glam::{Vec2, Vec3};
 use grader::doctor::package::problems;
 use grader::grade::grade;
 use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
@@ -20,12 +18,10 @@ use grader::sandbox::Isolation;
 use grader::score::Score;
 use grader::select_isolation::IsolationRequest;
 use judging::assignment::{Assignment, TaskClues, TaskInfo};
-use judging::drawing_data::DrawingData;
-use judging::exam::{Exam, ExamQuestion, ExpectedRows, Item, Key};
-use judging::signatures::MistakeSignatures;
-use protocol::{Corners, Geometry, Interval, Query, Question, Ray, Shape, Trace, TreeNode};
 use serde_json::Value;
 use tempfile::TempDir;
+
+use crate::harness::{self, root};
 
 static TASKS: Assignment = Assignment {
     id: "toy",
@@ -67,23 +63,23 @@ macro_rules! given {
     ($name:literal) => {
         GivenFile {
             name: $name,
-            text: include_str!(concat!("toy/solved/src/", $name)),
+            text: include_str!(concat!("../toy/solved/src/", $name)),
         }
     };
 }
 
-static TOY: LazyLock<HandedOut> = LazyLock::new(|| HandedOut {
+static TOY: HandedOut = HandedOut {
     assignment: &TASKS,
-    practice_exam: exam_text().leak(),
+    practice_exam: include_str!("../toy/practice.json"),
     files: &[
         TaskFile {
             name: "ball.rs",
-            starter: include_str!("toy/starter/ball.rs"),
+            starter: include_str!("../toy/starter/ball.rs"),
             required_declarations: &["struct Ball", "fn hit"],
         },
         TaskFile {
             name: "slab.rs",
-            starter: include_str!("toy/starter/slab.rs"),
+            starter: include_str!("../toy/starter/slab.rs"),
             required_declarations: &["struct Slab", "fn hit", "fn nearest"],
         },
     ],
@@ -102,114 +98,11 @@ fn main() -> std::process::ExitCode {
         parts: &["ball.rs"],
         given: &["world.rs"],
     }],
-});
+};
 
-/// Returns rays along the x axis: one that hits balls around it, and one that misses.
-fn rays() -> Vec<Ray> {
-    let hit = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
-    let miss = Ray::new(Vec3::new(-5.0, 9.0, 0.0), Vec3::X);
-    vec![hit, miss]
-}
-
-fn ball(x: f32) -> Shape {
-    Shape::Sphere {
-        center: Vec3::new(x, 0.0, 0.0),
-        radius: 1.0,
-        shape: 0,
-    }
-}
-
-/// Returns the key of [`rays`] for a first hit at this x coordinate.
-fn hits_at(x: f32) -> Key {
-    let hit = Trace {
-        distance: x + 5.0,
-        position: Vec3::new(x, 0.0, 0.0),
-        normal: Vec3::NEG_X,
-        uv: Vec2::ZERO,
-        origin: Vec3::new(-5.0, 0.0, 0.0),
-        shape: 0,
-    };
-    Key::table(
-        &["distance", "normal"],
-        ExpectedRows::Hits(vec![Some(hit), None]),
-    )
-}
-
-fn item(id: &str, points: u32, needs: &[&str], question: Question, key: Key) -> Item {
-    Item {
-        id: id.to_owned(),
-        title: "it works".to_owned(),
-        task: TASKS.task_of(id).unwrap(),
-        points,
-        look: "Look at the formula.".to_owned(),
-        section: None,
-        needs: needs.iter().map(|id| (*id).to_owned()).collect(),
-        questions: vec![ExamQuestion {
-            question,
-            key,
-            drawing_data: DrawingData::None,
-        }],
-        signatures: MistakeSignatures::default(),
-    }
-}
-
-fn exam_text() -> String {
-    let shapes = vec![ball(0.0)];
-    let ball_item = item(
-        "ball.near_side",
-        40,
-        &[],
-        Question::hits(Geometry::List { shapes }, rays()),
-        hits_at(-1.0),
-    );
-    let times = Interval::new(0.0, 100.0);
-    let (inside, outside) = (Interval::new(4.0, 6.0), Interval::new(50.0, 60.0));
-    let ray = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
-    let corners = Corners {
-        min: Vec3::NEG_ONE,
-        max: Vec3::ONE,
-    };
-    let slab_item = item(
-        "slab.clipped",
-        20,
-        &[],
-        Question::boxes(
-            corners,
-            [times, outside].map(|times| Query { ray, times }).to_vec(),
-        ),
-        Key::spans(vec![Some(inside), None]),
-    );
-    let leaf = TreeNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), 0, 2, 0, 0);
-    let tree = Geometry::Tree {
-        shapes: vec![ball(3.0), ball(-1.0)],
-        nodes: vec![leaf],
-        root: 0,
-    };
-    let nearest_item = item(
-        "nearest.of_two",
-        40,
-        &["ball.near_side"],
-        Question::hits(tree, rays()),
-        hits_at(-2.0),
-    );
-    let exam = Exam {
-        schema: 2,
-        assignment: TASKS.id.to_owned(),
-        id: "practice".to_owned(),
-        mistakes: Vec::new(),
-        items: vec![ball_item, slab_item, nearest_item],
-    };
-    serde_json::to_string(&exam).unwrap()
-}
-
-/// Returns the root of the workspace, which the bundle takes everything else from.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
+/// Returns the text of a file of the toy.
 fn text(path: &str) -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/toy");
-    fs::read_to_string(folder.join(path)).unwrap()
+    harness::text(&format!("reference/author/tests/toy/{path}"))
 }
 
 /// Writes a submission with these texts in the folder `NAME/work`.
@@ -312,7 +205,7 @@ fn a_class_of_toys_is_graded() {
 fn an_exam_of_another_assignment_is_refused() {
     let folder = TempDir::new().unwrap();
     let exam = folder.path().join("toy.json");
-    fs::write(&exam, exam_text()).unwrap();
+    fs::write(&exam, TOY.practice_exam).unwrap();
     let rays = GradeOptions {
         exam: grader::exam_source::ExamSource::File(exam),
         ..GradeOptions::default()

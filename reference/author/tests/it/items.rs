@@ -1,7 +1,5 @@
 //! Properties of every exam.
 
-mod exams;
-
 use std::collections::BTreeSet;
 
 use author::items::shares_a_question;
@@ -11,7 +9,7 @@ use judging::assignment::RAYS;
 use judging::exam::{ExpectedRows, Item, Key};
 use protocol::{Geometry, Question, Ray, Shape};
 
-use crate::exams::{SEEDS, exam_of, make_exam};
+use crate::sample_exams::{SEEDS, exam_of};
 
 fn rays(question: &Question) -> Vec<Ray> {
     match question {
@@ -28,11 +26,8 @@ fn ids_are_unique_and_begin_with_their_task() {
     assert_eq!(ids.len(), exam.items.len());
     assert!(exam.items.len() >= 60, "{}", exam.items.len());
     for item in &exam.items {
-        assert!(
-            item.id.starts_with(&format!("{}.", item.task)),
-            "{}",
-            item.id
-        );
+        let task = format!("{}.", item.task);
+        assert!(item.id.starts_with(&task), "{}", item.id);
     }
 }
 
@@ -79,11 +74,8 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
             for question in &item.questions {
                 count += question.question.count();
                 for ray in rays(&question.question) {
-                    assert!(
-                        (ray.dir.length() - 1.0).abs() < 1e-5,
-                        "{}: {ray:?}",
-                        item.id
-                    );
+                    let is_unit = (ray.dir.length() - 1.0).abs() < 1e-5;
+                    assert!(is_unit, "{}: {ray:?}", item.id);
                 }
             }
         }
@@ -134,11 +126,9 @@ fn pictures_show_no_pole() {
                     if table.subject.shapes().iter().any(|shape| matches!(shape, Shape::Sphere { .. }))
             );
             if let (true, Key::FirstHits { hits, .. }) = (of_spheres, &question.key) {
-                let poles = hits
-                    .iter()
-                    .flatten()
-                    .filter(|hit| hit.normal.y.abs() > 0.999);
-                assert_eq!(poles.count(), 0, "{}", item.id);
+                let mut hits = hits.iter().flatten();
+                let has_pole = hits.any(|hit| hit.normal.y.abs() > 0.999);
+                assert!(!has_pole, "{}", item.id);
             }
         }
     }
@@ -162,11 +152,6 @@ fn materials_are_distinct_in_trees() {
             assert_eq!(numbers.len(), shapes.len(), "{}", item.id);
         }
     }
-}
-
-#[test]
-fn exams_are_determined_by_their_seed() {
-    assert!(make_exam(SEEDS[0]) == *exam_of(SEEDS[0]));
 }
 
 #[test]

@@ -1,26 +1,25 @@
 //! Packages are complete, and packages that students can read contain no secrets.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::ffi::OsStr;
 use std::sync::LazyLock;
 
+use author::bundle::archive;
 use author::bundle::secrets::Secrets;
-use author::bundle::{Bundle, archive};
 use author::package::{Course, Platform, collect};
 use grader::doctor::package::problems;
 use grader::handed_out::RAYS;
 
+use crate::harness::{BUNDLE, author_succeeds, root, text};
+
 /// A course with a substitute for a final exam: the practice exam with another id.
 static FINAL: LazyLock<Course> = LazyLock::new(|| {
-    let exam = std::fs::read_to_string(root().join("grader/exams/practice.json")).unwrap();
-    let mut course = Course::new(&RAYS, None, None, None).unwrap();
-    course.exam = Some(exam.replacen("\"practice\"", "\"final\"", 1));
-    course
+    let exam = RAYS.practice_exam.replacen("\"practice\"", "\"final\"", 1);
+    let exam = Some(exam);
+    Course {
+        exam,
+        ..without_exam()
+    }
 });
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 fn without_exam() -> Course {
     Course::new(&RAYS, None, None, None).unwrap()
@@ -52,8 +51,7 @@ fn packages_that_students_can_read_hold_no_solution_and_no_final_exam() {
     }
     let package = collect(&root(), &RAYS, Platform::Classroom50, without_exam()).unwrap();
     let unpacked = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
-    let students = Bundle::collect(&root(), &RAYS, None).unwrap();
-    let secrets = Secrets::gather(&root(), &RAYS, &students).unwrap();
+    let secrets = Secrets::gather(&root(), &RAYS, &BUNDLE).unwrap();
     assert_eq!(secrets.search(&unpacked), []);
     let size: usize = package.files.values().map(Vec::len).sum();
     assert!(size < 10 << 20, "classroom50 takes 10 MiB: {size}");
@@ -64,12 +62,8 @@ fn written_folders_are_complete() {
     let folder = tempfile::TempDir::new().unwrap();
     for platform in ["classroom50", "github"] {
         let out = folder.path().join(platform);
-        let output = Command::new(env!("CARGO_BIN_EXE_author"))
-            .args(["package", platform, "--out"])
-            .arg(&out)
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{output:?}");
+        let write = ["package", platform, "--out"].map(OsStr::new);
+        author_succeeds(&[&write, &[out.as_os_str()][..]].concat());
         assert_eq!(problems(&out, &RAYS).unwrap(), [""; 0], "{platform}");
     }
 }
@@ -93,7 +87,7 @@ fn packages_install_one_fixed_version_of_rust() {
     assert!(setup.contains(&format!("--default-toolchain {RUST}\n")));
     let workflow = github.text(".github/workflows/grade.yml").unwrap();
     assert!(workflow.contains(&format!("rustup toolchain install {RUST} ")));
-    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let manifest = text("Cargo.toml");
     let minimum = manifest.split("rust-version = \"").nth(1).unwrap();
     let numbers = |version: &str| -> Vec<u32> {
         let parts = version.split(['.', '"']);

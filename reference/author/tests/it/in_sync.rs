@@ -1,35 +1,14 @@
 //! The committed generated files are up to date, according to the `--check` of each command.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use std::sync::Mutex;
+use std::path::PathBuf;
+use std::process::Command;
 
 use grader::handed_out::RAYS;
 use grader::probe::Budget;
 use grader::task_session::{MAX_CRASHES, MAX_TIMEOUTS};
 
-/// Held while a command runs. Two commands that build the same solutions at the same time would compile
-/// each of them twice; the second one alone finds the programs of the first.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-
-fn author(arguments: &[&str]) -> Output {
-    let _lock = ONE_AT_A_TIME.lock();
-    Command::new(env!("CARGO_BIN_EXE_author"))
-        .args(arguments)
-        .output()
-        .expect("cargo builds the binary for this test")
-}
-
-fn assert_in_sync(command: &str) {
-    let output = author(&[command, "--check"]);
-    let problems = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{problems}");
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
+use crate::harness::{author_succeeds, root, text};
 
 /// Returns the starter's files in both of its folders.
 fn starter_files() -> Vec<PathBuf> {
@@ -41,37 +20,27 @@ fn starter_files() -> Vec<PathBuf> {
 }
 
 #[test]
-fn the_starter_is_in_sync() {
-    assert_in_sync("starter");
-}
-
-#[test]
-fn the_exams_are_in_sync() {
-    assert_in_sync("exams");
-}
-
-#[test]
-fn the_table_of_mistakes_is_in_sync() {
-    assert_in_sync("mistakes");
+fn the_starter_the_exams_and_the_table_of_mistakes_are_in_sync() {
+    for command in ["starter", "exams", "mistakes"] {
+        author_succeeds(&[command, "--check"]);
+    }
 }
 
 #[test]
 fn every_sentence_of_the_contract_is_covered_or_has_its_reason() {
-    assert_in_sync("coverage");
+    author_succeeds(&["coverage", "--check"]);
 }
 
 #[test]
 fn the_handout_is_in_sync_and_its_links_names_and_commands_exist() {
-    assert_in_sync("handout");
+    author_succeeds(&["handout", "--check"]);
 }
 
 #[test]
 fn the_readme_has_the_numbers_of_the_exam() {
-    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
-    let exam: serde_json::Value =
-        serde_json::from_str(&read("grader/exams/practice.json")).unwrap();
+    let exam: serde_json::Value = serde_json::from_str(RAYS.practice_exam).unwrap();
     let count = |list: &str| exam[list].as_array().unwrap().len();
-    let readme = read("README.md").replace('\n', " ");
+    let readme = text("README.md").replace('\n', " ");
     for sentence in [
         format!("The exam has {} items.", count("items")),
         format!("the answers that {} known mistakes give", count("mistakes")),
@@ -82,7 +51,7 @@ fn the_readme_has_the_numbers_of_the_exam() {
 
 #[test]
 fn the_handout_has_the_limits_of_the_grader() {
-    let page = fs::read_to_string(root().join("handout/src/grading.md")).unwrap();
+    let page = text("handout/src/grading.md");
     let page: Vec<&str> = page.split_whitespace().collect();
     let page = page.join(" ");
     let limits = Budget::default().single_item();

@@ -3,12 +3,9 @@
 //! `cargo author bundle --check`, which takes minutes, also checks that the bundle builds and
 //! grades with an empty home directory.
 
-mod workflow;
-
+use std::ffi::OsStr;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use std::sync::LazyLock;
+use std::path::Path;
 
 use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
@@ -17,37 +14,23 @@ use author::exams;
 use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-fn text(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap()
-}
-
-/// The bundle, collected once for all tests.
-static BUNDLE: LazyLock<Bundle> = LazyLock::new(|| Bundle::collect(&root(), &RAYS, None).unwrap());
+use crate::harness::{BUNDLE, author_fails, author_succeeds, root, text};
 
 fn secrets() -> Secrets {
     Secrets::gather(&root(), &RAYS, &BUNDLE).unwrap()
 }
 
-/// Runs `cargo author bundle --out OUT`, with further arguments.
-fn write_to(out: &Path, more: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_author"))
-        .args(["bundle", "--out"])
-        .arg(out)
-        .args(more)
-        .output()
-        .unwrap()
+/// Returns the arguments of `cargo author bundle --out OUT`, with further ones.
+fn bundle_to<'a>(out: &'a Path, more: &[&'a OsStr]) -> Vec<&'a OsStr> {
+    let arguments = ["bundle", "--out"].map(OsStr::new);
+    [&arguments[..], &[out.as_os_str()], more].concat()
 }
 
 #[test]
 fn archives_are_reproducible_and_unpack_to_the_same_files() {
     let folder = TempDir::new().unwrap();
     let archive = folder.path().join("pathtracing.zip");
-    let output = write_to(&archive, &[]);
-    assert!(output.status.success(), "{output:?}");
+    author_succeeds(&bundle_to(&archive, &[]));
     let bytes = fs::read(archive).unwrap();
     assert!(bytes == zip(&BUNDLE).unwrap());
     assert!(unzip(&bytes).unwrap() == *BUNDLE);
@@ -94,21 +77,16 @@ fn finds_a_final_exam_under_any_file_name() {
     let mut exam = exams::load_practice(&root()).unwrap();
     exam.id = "final".to_owned();
     let mut bundle = BUNDLE.clone();
-    bundle.insert(
-        "grader/exams/practice.json",
-        serde_json::to_vec(&exam).unwrap(),
-    );
     let found = "grader/exams/practice.json".to_owned();
+    bundle.insert(&found, serde_json::to_vec(&exam).unwrap());
     assert_eq!(secrets().search(&bundle), [Leak::Exam { found }]);
 }
 
 #[test]
 fn the_starter_comes_from_the_reference_not_from_the_students_folder() {
-    let files = BUNDLE
-        .files
-        .keys()
-        .filter(|path| path.starts_with("student/src/"));
-    assert_eq!(files.count(), 9);
+    let files = BUNDLE.files.keys();
+    let starter = files.filter(|path| path.starts_with("student/src/"));
+    assert_eq!(starter.count(), 9);
     for file in ["camera.rs", "bvh.rs"] {
         let starter = text(&format!("grader/starter/{file}"));
         assert_eq!(BUNDLE.text(&format!("student/src/{file}")), Some(&*starter));
@@ -118,11 +96,8 @@ fn the_starter_comes_from_the_reference_not_from_the_students_folder() {
 #[test]
 fn a_built_book_is_added_beside_its_sources() {
     let book = TempDir::new().unwrap();
-    fs::write(
-        book.path().join("index.html"),
-        "<title>Path tracing</title>\n",
-    )
-    .unwrap();
+    let index = book.path().join("index.html");
+    fs::write(index, "<title>Path tracing</title>\n").unwrap();
     let bundle = Bundle::collect(&root(), &RAYS, Some(book.path())).unwrap();
     assert!(bundle.files.contains_key("handout/book/index.html"));
     assert_eq!(bundle.files.len(), BUNDLE.files.len() + 1);
@@ -135,13 +110,9 @@ fn a_book_with_chapters_for_instructors_is_refused() {
         fs::write(book.path().join(page), "<title>A page</title>\n").unwrap();
     }
     let out = book.path().join("pathtracing.zip");
-    let output = Command::new(env!("CARGO_BIN_EXE_author"))
-        .args(["bundle", "--out"])
-        .args([&out, Path::new("--book"), book.path()])
-        .output()
-        .unwrap();
-    assert!(!output.status.success() && !out.exists(), "{output:?}");
-    let error = String::from_utf8(output.stderr).unwrap();
+    let with_book = ["--book".as_ref(), book.path().as_os_str()];
+    let error = author_fails(&bundle_to(&out, &with_book));
+    assert!(!out.exists(), "{error}");
     assert!(error.contains("instructors (gradescope.html)"), "{error}");
     assert!(error.contains("`cargo book --students`"), "{error}");
 }
@@ -171,13 +142,9 @@ fn refuses_to_write_into_a_folder_that_is_not_empty() {
     archive::write(&BUNDLE, folder.path()).expect("a new Git repository is accepted");
     assert!(folder.path().join(".github/workflows/grade.yml").is_file());
 
-    let output = write_to(folder.path(), &[]);
-    assert!(!output.status.success());
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        message.contains("is not empty: choose a new folder"),
-        "{message}"
-    );
+    let error = author_fails(&bundle_to(folder.path(), &[]));
+    let why = "is not empty: choose a new folder";
+    assert!(error.contains(why), "{error}");
 }
 
 /// Returns the paths and texts of the bundle's Markdown files.
@@ -264,8 +231,7 @@ fn every_package_has_the_bundles_version_and_so_has_the_lock_file() {
 fn an_update_has_everything_but_the_students_files_and_the_same_version() {
     let folder = TempDir::new().unwrap();
     let archive = folder.path().join("update.zip");
-    let output = write_to(&archive, &["--update"]);
-    assert!(output.status.success(), "{output:?}");
+    author_succeeds(&bundle_to(&archive, &["--update".as_ref()]));
     let update = unzip(&fs::read(archive).unwrap()).unwrap();
     let missing = BUNDLE.files.keys();
     let missing = missing.filter(|path| !update.files.contains_key(*path));

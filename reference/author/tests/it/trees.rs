@@ -1,7 +1,5 @@
 //! Properties of the exam's prebuilt trees.
 
-mod exams;
-
 use std::collections::BTreeSet;
 
 use author::oracle::{Ray64, scan};
@@ -10,7 +8,7 @@ use judging::assignment::RAYS;
 use judging::exam::Exam;
 use protocol::{Ray, Rows};
 
-use crate::exams::{SEEDS, exam_of};
+use crate::sample_exams::{SEEDS, exam_of};
 
 /// Returns the prebuilt tree of every question with a list of rays: the item's id, the tree and the
 /// rays.

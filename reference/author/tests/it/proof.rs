@@ -3,8 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use author::exams::load_practice;
@@ -20,28 +19,20 @@ use grader::handed_out::RAYS;
 use judging::exam::Exam;
 use projection::replacements;
 
+use crate::harness::{author_succeeds, lock_builds, root};
+
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
     let workbench = Workbench::open(&RAYS).expect("there are a toolchain and a workspace");
     Solutions::load(workbench).expect("every mistake applies to the reference")
 });
 
-fn root() -> &'static Path {
-    SOLUTIONS.workbench.root()
-}
-
 fn practice_exam() -> Exam {
-    load_practice(root()).expect("the practice exam is committed")
+    load_practice(&root()).expect("the practice exam is committed")
 }
 
 #[test]
 fn a_few_seeds_are_proven() {
-    let output = Command::new(env!("CARGO_BIN_EXE_author"))
-        .args(["prove", "--seeds", "1..4", "--mistakes", "1"])
-        .output()
-        .expect("cargo builds the binary for this test");
-    let summary = String::from_utf8_lossy(&output.stdout);
-    let problems = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{problems}");
+    let summary = author_succeeds(&["prove", "--seeds", "1..4", "--mistakes", "1"]);
     assert!(summary.contains("seeds 3, false fails 0"), "{summary}");
 }
 
@@ -57,18 +48,21 @@ fn assert_recognised(recognition: &Recognition, count: usize, misled: usize) {
 #[test]
 fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     // The others give no answers at all, which says little about the cause.
+    let _lock = lock_builds();
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     assert_recognised(&recognition, 100, SOLUTIONS.mistakes.len() / 100);
 }
 
 #[test]
 fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
+    let _lock = lock_builds();
     let recognition = recognise_independent(&SOLUTIONS, &practice_exam()).unwrap();
     assert_recognised(&recognition, 60, 0);
 }
 
 #[test]
 fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
+    let _lock = lock_builds();
     let recognition = recognise_unknown(&SOLUTIONS, &practice_exam()).unwrap();
     assert_eq!(recognition.problems, [""; 0]);
     assert!(recognition.count >= 50, "{recognition}");
@@ -132,7 +126,7 @@ fn every_variant_file_is_used() {
             }
         }
     }
-    let variants = variants(root()).unwrap().into_iter();
+    let variants = variants(&root()).unwrap().into_iter();
     let used: BTreeSet<PathBuf> = variants
         .flat_map(|variant| replacements(&folder, &variant.id, &variant.parts).unwrap())
         .flat_map(|replacement| replacement.files.into_iter().map(|(path, _)| path))

@@ -1,0 +1,61 @@
+//! Runs `cargo author`, and reads files of the workspace.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+use author::bundle::Bundle;
+use grader::handed_out::RAYS;
+
+/// Held while solutions are built. Two commands that build the same solutions at the same time would
+/// compile each of them twice; the second one alone finds the programs of the first.
+static BUILDS: Mutex<()> = Mutex::new(());
+/// The commands that build solutions.
+const BUILDING: [&str; 4] = ["calibrate", "mistakes", "mutants", "prove"];
+
+/// The students' bundle, collected once for all tests.
+pub static BUNDLE: LazyLock<Bundle> =
+    LazyLock::new(|| Bundle::collect(&root(), &RAYS, None).unwrap());
+
+/// Returns the root folder of the workspace.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Returns the text of a file of the workspace.
+pub fn text(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// Waits until nothing else builds solutions, and keeps others waiting until the guard is dropped.
+pub fn lock_builds() -> impl Drop {
+    BUILDS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Runs `cargo author` with these arguments.
+fn author(arguments: &[impl AsRef<OsStr>]) -> Output {
+    let builds = BUILDING.map(OsStr::new).contains(&arguments[0].as_ref());
+    let _lock = builds.then(lock_builds);
+    let mut author = Command::new(env!("CARGO_BIN_EXE_author"));
+    author.args(arguments).output().unwrap()
+}
+
+/// Runs `cargo author`, which must succeed, and returns what it prints.
+#[track_caller]
+pub fn author_succeeds(arguments: &[impl AsRef<OsStr>]) -> String {
+    let output = author(arguments);
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let problems = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{printed}{problems}");
+    printed
+}
+
+/// Runs `cargo author`, which must fail, and returns its error.
+#[track_caller]
+pub fn author_fails(arguments: &[impl AsRef<OsStr>]) -> String {
+    let output = author(arguments);
+    assert!(!output.status.success(), "{output:?}");
+    String::from_utf8(output.stderr).unwrap()
+}

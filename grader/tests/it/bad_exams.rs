@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use insta::assert_snapshot;
 
-use crate::harness::{Submission, assert_fails, grader};
+use crate::harness::{Submission, assert_fails};
 
 /// A valid exam with one item.
 const VALID_EXAM: &str = r#"{
@@ -38,19 +38,19 @@ const VALID_EXAM: &str = r#"{
 }"#;
 
 fn rejection(exam: impl AsRef<[u8]>) -> String {
-    let submission = Submission::reference("any").with("exam.json", exam);
-    let path = submission.path().join("exam.json");
-    let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
+    let submission = Submission::reference("any");
+    let exam = submission.file_option("--exam", "exam.json", exam);
+    let graded = submission.grade_with(&exam);
     assert_eq!(graded.exit_code(), 2, "{}", graded.error());
     assert!(graded.score.is_none(), "nothing was graded");
-    graded.error().replace(path.to_str().unwrap(), "exam.json")
+    graded.error().replace(&exam[1], "exam.json")
 }
 
 #[test]
 fn grades_with_a_valid_exam() {
-    let submission = Submission::reference("any").with("exam.json", VALID_EXAM);
-    let path = submission.path().join("exam.json");
-    let graded = submission.grade_with(&["--exam", path.to_str().unwrap()]);
+    let submission = Submission::reference("any");
+    let exam = submission.file_option("--exam", "exam.json", VALID_EXAM);
+    let graded = submission.grade_with(&exam);
     assert_eq!(graded.score()["points"], 5);
     assert_eq!(graded.score()["exam"]["id"], "small");
 }
@@ -58,22 +58,18 @@ fn grades_with_a_valid_exam() {
 #[test]
 fn reads_an_exam_from_standard_input() {
     let submission = Submission::reference("any");
-    let mut grader = grader()
-        .arg(submission.path())
-        .args(["--exam", "-", "--out"])
-        .arg(submission.path().join("out"))
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut command = submission.command();
+    command.args(["--exam", "-"]).stdin(Stdio::piped());
+    let mut grader = command.stdout(Stdio::piped()).spawn().unwrap();
     let mut stdin = grader.stdin.take().unwrap();
     stdin.write_all(VALID_EXAM.as_bytes()).unwrap();
     drop(stdin);
-    let output = grader.wait_with_output().unwrap();
-    assert!(output.status.success());
-    let report = String::from_utf8(output.stdout).unwrap();
+    let graded = submission.results(grader.wait_with_output().unwrap());
+    assert_eq!(graded.exit_code(), 0);
+    let report = graded.report();
+    let is_shown = |text| report.contains(text);
     assert!(
-        report.contains("small exam") && report.contains("5 / 5"),
+        ["small exam", "5 / 5"].map(is_shown) == [true; 2],
         "{report}"
     );
 }

@@ -4,6 +4,7 @@
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
+use crate::cases::NOT_COMPILING;
 use crate::harness::{
     BUILD, FULL_POINTS, GradeRun, SPHERE, Submission, full_points_except, points_of_other_tasks,
 };
@@ -20,19 +21,29 @@ fn assert_costs_spheres_only(name: &str, graded: &GradeRun) {
     assert_snapshot!(name.to_owned(), graded.report());
 }
 
+/// Grades the reference with these replacements in `sphere.rs`.
+fn grade_sphere_with(edits: &[(&str, &str)]) -> GradeRun {
+    let submission = edits
+        .iter()
+        .fold(Submission::reference("edited"), |submission, (from, to)| {
+            submission.with_replaced("sphere.rs", from, to)
+        });
+    submission.grade()
+}
+
 #[test]
 fn a_file_that_is_not_compiled_costs_its_own_task() {
     let missing = Submission::reference("missing").without("sphere.rs");
     assert_costs_spheres_only("missing", &missing.grade());
     let not_text = Submission::reference("not-text").with("sphere.rs", b"struct \xff");
     assert_costs_spheres_only("not-text", &not_text.grade());
-    let graded = Submission::not_compiling().grade();
-    assert_costs_spheres_only("not-compiling", &graded);
+    assert_costs_spheres_only("not-compiling", &NOT_COMPILING);
     // This line is printed early, before the other files are compiled without `sphere.rs`, because
     // that compilation takes four times as long.
     let line =
         "sphere.rs:71: error[E0609]: no field `direction` on type `&Ray`; grading the rest\n";
-    assert!(graded.error().ends_with(line), "{}", graded.error());
+    let error = NOT_COMPILING.error();
+    assert!(error.ends_with(line), "{error}");
 }
 
 #[test]
@@ -52,24 +63,16 @@ fn a_renamed_file_counts_as_missing_and_is_noted() {
 fn an_empty_file_costs_its_own_task_even_if_other_files_use_it() {
     let graded = Submission::reference("empty").with("bbox.rs", "").grade();
     assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
-    assert_eq!(graded.points()[..3], FULL_POINTS[..3]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
 fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile() {
-    let graded = Submission::reference("signature")
-        .with_replaced(
-            "sphere.rs",
-            "pub fn bbox(&self) -> BBox {",
-            "pub fn bbox(&self) -> Option<BBox> {",
-        )
-        .with_replaced(
-            "sphere.rs",
-            "BBox::new(self.center - self.radius, self.center + self.radius)",
-            "Some(BBox::new(self.center - self.radius, self.center + self.radius))",
-        )
-        .grade();
+    let bbox = "BBox::new(self.center - self.radius, self.center + self.radius)";
+    let graded = grade_sphere_with(&[
+        ("bbox(&self) -> BBox {", "bbox(&self) -> Option<BBox> {"),
+        (bbox, &format!("Some({bbox})")),
+    ]);
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[..5], full_points_except(&[SPHERE])[..5]);
     let text = graded.report();
@@ -82,35 +85,22 @@ fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile()
 
 #[test]
 fn an_error_in_ones_own_code_is_not_laid_to_a_changed_declaration() {
-    let graded = Submission::reference("own-error")
-        .with_replaced(
-            "sphere.rs",
-            "pub fn bbox(&self) -> BBox {",
-            "pub fn bbox(self) -> BBox {",
-        )
-        .with_replaced("sphere.rs", "let root = ", "let root: u8 = ")
-        .grade();
-    assert!(
-        !graded.report().contains("Given code calls"),
-        "{}",
-        graded.report()
-    );
+    let graded = grade_sphere_with(&[
+        ("bbox(&self) -> BBox {", "bbox(self) -> BBox {"),
+        ("let root = ", "let root: u8 = "),
+    ]);
+    let report = graded.report();
+    assert!(!report.contains("Given code calls"), "{report}");
 }
 
 /// The file has no `struct Sphere` then, but the compiler's message says more.
 #[test]
 fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
-    let typo = Submission::reference("typo").with_replaced(
-        "sphere.rs",
-        "pub struct Sphere {",
-        "pub strct Sphere {",
-    );
+    let (right, wrong) = ("pub struct Sphere {", "pub strct Sphere {");
+    let typo = Submission::reference("typo").with_replaced("sphere.rs", right, wrong);
     let sphere = typo.path().join("sphere.rs");
     let text = std::fs::read_to_string(&sphere).unwrap();
-    let line = 1 + text
-        .lines()
-        .position(|line| line.contains("strct"))
-        .unwrap();
+    let line = 1 + text.lines().position(|line| line == wrong).unwrap();
     let graded = typo.grade();
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.verdicts("triangle"), ["pass"]);
@@ -123,55 +113,37 @@ fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
     assert!(graded.error().starts_with(&begin), "{}", graded.error());
 
     // A declaration that is written differently is no error.
-    let spaced = Submission::reference("spaced").with_replaced(
-        "sphere.rs",
-        "pub struct Sphere {",
-        "pub struct\n    Sphere {",
-    );
-    assert_eq!(spaced.grade().verdicts("sphere"), ["pass"]);
+    let spaced = grade_sphere_with(&[(right, "pub struct\n    Sphere {")]);
+    assert_eq!(spaced.verdicts("sphere"), ["pass"]);
 }
 
 #[test]
 fn every_error_of_a_file_is_shown_with_a_path_that_an_editor_can_open() {
-    let submission = Submission::reference("errors")
-        .with_replaced(
-            "sphere.rs",
-            "self.center - self.radius",
-            "self.centre - self.radius",
-        )
-        .with_replaced(
-            "sphere.rs",
-            "self.center + self.radius",
-            "self.center + self.radios",
-        );
-    let graded = submission.grade();
+    let graded = grade_sphere_with(&[
+        ("self.center - self.radius", "self.centre - self.radius"),
+        ("self.center + self.radius", "self.center + self.radios"),
+    ]);
     let report = graded.report();
     for error in ["no field `centre` on type", "no field `radios` on type"] {
         assert!(report.contains(error), "{report}");
     }
-    let arrows: Vec<&str> = report
-        .lines()
-        .filter(|line| line.contains("--> "))
-        .collect();
-    assert_eq!(arrows.len(), 2, "{report}");
-    for arrow in arrows {
-        let (_, place) = arrow
-            .split_once("--> SUBMISSION/sphere.rs:")
-            .expect("a path");
-        let parts: Vec<&str> = place.split(':').collect();
-        assert!(
-            parts.len() == 2 && parts.iter().all(|part| part.parse::<u32>().is_ok()),
-            "{place}"
-        );
+    let places = report.split("--> ").skip(1);
+    let places = places.filter_map(|rest| rest.lines().next());
+    let places: Vec<&str> = places.collect();
+    assert_eq!(places.len(), 2, "{report}");
+    for place in places {
+        let numbers = place.strip_prefix("SUBMISSION/sphere.rs:").expect("a path");
+        let parts: Vec<&str> = numbers.split(':').collect();
+        let are_numbers = parts.iter().all(|part| part.parse::<u32>().is_ok());
+        assert!(parts.len() == 2 && are_numbers, "{place}");
     }
 }
 
 #[test]
 fn finds_errors_that_the_compiler_reports_one_after_the_other() {
     // The compiler stops at the first error, before it sees the second.
-    let graded =
-        Submission::not_compiling().with("camera.rs", "struct Camera fn new fn sample_ray (");
-    let graded = graded.grade();
+    let typo = "struct Camera fn new fn sample_ray (";
+    let graded = Submission::not_compiling().with("camera.rs", typo).grade();
     assert_eq!(graded.verdicts("camera"), ["not_compiled"]);
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_eq!(graded.points()[1], FULL_POINTS[1]);
@@ -179,42 +151,19 @@ fn finds_errors_that_the_compiler_reports_one_after_the_other() {
 
 #[test]
 fn writes_a_report_if_nothing_compiles() {
-    let mut submission = Submission::reference("nothing");
-    for file in RAYS.file_names() {
-        submission = submission.with(file, "fn (");
-    }
-    let graded = submission.grade();
+    let submission = Submission::reference("nothing");
+    let nothing = |submission: Submission, file| submission.with(file, "fn (");
+    let graded = RAYS.file_names().fold(submission, nothing).grade();
     assert_eq!(graded.points(), [0; 6]);
     assert_snapshot!(graded.report());
 }
 
 #[test]
-fn a_helper_in_another_task_file_works() {
-    let graded = Submission::with_helper_in_another_file().grade();
-    assert_eq!(graded.points(), *FULL_POINTS);
-}
-
-#[test]
-fn a_broken_file_also_fails_the_files_that_use_its_helpers() {
-    let broken = Submission::with_helper_in_another_file().with_replaced(
-        "bbox.rs",
-        "enter > times.min",
-        "oops",
-    );
-    let graded = broken.grade();
-    assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
-    assert_eq!(graded.verdicts("build"), ["not_compiled"]);
-    assert_eq!(graded.points()[..3], FULL_POINTS[..3]);
-}
-
-#[test]
-fn notes_a_changed_given_method() {
-    let graded = Submission::reference("changed").with_replaced(
-        "bbox.rs",
-        "0.5 * (self.min + self.max)",
-        "(self.min + self.max) / 2.0",
-    );
-    let graded = graded.grade();
+fn a_helper_in_another_task_file_and_a_changed_given_method_cost_nothing() {
+    let (given, changed) = ("0.5 * (self.min + self.max)", "(self.min + self.max) / 2.0");
+    let graded = Submission::with_helper_in_another_file()
+        .with_replaced("bbox.rs", given, changed)
+        .grade();
     assert_eq!(graded.points(), *FULL_POINTS);
     let note = &graded.score()["build"]["notes"][0];
     assert_eq!(
@@ -224,13 +173,20 @@ fn notes_a_changed_given_method() {
 }
 
 #[test]
+fn a_broken_file_also_fails_the_files_that_use_its_helpers() {
+    let helped = Submission::with_helper_in_another_file();
+    let broken = helped.with_replaced("bbox.rs", "enter > times.min", "oops");
+    let graded = broken.grade();
+    assert_eq!(graded.verdicts("bbox"), ["not_compiled"]);
+    assert_eq!(graded.verdicts("build"), ["not_compiled"]);
+    assert_eq!(graded.points()[..3], FULL_POINTS[..3]);
+}
+
+#[test]
 fn unsafe_code_does_not_compile() {
-    let graded = Submission::reference("unsafe").with_replaced(
-        "sphere.rs",
-        "discriminant.sqrt()",
-        "unsafe { discriminant.sqrt() }",
-    );
-    assert_eq!(graded.grade().points()[SPHERE], 0);
+    let root = "discriminant.sqrt()";
+    let graded = grade_sphere_with(&[(root, &format!("unsafe {{ {root} }}"))]);
+    assert_eq!(graded.points()[SPHERE], 0);
 }
 
 #[test]
@@ -238,28 +194,24 @@ fn does_not_reuse_a_build_of_files_with_the_same_modification_time() {
     // Archives restore old modification times. A build that compares these would reuse the program
     // of the other submission.
     let old = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(315_532_800);
-    let aged = |submission: Submission| {
+    let points_of_aged = |submission: Submission| {
         for file in RAYS.file_names() {
-            let file = std::fs::File::options()
-                .append(true)
-                .open(submission.path().join(file));
+            let file = submission.path().join(file);
+            let file = std::fs::File::options().append(true).open(file);
             file.unwrap().set_modified(old).unwrap();
         }
-        submission
+        submission.grade().points()
     };
-    let starter = aged(Submission::starter("same-name")).grade().points();
-    let reference = aged(Submission::reference("same-name")).grade().points();
-    assert_eq!((starter, reference), (vec![0; 6], FULL_POINTS.to_vec()));
+    assert_eq!(points_of_aged(Submission::starter("same-name")), [0; 6]);
+    let reference = Submission::reference("same-name");
+    assert_eq!(points_of_aged(reference), *FULL_POINTS);
 }
 
 #[test]
 fn leaf_size_is_judged_by_the_returned_tree() {
-    let graded = Submission::reference("leafy").with_replaced(
-        "bvh.rs",
-        "max_leaf_size: max_leaf_size.max(1)",
-        "max_leaf_size: max_leaf_size + 1",
-    );
-    let points = graded.grade().points();
+    let (right, wrong) = ("max_leaf_size.max(1)", "max_leaf_size + 1");
+    let leafy = Submission::reference("leafy").with_replaced("bvh.rs", right, wrong);
+    let points = leafy.grade().points();
     assert!(points[BUILD] < FULL_POINTS[BUILD], "{points:?}");
     assert_eq!(points_of_other_tasks(&points, BUILD), 80);
 }

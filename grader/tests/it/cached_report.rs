@@ -10,15 +10,10 @@ const NOTICE: &str = "Nothing has changed since this was graded";
 
 /// Grades a submission with a small exam into the default output folder. Returns the output.
 fn grade_output(submission: &Submission, arguments: &[&str]) -> String {
-    let exam_file = submission.path().join("../exam.json");
-    fs::write(&exam_file, small_exam("few")).unwrap();
-    let output = grader()
-        .arg(submission.path())
-        .args(["--no-reference", "--exam"])
-        .arg(exam_file)
-        .args(arguments)
-        .output()
-        .unwrap();
+    let exam = submission.file_option("--exam", "../exam.json", small_exam("few"));
+    let mut command = grader();
+    command.arg(submission.path()).arg("--no-reference");
+    let output = command.args(exam).args(arguments).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     String::from_utf8(output.stdout).unwrap()
 }
@@ -38,15 +33,10 @@ fn prints_the_cached_report_if_nothing_changed() {
     let first = grade_output(&submission, &[]);
     let score = fs::read(folder.join("score.json")).unwrap();
     let second = grade_output(&submission, &[]);
-    assert!(
-        !first.contains(NOTICE) && second.contains(NOTICE),
-        "{second}"
-    );
-    assert_eq!(
-        lines_without(&second, NOTICE),
-        lines_without(&first, NOTICE),
-        "otherwise the output is the same"
-    );
+    assert!(!first.contains(NOTICE), "{first}");
+    assert!(second.contains(NOTICE), "{second}");
+    // Otherwise the output is the same.
+    assert_eq!(lines_of_grading(&second), lines_of_grading(&first));
     assert_eq!(fs::read(folder.join("score.json")).unwrap(), score);
     assert!(!grade_output(&submission, &["--fresh"]).contains(NOTICE));
 
@@ -59,31 +49,25 @@ fn prints_the_cached_report_if_nothing_changed() {
 fn grades_again_after_any_change() {
     let folder = clean_output_folder("cached-changed");
     let submission = Submission::reference("cached-changed");
+    let is_cached = |submission: &Submission, arguments: &[&str]| {
+        grade_output(submission, arguments).contains(NOTICE)
+    };
     grade_output(&submission, &[]);
-    assert!(
-        !grade_output(&submission, &["--hints"]).contains(NOTICE),
-        "options"
-    );
+    assert!(!is_cached(&submission, &["--hints"]), "options");
     grade_output(&submission, &[]);
     fs::write(folder.join("score.json"), "{\"points\": 100}").unwrap();
-    assert!(
-        !grade_output(&submission, &[]).contains(NOTICE),
-        "the score"
-    );
+    assert!(!is_cached(&submission, &[]), "the score");
     fs::write(folder.join("earlier.json"), "{\"key\": ").unwrap();
-    assert!(
-        !grade_output(&submission, &[]).contains(NOTICE),
-        "half a record"
-    );
-    assert!(grade_output(&submission, &[]).contains(NOTICE), "nothing");
+    assert!(!is_cached(&submission, &[]), "half a record");
+    assert!(is_cached(&submission, &[]), "nothing");
     let submission =
         submission.with_replaced("sphere.rs", "discriminant < 0.0", "discriminant < 1e-9");
-    assert!(!grade_output(&submission, &[]).contains(NOTICE), "a file");
+    assert!(!is_cached(&submission, &[]), "a file");
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// Returns the lines that do not contain `word` and are not empty.
-fn lines_without<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
+/// Returns the lines of an output, without the notice and empty lines.
+fn lines_of_grading(text: &str) -> Vec<&str> {
     let lines = text.lines().filter(|line| !line.is_empty());
-    lines.filter(|line| !line.contains(word)).collect()
+    lines.filter(|line| !line.contains(NOTICE)).collect()
 }

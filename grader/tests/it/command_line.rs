@@ -6,7 +6,8 @@ use grader::format::FORMATS;
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
-use crate::harness::{FULL_POINTS, Submission, assert_fails, grader};
+use crate::cases::PANICKING;
+use crate::harness::{FULL_POINTS, Submission, assert_fails, grade_into, grader};
 
 fn assert_wrong_use(arguments: &[&str], why: &str) {
     let output = grader().args(arguments).output().unwrap();
@@ -25,16 +26,10 @@ fn help_lists_the_options_for_students() {
         words.map(str::to_owned).collect()
     };
     assert!(options(&short).contains(&"--watch".to_owned()), "{short}");
-    assert!(
-        !options(&short).contains(&"--untrusted".to_owned()),
-        "{short}"
-    );
-    assert!(
-        short
-            .trim_end()
-            .ends_with("the options for course staff and CI."),
-        "{short}"
-    );
+    let of_staff = "--untrusted".to_owned();
+    assert!(!options(&short).contains(&of_staff), "{short}");
+    let end = "the options for course staff and CI.";
+    assert!(short.trim_end().ends_with(end), "{short}");
 }
 
 #[test]
@@ -74,31 +69,18 @@ fn a_path_without_a_submission_is_a_usage_error() {
 #[test]
 fn grades_an_archive_like_the_folder_in_it() {
     let submission = Submission::panicking();
-    let folder = submission.grade().score();
-    let file = submission.path().with_extension("tar.gz");
-    let packed = flate2::write::GzEncoder::new(
-        fs::File::create(&file).unwrap(),
-        flate2::Compression::fast(),
-    );
+    let archive = submission.path().with_extension("tar.gz");
+    let file = fs::File::create(&archive).unwrap();
+    let packed = flate2::write::GzEncoder::new(file, flate2::Compression::fast());
     let mut packed = tar::Builder::new(packed);
-    packed
-        .append_dir_all("handed-in", submission.path())
-        .unwrap();
+    let added = packed.append_dir_all("handed-in", submission.path());
+    added.unwrap();
     packed.into_inner().unwrap().finish().unwrap();
 
-    let out = submission.path().join("out");
-    let output = grader()
-        .arg("--no-reference")
-        .arg(&file)
-        .arg("--out")
-        .arg(&out)
-        .output()
-        .unwrap();
-    assert!(output.status.success());
-    let score: serde_json::Value =
-        serde_json::from_slice(&fs::read(out.join("score.json")).unwrap()).unwrap();
+    let mut command = grade_into(&archive, &submission.out());
+    let score = submission.run(command.arg("--no-reference")).score();
     for part in ["submission", "tasks", "build", "points"] {
-        assert_eq!(score[part], folder[part], "{part}");
+        assert_eq!(score[part], PANICKING.score()[part], "{part}");
     }
 }
 
@@ -112,11 +94,8 @@ fn finds_the_task_files_at_the_top_in_src_and_in_student_src() {
                 .without(file)
                 .with(&format!("{folder}/{file}"), text);
         }
-        assert_eq!(
-            submission.grade_with(&["--task", "bbox"]).exit_code(),
-            0,
-            "{folder}"
-        );
+        let graded = submission.grade_with(&["--task", "bbox"]);
+        assert_eq!(graded.exit_code(), 0, "{folder}");
     }
 }
 
@@ -161,12 +140,11 @@ fn timings_list_each_stage() {
 #[test]
 fn replays_one_question() {
     let submission = Submission::panicking();
-    let items = submission.grade().items("sphere");
+    let items = PANICKING.items("sphere");
     let mut panicked = items.iter().filter(|item| item["verdict"] == "panicked");
     let item = panicked.next().unwrap();
     let (id, number) = (item["id"].as_str().unwrap(), &item["evidence"]["number"]);
-    let question = format!("{id}#{number}");
-    let replayed = replay(&submission, &question);
+    let replayed = replay(&submission, &format!("{id}#{number}"));
     // The panic names the path of the file, which differs in each run.
     let folder = submission.path().display().to_string();
     assert_snapshot!(replayed.replace(&folder, "SUBMISSION"));
@@ -327,27 +305,17 @@ fn a_name_that_is_unknown_leads_to_the_known_ones() {
 #[test]
 fn without_a_desktop_prints_the_path_of_the_page_and_succeeds() {
     let submission = Submission::starter("alice");
-    let out = submission.path().join("out");
-    let output = grader()
-        .args(["--open", "--no-reference", "--out"])
-        .args([&out, &submission.path()])
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .env_remove("WSL_DISTRO_NAME")
-        .output()
-        .unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{error}");
-    let page = out.join("report.html");
+    let mut command = submission.command();
+    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WSL_DISTRO_NAME"] {
+        command.env_remove(variable);
+    }
+    let graded = submission.run(command.arg("--open"));
+    let page = submission.out().join("report.html");
     assert!(page.is_file());
-    let line = format!(
-        "no desktop session is available: open {} yourself",
-        page.display()
-    );
-    assert!(error.contains(&line), "{error}");
-    let report = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        report.lines().any(|line| line.ends_with("report.html")),
-        "{report}"
-    );
+    let page = page.display();
+    let line = format!("no desktop session is available: open {page} yourself");
+    assert_fails(&graded.output, 0, &line);
+    let report = String::from_utf8(graded.output.stdout).unwrap();
+    let mut lines = report.lines();
+    assert!(lines.any(|line| line.ends_with("report.html")), "{report}");
 }

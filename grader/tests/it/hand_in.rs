@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
-use crate::harness::{Submission, assert_fails, grader, workspace};
+use crate::harness::{Submission, assert_fails, grade_into, workspace};
 
 fn hand_in(folder: &Path, out: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_handin"));
@@ -46,13 +46,9 @@ fn the_archive_is_graded_like_the_folder_and_has_the_same_bytes_each_time() {
     expected.sort_unstable();
     assert_eq!(names, expected);
 
-    let graded = grader()
-        .arg(&archive)
-        .args(["--no-reference", "--require", "100", "--out"])
-        .arg(submission.path().join("out"))
-        .output()
-        .unwrap();
-    assert!(graded.status.success(), "{graded:?}");
+    let mut command = grade_into(&archive, &submission.out());
+    let graded = submission.run(command.args(["--no-reference", "--require", "100"]));
+    assert_eq!(graded.exit_code(), 0, "{}", graded.error());
     assert_eq!(hand_in_beside(&submission).0, Some(0));
     assert!(fs::read(&archive).unwrap() == first);
 }
@@ -61,11 +57,7 @@ fn the_archive_is_graded_like_the_folder_and_has_the_same_bytes_each_time() {
 fn what_does_not_compile_or_is_missing_is_named_and_the_archive_is_made() {
     let submission = Submission::starter("bob")
         .with_replaced("bbox.rs", "impl BBox {", "impl BBox {\n    fn mine() {}\n")
-        .with_replaced(
-            "sphere.rs",
-            "todo!(",
-            "let mine = ray.direction;\n        todo!(",
-        )
+        .with_replaced("sphere.rs", "todo!(", "let mine = ray.direction; todo!(")
         .with("camera.rs", [0xff, 0xfe])
         .without("triangle.rs");
     let (code, text) = hand_in_beside(&submission);
@@ -113,17 +105,15 @@ fn an_archive_with_work_that_is_gone_is_kept() {
 
 #[test]
 fn a_todo_that_is_left_is_named() {
-    let submission = Submission::reference("fay").with_replaced(
-        "sphere.rs",
+    let (root, stub) = (
         "let root = discriminant.sqrt();",
         "let root: f32 = todo!(\"the root\");",
     );
+    let submission = Submission::reference("fay").with_replaced("sphere.rs", root, stub);
     let (code, text) = hand_in_beside(&submission);
     assert_eq!(code, Some(0), "{text}");
-    assert!(
-        text.contains("lines of your own; still contains `todo!` (line "),
-        "{text}"
-    );
+    let note = "lines of your own; still contains `todo!` (line ";
+    assert!(text.contains(note), "{text}");
     assert_eq!(text.matches("todo!").count(), 1, "{text}");
 }
 

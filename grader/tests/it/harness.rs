@@ -1,5 +1,6 @@
 //! The test harness: builds a submission, runs the grader on it, and reads the results.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -84,35 +85,60 @@ impl Submission {
         self.with(file, text.replace(from, to))
     }
 
+    /// Writes a file beside the task files, and returns the option that names it.
+    pub fn file_option(&self, option: &str, file: &str, text: impl AsRef<[u8]>) -> [String; 2] {
+        let path = self.path().join(file);
+        fs::write(&path, text).unwrap();
+        [option.to_owned(), path.to_str().unwrap().to_owned()]
+    }
+
     /// Grades as on a student's machine, without the reference.
     pub fn grade(&self) -> GradeRun {
-        self.grade_with(&[])
+        self.run(&mut self.command())
     }
 
     /// Grades as on a student's machine, with additional arguments.
-    pub fn grade_with(&self, arguments: &[&str]) -> GradeRun {
-        self.run(&[&["--no-reference"], arguments].concat())
+    pub fn grade_with(&self, arguments: &[impl AsRef<OsStr>]) -> GradeRun {
+        self.run(self.command().args(arguments))
     }
 
     /// Grades as on a staff machine, with the reference.
     pub fn grade_with_reference(&self) -> GradeRun {
-        self.run(&[])
+        self.run(&mut grade_into(&self.path(), &self.out()))
     }
 
-    fn run(&self, arguments: &[&str]) -> GradeRun {
-        let out = self.folder.path().join("out");
-        let output = grader()
-            .arg(self.path())
-            .arg("--out")
-            .arg(&out)
-            .args(arguments)
-            .output()
-            .unwrap();
+    /// Grades with the reference and without it, and stops what takes longer than a second.
+    pub fn grade_impatiently(&self) -> [GradeRun; 2] {
+        let mut with_reference = grade_into(&self.path(), &self.out());
+        let limit = ["--cpu-limit", "1"];
+        let with_reference = self.run(with_reference.args(limit));
+        [with_reference, self.grade_with(&limit)]
+    }
+
+    /// Returns the folder for the outputs.
+    pub fn out(&self) -> PathBuf {
+        self.folder.path().join("out")
+    }
+
+    /// Returns the command that grades as on a student's machine, without the reference.
+    pub fn command(&self) -> Command {
+        let mut command = grade_into(&self.path(), &self.out());
+        command.arg("--no-reference");
+        command
+    }
+
+    /// Runs a command that grades this submission.
+    pub fn run(&self, command: &mut Command) -> GradeRun {
+        self.results(command.output().unwrap())
+    }
+
+    /// Reads the results of a run of [`Submission::command`].
+    pub fn results(&self, output: Output) -> GradeRun {
         GradeRun {
             output,
             submission: self.path(),
-            score: fs::read(out.join("score.json")).ok(),
-            page: fs::read_to_string(out.join("report.html")).ok(),
+            score: fs::read(self.out().join("score.json")).ok(),
+            page: fs::read_to_string(self.out().join("report.html")).ok(),
         }
     }
 }
@@ -124,7 +150,15 @@ pub fn grader() -> Command {
     command
 }
 
+/// Returns a command that grades a folder or an archive, and writes the outputs into a folder.
+pub fn grade_into(submission: &Path, out: &Path) -> Command {
+    let mut command = grader();
+    command.arg(submission).arg("--out").arg(out);
+    command
+}
+
 /// Checks that a run ended with this exit code and an error that contains `why`.
+#[track_caller]
 pub fn assert_fails(output: &Output, code: i32, why: &str) {
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(error.contains(why), "{why}: {error}");
@@ -168,27 +202,40 @@ impl GradeRun {
         self.page.as_deref().expect("a page was written")
     }
 
+    /// Returns the score of a run that has succeeded.
     pub fn score(&self) -> Value {
         assert_eq!(self.exit_code(), 0, "{}", self.error());
-        serde_json::from_slice(self.score.as_ref().unwrap()).unwrap()
+        self.written_score()
+    }
+
+    /// Returns the score that was written, even if the run has failed.
+    pub fn written_score(&self) -> Value {
+        let score = self.score.as_ref().expect("a score was written");
+        serde_json::from_slice(score).unwrap()
+    }
+
+    /// Returns the scores of the tasks, in lecture order.
+    pub fn tasks(&self) -> Vec<Value> {
+        self.score()["tasks"].as_array().unwrap().clone()
     }
 
     /// Returns the points of each task, in lecture order.
     pub fn points(&self) -> Vec<u64> {
-        let score = self.score();
-        let tasks = score["tasks"].as_array().unwrap();
-        tasks
-            .iter()
-            .map(|task| task["points"].as_u64().unwrap())
-            .collect()
+        let tasks = self.tasks().into_iter();
+        tasks.map(|task| task["points"].as_u64().unwrap()).collect()
     }
 
     /// Returns the scores of a task's items.
     pub fn items(&self, task: &str) -> Vec<Value> {
-        let score = self.score();
-        let mut tasks = score["tasks"].as_array().unwrap().iter();
+        let mut tasks = self.tasks().into_iter();
         let task = tasks.find(|scores| scores["id"] == task).unwrap();
         task["items"].as_array().unwrap().clone()
+    }
+
+    /// Returns the scores of all items.
+    pub fn all_items(&self) -> Vec<Value> {
+        let items = |task: Value| task["items"].as_array().unwrap().clone();
+        self.tasks().into_iter().flat_map(items).collect()
     }
 
     /// Returns the texts with this key of a task's items.

@@ -5,6 +5,12 @@ use serde_json::Value;
 
 use crate::harness::{GradeRun, Submission};
 
+/// Grades the reference with a replacement in a file.
+fn grade_with(name: &str, file: &str, from: &str, to: &str) -> GradeRun {
+    let submission = Submission::reference(name);
+    submission.with_replaced(file, from, to).grade()
+}
+
 /// Returns a solution that takes the far root first, but with other formulas than in the catalogue
 /// of mistakes.
 fn far_first() -> Submission {
@@ -27,12 +33,8 @@ fn a_hint_that_explains_several_items_is_shown_once() {
 }
 
 fn hints(graded: &GradeRun) -> Vec<Value> {
-    let score = graded.score();
-    let tasks = score["tasks"].as_array().unwrap().iter();
-    let items = tasks.flat_map(|task| task["items"].as_array().unwrap());
-    items
-        .flat_map(|item| item["hints"].as_array().unwrap().clone())
-        .collect()
+    let hints = |item: Value| item["hints"].as_array().unwrap().clone();
+    graded.all_items().into_iter().flat_map(hints).collect()
 }
 
 #[test]
@@ -46,21 +48,17 @@ fn a_known_mistake_gets_a_nudge() {
 
 #[test]
 fn an_unknown_mistake_gets_no_hint() {
-    let graded = Submission::reference("strange")
-        .with_replaced("sphere.rs", "distance: t,", "distance: t + t.sin(),")
-        .grade();
+    let strange = "distance: t + t.sin(),";
+    let graded = grade_with("strange", "sphere.rs", "distance: t,", strange);
     assert!(graded.points()[2] < 15);
     assert_eq!(hints(&graded), [0; 0].map(Value::from));
 }
 
 #[test]
 fn recognises_two_mistakes_in_one_task() {
+    let right = "position: ray.at(t),";
     let graded = Submission::reference("two")
-        .with_replaced(
-            "triangle.rs",
-            "position: ray.at(t),",
-            "position: t * ray.dir,",
-        )
+        .with_replaced("triangle.rs", right, "position: t * ray.dir,")
         .with_replaced("triangle.rs", "shape: self.shape,", "shape: 0,")
         .grade();
     let staff = graded.score().to_string();
@@ -71,20 +69,14 @@ fn recognises_two_mistakes_in_one_task() {
 
 /// Returns the clues of all items of a score.
 fn clues(graded: &GradeRun) -> Vec<String> {
-    let score = graded.score();
-    let tasks = score["tasks"].as_array().unwrap().iter();
-    let items = tasks.flat_map(|task| task["items"].as_array().unwrap());
-    items
-        .filter_map(|item| item["clue"].as_str().map(str::to_owned))
-        .collect()
+    let clue = |item: Value| item["clue"].as_str().map(str::to_owned);
+    graded.all_items().into_iter().filter_map(clue).collect()
 }
 
 #[test]
 fn an_answer_that_is_right_when_asked_alone_is_said_to_depend_on_earlier_calls() {
     let with_distance = |distance: &str| {
-        let graded = Submission::reference("state")
-            .with_replaced("sphere.rs", "distance: t,", distance)
-            .grade();
+        let graded = grade_with("state", "sphere.rs", "distance: t,", distance);
         assert!(graded.points()[2] < 15);
         clues(&graded)
     };
@@ -121,9 +113,7 @@ fn code_that_hits_nothing_is_told_what_to_compare_for_every_ray() {
         "let t = [near, far].into_iter().find(|&t| t > 5.0)?;",
     );
     let not_one = |(file, from, to): (&str, &str, &str)| {
-        let graded = Submission::reference("misses")
-            .with_replaced(file, from, to)
-            .grade();
+        let graded = grade_with("misses", file, from, to);
         let clues = clues(&graded).into_iter();
         let not_one = clues.filter(|clue| clue.starts_with("Not one ray hits"));
         not_one.count()

@@ -1,13 +1,15 @@
 //! Untrusted code, graded by the real binary: every attempt to do something forbidden succeeds
 //! without isolation, and fails at every isolation level.
 
-use std::fs;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Stdio;
 use std::sync::LazyLock;
 
 use tempfile::TempDir;
 
+use crate::cases::PANICKING;
 use crate::faults::processes::eventually;
 use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 
@@ -16,27 +18,12 @@ use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 const LEVELS: [&str; 2] = ["full", "no-namespaces"];
 const SECRET: &str = "the final exam";
 
-/// A file with a secret, which every user of this machine may read.
-struct SecretFile {
-    folder: TempDir,
-}
-
-impl SecretFile {
-    fn create() -> Self {
-        let folder = TempDir::new().unwrap();
-        make_readable_by_all(folder.path());
-        fs::write(folder.path().join("key"), SECRET).unwrap();
-        SecretFile { folder }
-    }
-
-    fn path(&self) -> String {
-        format!("{:?}", self.folder.path().join("key"))
-    }
-}
-
-fn make_readable_by_all(folder: &Path) {
-    use std::os::unix::fs::PermissionsExt;
-    fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).unwrap();
+/// Creates a folder with a secret in the file `key`, which every user of this machine may read.
+fn secret_folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::set_permissions(folder.path(), Permissions::from_mode(0o755)).unwrap();
+    fs::write(folder.path().join("key"), SECRET).unwrap();
+    folder
 }
 
 /// Returns the reference with additional code, which runs before each camera ray is created.
@@ -95,15 +82,16 @@ fn assert_blocked(attempt: &str) {
 
 #[test]
 fn cannot_read_files() {
-    let key = SecretFile::create();
-    assert_blocked(&format!("std::fs::read({}).is_ok()", key.path()));
+    let folder = secret_folder();
+    let key = folder.path().join("key");
+    assert_blocked(&format!("std::fs::read({key:?}).is_ok()"));
 }
 
 #[test]
 fn the_compiler_cannot_read_files_for_a_submission() {
-    let key = SecretFile::create();
-    let line = format!("println!(\"{{}}\", include_str!({}));", key.path());
-    let submission = running(&line);
+    let folder = secret_folder();
+    let key = folder.path().join("key");
+    let submission = running(&format!("println!(\"{{}}\", include_str!({key:?}));"));
     assert!(camera_output(&grade_at(&submission, "none")).starts_with(SECRET));
     for level in LEVELS.into_iter().filter(|level| is_available(level)) {
         let graded = grade_at(&submission, level);
@@ -115,16 +103,17 @@ fn the_compiler_cannot_read_files_for_a_submission() {
 #[test]
 fn isolation_does_not_change_the_score() {
     let submission = Submission::panicking();
-    let score = |level| {
-        let mut score = grade_at(&submission, level).score();
+    let comparable = |graded: &GradeRun| {
+        let mut score = graded.score();
         for field in ["isolation", "timings"] {
             score.as_object_mut().unwrap().remove(field);
         }
         score
     };
-    let own = score("none");
+    assert_eq!(PANICKING.score()["isolation"], "none");
     for level in LEVELS.into_iter().filter(|level| is_available(level)) {
-        assert_eq!(score(level), own, "{level}");
+        let graded = grade_at(&submission, level);
+        assert_eq!(comparable(&graded), comparable(&PANICKING), "{level}");
     }
 }
 
@@ -136,25 +125,18 @@ fn untrusted_code_is_graded_at_the_best_level_and_the_report_says_so() {
     let graded = Submission::reference("alice").grade_with(&["--untrusted"]);
     assert_eq!(graded.points(), *FULL_POINTS);
     assert_eq!(graded.score()["isolation"], "full");
-    assert!(
-        graded.report().contains("isolation: full"),
-        "{}",
-        graded.report()
-    );
+    let report = graded.report();
+    assert!(report.contains("isolation: full"), "{report}");
 }
 
 #[test]
 fn no_process_survives_a_killed_grader() {
     let submission = running("loop { std::hint::black_box(0); }");
-    for level in LEVELS.into_iter().filter(|level| is_available(level)) {
-        let out = TempDir::new().unwrap();
-        let mut grader = grader()
-            .arg(submission.path())
-            .args(["--no-reference", "--isolation", level, "--out"])
-            .arg(out.path())
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
+    let isolated = LEVELS.into_iter().filter(|level| is_available(level));
+    for level in isolated.chain(["none"]) {
+        let mut command = submission.command();
+        command.args(["--isolation", level]).stdout(Stdio::null());
+        let mut grader = command.spawn().unwrap();
         let probe = eventually(|| child(grader.id()).filter(|pid| is_probe(*pid)));
         grader.kill().unwrap();
         grader.wait().unwrap();
@@ -171,9 +153,7 @@ fn child(pid: u32) -> Option<u32> {
 /// Returns whether the process is a probe, and neither the launcher nor the compiler.
 fn is_probe(pid: u32) -> bool {
     let arguments = fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
-    let first = arguments
-        .split(|byte| *byte == 0)
-        .next()
-        .unwrap_or_default();
-    first == b"/probe" || first.starts_with(b"/proc/self/fd/")
+    let mut words = arguments.split(|byte| *byte == 0);
+    let first = words.next().unwrap_or_default();
+    first.ends_with(b"/probe") || first.starts_with(b"/proc/self/fd/")
 }

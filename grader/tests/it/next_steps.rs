@@ -1,16 +1,12 @@
 //! After a success, the report says what to do next, and links to the built handout.
 
 use std::fs;
-#[cfg(target_os = "linux")]
-use std::path::Path;
-#[cfg(target_os = "linux")]
 use std::process::Command;
 
 use grader::handed_out::RAYS;
 
-#[cfg(target_os = "linux")]
-use crate::harness::linked_workspace;
-use crate::harness::{GradeRun, Submission, workspace};
+use crate::cases::{REFERENCE, STARTER};
+use crate::harness::{GradeRun, Submission, grade_into, linked_workspace, workspace};
 
 /// The starter with these files of the reference.
 fn with_solved(files: &[&str]) -> Submission {
@@ -43,21 +39,19 @@ fn a_complete_task_leads_to_the_next_in_lecture_order() {
     ] {
         assert_eq!(next(&with_solved(files).grade()), [line]);
     }
-    assert_eq!(next(&Submission::starter("new").grade()), [""; 0]);
+    assert_eq!(next(&STARTER), [""; 0]);
 }
 
 #[test]
 fn the_last_task_leads_to_a_picture_and_a_challenge_but_not_for_staff_or_a_platform() {
-    let submission = Submission::reference("full");
     let lines = [
         "next    `cargo render cornell-box` draws with your code",
         "handout/src/traversal.md, \"A challenge\"",
     ];
-    assert_eq!(next(&submission.grade()), lines);
-    let exam = submission.path().join("exam.json");
-    fs::write(&exam, RAYS.practice_exam).unwrap();
-    let exam = exam.to_string_lossy().into_owned();
-    for arguments in [["--exam", &exam], ["--format", "text"]] {
+    assert_eq!(next(&REFERENCE), lines);
+    let submission = Submission::reference("full");
+    let exam = submission.file_option("--exam", "exam.json", RAYS.practice_exam);
+    for arguments in [exam, ["--format", "text"].map(str::to_owned)] {
         assert_eq!(next(&submission.grade_with(&arguments)), [""; 0]);
     }
 }
@@ -72,7 +66,6 @@ fn one_complete_task_leads_to_the_others() {
 }
 
 /// Runs the grader in a workspace with a built handout of one page.
-#[cfg(target_os = "linux")]
 #[test]
 fn what_to_read_is_a_link_if_there_is_a_book() {
     let folder = linked_workspace();
@@ -83,41 +76,29 @@ fn what_to_read_is_a_link_if_there_is_a_book() {
     let url = format!("file://{}/triangle.html", book.display());
 
     let submission = with_solved(&["camera.rs"]);
-    let out = submission.path().join("out");
-    let mut grade = Command::new(env!("CARGO_BIN_EXE_grader"));
-    grade
-        .current_dir(folder.path())
-        .arg("--out")
-        .args([&out, &submission.path()]);
-    let output = grade.env("CLICOLOR_FORCE", "1").output().unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        text.contains("handout/src/triangle.md") && !text.contains(&url),
-        "{text}"
-    );
+    let mut grade = grade_into(&submission.path(), &submission.out());
+    grade.current_dir(folder.path());
+    let graded = submission.run(grade.env("CLICOLOR_FORCE", "1"));
+    assert_eq!(graded.exit_code(), 0, "{}", graded.error());
+    let text = graded.report();
+    assert!(text.contains("handout/src/triangle.md"), "{text}");
+    assert!(!text.contains(&url), "{text}");
 
-    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    let page = graded.page();
     assert!(page.contains(&format!("<a href=\"{url}")), "{page}");
     assert!(!page.contains("sphere.html"), "the book has no such page");
 
     // `script` runs a command on a terminal of its own.
-    let grader = Path::new(env!("CARGO_BIN_EXE_grader")).display();
-    let (out, folder_of_files) = (out.display(), submission.path());
-    let line = format!("'{grader}' --out '{out}' '{}'", folder_of_files.display());
+    let words = [grade.get_program()].into_iter().chain(grade.get_args());
+    let line: Vec<String> = words.map(|word| format!("'{}'", word.display())).collect();
     let mut script = Command::new("script");
-    script
-        .args(["-qec", &line, "/dev/null"])
-        .current_dir(folder.path());
-    script
-        .env("TERM", "xterm-256color")
-        .env_remove("NO_COLOR")
-        .env_remove("CI");
+    script.args(["-qec", &line.join(" "), "/dev/null"]);
+    script.current_dir(folder.path());
+    script.env("TERM", "xterm-256color");
+    script.env_remove("NO_COLOR").env_remove("CI");
     let Ok(output) = script.output() else {
-        assert!(
-            std::env::var_os("CI").is_none(),
-            "there is no `script` for a terminal"
-        );
+        let in_ci = std::env::var_os("CI").is_some();
+        assert!(!in_ci, "there is no `script` for a terminal");
         eprintln!("SKIPPED: links on a terminal, because there is no `script`");
         return;
     };

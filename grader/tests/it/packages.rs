@@ -32,10 +32,7 @@ const OTHER_FILES: [(&str, &str); 6] = [
     ),
 ];
 
-/// A description of a problem, the files of a package that has it, and the mode of all these files.
-type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, u32);
-
-/// Returns a zip with these files.
+/// Returns a zip with these files, which all have this mode.
 fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
@@ -48,15 +45,11 @@ fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     archive.finish().unwrap().into_inner()
 }
 
-/// Checks a zip with these files.
-fn check_files(files: &[(&str, &str)], mode: u32) -> String {
-    check_bytes(&make_zip(files, mode))
-}
-
+/// Checks a package with these bytes.
 fn check_bytes(bytes: &[u8]) -> String {
     let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("package.zip"), bytes).unwrap();
     let path = folder.path().join("package.zip");
+    fs::write(&path, bytes).unwrap();
     check_path(&path)
 }
 
@@ -89,83 +82,61 @@ fn package_except<'a>(
 
 #[test]
 fn a_complete_package_has_no_problems() {
-    let text = check_files(&package_except(&small_exam("final"), "", None), 0o755);
-    assert_eq!(text, "");
+    let exam = small_exam("final");
+    let complete = make_zip(&package_except(&exam, "", None), 0o755);
+    assert_eq!(check_bytes(&complete), "");
 }
 
 #[test]
 fn reports_each_problem_with_a_remedy() {
     let (good, practice) = (small_exam("final"), small_exam("practice"));
     let exam = "pathtracing/exam.json";
-    let without = |name| package_except(&good, name, None);
-    let with = |name, text| package_except(&good, name, Some((name, text)));
-    let bad: [Case; 14] = [
-        (
-            "the folder was zipped",
-            vec![("mine/setup.sh", ""), ("mine/run_autograder", "")],
-            0o755,
-        ),
-        ("empty", vec![], 0o755),
-        (
-            "Windows line endings",
-            with(SETUP.0, "#!/bin/sh\r\n"),
-            0o755,
-        ),
+    let zip = |files: &[(&str, &str)]| make_zip(files, 0o755);
+    let without = |name| zip(&package_except(&good, name, None));
+    let with = |name, text| zip(&package_except(&good, name, Some((name, text))));
+    let windows = "#!/bin/sh\r\n";
+    let newest = "#!/bin/sh\nrustup-init -y --default-toolchain stable\n";
+    // The package contains a crate, but none of the crates that only Linux needs.
+    let other_crate = ("pathtracing/crates/registry/cache/x/glam-0.34.crate", "");
+    let not_of_linux = package_except(&good, OTHER_FILES[4].0, Some(other_crate));
+    let folder = [("mine/setup.sh", ""), ("mine/run_autograder", "")];
+    let mut damaged = with(OTHER_FILES[0].0, "fn main() { todo!() }");
+    let offset = damaged.windows(4).position(|bytes| bytes == b"todo");
+    damaged[offset.unwrap()] = b'T';
+    let wrong_policy = "[visibility.items]\ncamra = 'all'";
+    let cases = [
+        ("the folder was zipped", zip(&folder)),
+        ("empty", zip(&[])),
+        ("Windows line endings", with(SETUP.0, windows)),
         (
             "Windows line endings in a subfolder",
-            with(GRADE.0, "#!/bin/sh\r\n"),
-            0o755,
+            with(GRADE.0, windows),
         ),
+        ("newest Rust", with(SETUP.0, newest)),
+        ("no shebang line", with(RUN.0, "echo")),
         (
-            "newest Rust",
-            with(
-                SETUP.0,
-                "#!/bin/sh\nrustup-init -y --default-toolchain stable\n",
-            ),
-            0o755,
+            "not executable",
+            make_zip(&package_except(&good, "", None), 0o644),
         ),
-        ("no shebang line", with(RUN.0, "echo"), 0o755),
-        ("not executable", without(""), 0o644),
-        ("practice exam", with(exam, &practice), 0o755),
+        ("practice exam", with(exam, &practice)),
         // The exam is truncated before any answer, so that the error position does not depend on
         // its contents.
-        ("truncated exam", with(exam, &good[..100]), 0o755),
-        ("no exam, no crates", vec![SETUP, RUN, POLICY], 0o755),
-        ("no grading script", without(GRADE.0), 0o755),
-        ("no solution", without(OTHER_FILES[2].0), 0o755),
-        (
-            "not written on Linux",
-            package_without_linux_crates(&good),
-            0o755,
-        ),
-        (
-            "invalid policy",
-            with(POLICY.0, "[visibility.items]\ncamra = 'all'"),
-            0o755,
-        ),
+        ("truncated exam", with(exam, &good[..100])),
+        ("no exam, no crates", zip(&[SETUP, RUN, POLICY])),
+        ("no grading script", without(GRADE.0)),
+        ("no solution", without(OTHER_FILES[2].0)),
+        ("not written on Linux", zip(&not_of_linux)),
+        ("invalid policy", with(POLICY.0, wrong_policy)),
+        ("not a zip", b"not a zip".to_vec()),
+        ("damaged", damaged),
     ];
     let mut all = String::new();
-    for (what, files, mode) in &bad {
-        let text = check_files(files, *mode);
+    for (what, bytes) in &cases {
+        let text = check_bytes(bytes);
         assert!(!text.is_empty(), "{what}");
         all.push_str(&format!("-- {what}\n{text}\n"));
     }
-    let text = check_bytes(b"not a zip");
-    all.push_str(&format!("-- not a zip\n{text}\n"));
-    let marked = with(OTHER_FILES[0].0, "fn main() { todo!() }");
-    let mut damaged = make_zip(&marked, 0o755);
-    let offset = damaged.windows(4).position(|bytes| bytes == b"todo");
-    damaged[offset.unwrap()] = b'T';
-    let text = check_bytes(&damaged);
-    all.push_str(&format!("-- damaged\n{text}"));
     insta::assert_snapshot!(all);
-}
-
-/// Returns the files of a package that contains a crate, but none of the crates that only Linux
-/// needs.
-fn package_without_linux_crates(exam: &str) -> Vec<(&str, &str)> {
-    let other = ("pathtracing/crates/registry/cache/x/glam-0.34.crate", "");
-    package_except(exam, OTHER_FILES[4].0, Some(other))
 }
 
 /// Writes files below a folder.

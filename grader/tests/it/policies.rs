@@ -3,24 +3,23 @@
 use serde_json::Value;
 
 use crate::formats::{FormatTexts, grade_in_all_formats, models, small_exam, student_formats};
-use crate::harness::{Submission, grader};
+use crate::harness::{Submission, assert_fails, grader};
 
 #[test]
 fn an_invalid_policy_is_rejected_before_anything_is_graded() {
-    let submission = Submission::starter("any").with("policy.toml", "[late]\nfree_dayz = 2");
-    let path = submission.path().join("policy.toml");
-    let graded = submission.grade_with(&["--policy", path.to_str().unwrap()]);
-    assert_eq!(graded.exit_code(), 2, "{}", graded.error());
-    assert!(graded.score.is_none(), "nothing was graded");
+    let submission = Submission::starter("any");
+    let policy = submission.file_option("--policy", "policy.toml", "[late]\nfree_dayz = 2");
+    let graded = submission.grade_with(&policy);
     let line = "policy.toml, line 2: unknown field `free_dayz`";
-    assert!(graded.error().contains(line), "{}", graded.error());
+    assert_fails(&graded.output, 2, line);
+    assert!(graded.score.is_none(), "nothing was graded");
 }
 
 #[test]
 fn the_policy_scales_points_but_not_the_score() {
-    let submission = Submission::not_compiling().with("policy.toml", "[points]\nout_of = 30");
-    let path = submission.path().join("policy.toml");
-    let graded = submission.grade_with(&["--policy", path.to_str().unwrap()]);
+    let submission = Submission::not_compiling();
+    let policy = submission.file_option("--policy", "policy.toml", "[points]\nout_of = 30");
+    let graded = submission.grade_with(&policy);
     let points = graded.score()["points"].as_u64().unwrap();
     let counted = (2 * points * 30 + 100) / 200;
     let line =
@@ -57,24 +56,17 @@ fn every_format_says_what_a_late_submission_counts_and_why() {
 fn grade_late(policy: &str) -> FormatTexts {
     let metadata = r#"{"id": 1, "created_at": "2026-11-21T00:10:00.365935-08:00",
         "assignment": {"due_date": "2026-11-20T23:59:59.000000-08:00", "late_due_date": null}}"#;
-    let submission = Submission::reference("late")
-        .with("policy.toml", policy)
-        .with("metadata.json", metadata);
-    let path = |name: &str| submission.path().join(name).to_str().unwrap().to_owned();
-    let (policy, metadata) = (path("policy.toml"), path("metadata.json"));
-    let late = ["--policy", &policy, "--gradescope-metadata", &metadata];
+    let submission = Submission::reference("late");
+    let policy = submission.file_option("--policy", "policy.toml", policy);
+    let metadata = submission.file_option("--gradescope-metadata", "metadata.json", metadata);
+    let late = [policy, metadata].concat();
     grade_in_all_formats(&submission, &small_exam("final"), &late)
 }
 
 #[test]
 fn missing_submission_times_are_not_the_students_fault() {
-    let submission = Submission::starter("any").with("metadata.json", "{}");
-    let path = submission.path().join("metadata.json");
-    let graded = submission.grade_with(&["--gradescope-metadata", path.to_str().unwrap()]);
-    assert_eq!(graded.exit_code(), 3, "{}", graded.error());
-    assert!(
-        graded.error().contains("nothing counts as late"),
-        "{}",
-        graded.error()
-    );
+    let submission = Submission::starter("any");
+    let metadata = submission.file_option("--gradescope-metadata", "metadata.json", "{}");
+    let graded = submission.grade_with(&metadata);
+    assert_fails(&graded.output, 3, "nothing counts as late");
 }

@@ -8,7 +8,7 @@ use clap::CommandFactory;
 use grader::cli::Arguments;
 use grader::handed_out::RAYS;
 
-use crate::harness::{Submission, assert_fails, grader};
+use crate::harness::{BUILD, FULL_POINTS, Submission, TRAVERSE, assert_fails, grader};
 
 fn reset_at(path: &Path, arguments: &[&str]) -> Output {
     let mut command = grader();
@@ -45,23 +45,19 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     let output = reset(&submission, &["Traverse"]);
     let message = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(output.status.success(), "{output:?}");
-    assert!(
-        message.contains("Bvh::hit is as handed out again"),
-        "{message}"
-    );
-    assert!(message.contains("bvh.rs.bak-1"), "{message}");
+    for part in ["Bvh::hit is as handed out again", "bvh.rs.bak-1"] {
+        assert!(message.contains(part), "{message}");
+    }
 
     assert_eq!(text(&submission, "bvh.rs.bak-1"), before);
     let after = text(&submission, "bvh.rs");
-    assert!(
-        after.contains("traces.fold(None, Trace::nearer)"),
-        "{after}"
-    );
-    assert!(after.contains("fn mine(&self)"), "{after}");
+    for part in ["traces.fold(None, Trace::nearer)", "fn mine(&self)"] {
+        assert!(after.contains(part), "{after}");
+    }
     let graded = submission.grade();
     let points = graded.points();
-    let full = |task: usize| u64::from(RAYS.assignment.tasks[task].points);
-    assert!(points[4] == full(4) && points[5] < full(5), "{points:?}");
+    assert_eq!(points[BUILD], FULL_POINTS[BUILD]);
+    assert!(points[TRAVERSE] < FULL_POINTS[TRAVERSE], "{points:?}");
     // The old file is in the folder, and is named, but does not matter.
     let report = graded.report();
     let note = "note: bvh.rs.bak-1 differs from bvh.rs, and is ignored";
@@ -121,11 +117,10 @@ fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
         // The other task could start afresh, but nothing changes if there is an error.
         let output = reset(&submission, &["bbox,sphere"]);
         let why = format!("cannot find Sphere::hit in sphere.rs: {reason}");
-        assert_refused(&output, &why);
-        assert_refused(
-            &output,
-            "`cargo grade --reset sphere.rs` replaces the whole",
-        );
+        let remedy = "`cargo grade --reset sphere.rs` replaces the whole";
+        for text in [&why, remedy] {
+            assert_refused(&output, text);
+        }
         assert_eq!((text(&submission, "sphere.rs"), files()), (before, count));
 
         assert!(reset(&submission, &["sphere.rs"]).status.success());

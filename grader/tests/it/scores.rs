@@ -4,16 +4,22 @@ use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::harness::{FULL_POINTS, Submission, grader, workspace};
+use crate::cases::{EXITING, NOT_COMPILING, PANICKING, STARTER};
+use crate::harness::{FULL_POINTS, GradeRun, Submission, grade_into, grader, workspace};
 
 #[test]
 fn the_reference_gets_full_points() {
-    let graded = grade_path("reference");
-    assert_eq!(graded["points"], 100);
-    assert_eq!(graded["max_points"], 100);
-    assert_eq!(graded["complete"], true);
+    let out = tempfile::TempDir::new().unwrap();
+    let graded = grade_into("reference".as_ref(), out.path()).output();
+    let graded = graded.unwrap();
+    assert!(graded.status.success(), "{graded:?}");
+    let score = std::fs::read(out.path().join("score.json")).unwrap();
+    let score: Value = serde_json::from_slice(&score).unwrap();
+    assert_eq!(score["points"], 100);
+    assert_eq!(score["max_points"], 100);
+    assert_eq!(score["complete"], true);
     // Its variants have files of the same names, which must not count as copies.
-    assert_eq!(graded["build"]["notes"], serde_json::json!([]));
+    assert_eq!(score["build"]["notes"], serde_json::json!([]));
 }
 
 #[test]
@@ -32,9 +38,8 @@ fn windows_line_endings_and_byte_order_marks_change_nothing() {
 
 #[test]
 fn the_starter_gets_no_points_and_each_task_says_why() {
-    let graded = Submission::starter("starter").grade();
-    assert_eq!(graded.points(), [0; 6]);
-    assert_snapshot!(graded.report());
+    assert_eq!(STARTER.points(), [0; 6]);
+    assert_snapshot!(STARTER.report());
 }
 
 #[test]
@@ -79,13 +84,13 @@ fn constant_answers_earn_nothing() {
 
 #[test]
 fn a_second_run_differs_only_in_timings() {
-    let submission = Submission::panicking();
-    let mut scores = [submission.grade().score(), submission.grade().score()];
-    for score in &mut scores {
+    let without_timings = |graded: &GradeRun| {
+        let mut score = graded.score();
         score["timings"] = Value::Null;
-    }
-    let [first, second] = scores.map(|score| score.to_string());
-    assert_eq!(first, second);
+        score.to_string()
+    };
+    let second = Submission::panicking().grade();
+    assert_eq!(without_timings(&PANICKING), without_timings(&second));
 }
 
 #[test]
@@ -95,34 +100,13 @@ fn every_score_file_matches_the_published_schema() {
     let (mut schemas, mut compiler) = (boon::Schemas::new(), boon::Compiler::new());
     compiler.add_resource("score.json", schema).unwrap();
     let schema = compiler.compile("score.json", &mut schemas).unwrap();
-    for submission in [
-        Submission::starter("starter"),
-        Submission::not_compiling(),
-        Submission::exiting(),
-    ] {
-        let score = submission.grade().score();
-        if let Err(error) = schemas.validate(&score, schema) {
+    for graded in [&STARTER, &NOT_COMPILING, &EXITING] {
+        if let Err(error) = schemas.validate(&graded.score(), schema) {
             panic!("{error}");
         }
     }
     // An invalid score must fail the validation.
-    let mut score = Submission::starter("starter").grade().score();
+    let mut score = STARTER.score();
     score["tasks"][0]["items"][0]["verdict"] = "splendid".into();
     assert!(schemas.validate(&score, schema).is_err());
-}
-
-fn grade_path(submission: &str) -> Value {
-    let out = tempfile::TempDir::new().unwrap();
-    let output = grader()
-        .arg(submission)
-        .arg("--out")
-        .arg(out.path())
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    serde_json::from_slice(&std::fs::read(out.path().join("score.json")).unwrap()).unwrap()
 }

@@ -31,32 +31,25 @@ fn files(path: &str, extensions: &[&str]) -> Vec<Source> {
     if absolute.is_dir() && !absolute.is_symlink() {
         let entries = fs::read_dir(&absolute).unwrap();
         let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
-        let below = names.map(|name| format!("{path}/{name}"));
-        let mut below: Vec<String> = below
-            .map(|path| path.trim_matches('/').to_owned())
-            .collect();
+        let below = names.map(|name| format!("{path}/{name}").trim_matches('/').to_owned());
+        let mut below: Vec<String> = below.collect();
         below.sort();
-        return below
-            .iter()
-            .flat_map(|path| files(path, extensions))
-            .collect();
+        let below = below.iter();
+        return below.flat_map(|path| files(path, extensions)).collect();
     }
     let extension = Path::new(path).extension().unwrap_or_default();
-    let is_read = extensions.iter().any(|known| extension == *known);
-    let text = is_read
-        .then(|| fs::read_to_string(&absolute).ok())
-        .flatten();
-    text.map(|text| (path.to_owned(), text))
-        .into_iter()
-        .collect()
+    if !extensions.iter().any(|known| extension == *known) {
+        return Vec::new();
+    }
+    let text = fs::read_to_string(&absolute).ok();
+    let file = text.map(|text| (path.to_owned(), text));
+    file.into_iter().collect()
 }
 
 /// Returns the Rust files below these folders.
 fn sources(folders: &[&str]) -> Vec<Source> {
-    folders
-        .iter()
-        .flat_map(|folder| files(folder, &["rs"]))
-        .collect()
+    let folders = folders.iter();
+    folders.flat_map(|folder| files(folder, &["rs"])).collect()
 }
 
 /// Returns the places of the lines of code that match, before the tests of each file.
@@ -78,29 +71,75 @@ fn contains_any(line: &str, words: &[&str]) -> bool {
     words.iter().any(|word| line.contains(word))
 }
 
-/// The folders whose files are used through the seam `grader::disk`, so that tests can make every
-/// operation fail.
-const THROUGH_THE_SEAM: [&str; 6] = [
-    "grader/class/src",
-    "grader/src/format",
-    "grader/src/policy",
-    "grader/src/report",
-    "grader/src/submission",
-    "grader/src/grade",
-];
-/// The files in them that do not use it, with the reasons.
-const BESIDE_THE_SEAM: [&str; 6] = [
-    // lists with `disk::before`, and asks for the kind of each entry
-    "grader/class/src/listing.rs",
-    // ask only whether the input is a file or a folder, and how large
-    "grader/class/src/input.rs",
-    "grader/class/src/unpack.rs",
-    // asks only whether a new folder is empty
-    "grader/class/src/similarity.rs",
-    // asks before each of the operations of which a write consists
-    "grader/src/report/atomic_write.rs",
-    // opens archives after asking, and the same file again to read it
-    "grader/src/submission/archive/mod.rs",
+/// Code that only a few files may have.
+struct Rule {
+    folders: &'static [&'static str],
+    is_found: fn(&str) -> bool,
+    /// Files and folders that may have it.
+    exceptions: &'static [&'static str],
+    instead: &'static str,
+}
+
+const RULES: [Rule; 4] = [
+    // Files are used through the seam `grader::disk`, so that tests can make every operation fail.
+    Rule {
+        folders: &[
+            "grader/class/src",
+            "grader/src/format",
+            "grader/src/policy",
+            "grader/src/report",
+            "grader/src/submission",
+            "grader/src/grade",
+        ],
+        is_found: is_call_of_std_fs,
+        exceptions: &[
+            // lists with `disk::before`, and asks for the kind of each entry
+            "grader/class/src/listing.rs",
+            // ask only whether the input is a file or a folder, and how large
+            "grader/class/src/input.rs",
+            "grader/class/src/unpack.rs",
+            // asks only whether a new folder is empty
+            "grader/class/src/similarity.rs",
+            // asks before each of the operations of which a write consists
+            "grader/src/report/atomic_write.rs",
+            // opens archives after asking, and the same file again to read it
+            "grader/src/submission/archive/mod.rs",
+        ],
+        instead: "use grader::files instead",
+    },
+    // A jump of the wall clock cannot change a grade, because nothing reads it.
+    Rule {
+        folders: &["grader/src", "grader/class/src", "grader/judging/src"],
+        is_found: is_call_of_a_clock,
+        // compares modification times of the compiler's files
+        exceptions: &["grader/src/build/toolchain.rs"],
+        instead: "points do not depend on time",
+    },
+    // Only one type adds a path to the error of the system.
+    Rule {
+        folders: &[
+            "grader/src",
+            "grader/class/src",
+            "grader/view/src",
+            "reference/author/src",
+        ],
+        is_found: is_error_of_the_system,
+        exceptions: &["grader/src/machine/files.rs"],
+        instead: "use grader::files::PathError instead",
+    },
+    // All programs print in one place.
+    Rule {
+        folders: &[
+            "grader/src",
+            "grader/class/src",
+            "grader/view/src",
+            "grader/judging/src",
+        ],
+        is_found: |line| contains_any(line, &["print!(", "println!(", "dbg!(", ".exit()"]),
+        // The sandbox prints no text of students.
+        exceptions: &["grader/src/machine/printing.rs", "grader/src/sandbox/"],
+        instead: "use grader::printing",
+    },
 ];
 
 fn is_call_of_std_fs(line: &str) -> bool {
@@ -108,39 +147,9 @@ fn is_call_of_std_fs(line: &str) -> bool {
     contains_any(line, &calls) && !line.trim_start().starts_with("use ")
 }
 
-#[test]
-fn files_are_used_through_the_seam() {
-    let mut sources = sources(&THROUGH_THE_SEAM);
-    let all = sources.len();
-    sources.retain(|(path, _)| !BESIDE_THE_SEAM.contains(&path.as_str()));
-    assert_eq!(
-        sources.len() + BESIDE_THE_SEAM.len(),
-        all,
-        "each exception exists"
-    );
-    let found = lines_with(&sources, is_call_of_std_fs);
-    assert_eq!(found, [""; 0], "use grader::files instead");
-}
-
-/// A jump of the wall clock cannot change a grade, because nothing reads it. The only exception compares
-/// modification times of the compiler's files.
-#[test]
-fn nothing_that_decides_points_reads_the_clock() {
-    let clocks = [
-        "SystemTime",
-        "UNIX_EPOCH",
-        "Timestamp::now",
-        "Zoned::now",
-        ".modified()",
-    ];
-    let sources = sources(&["grader/src", "grader/class/src", "grader/judging/src"]);
-    let found = lines_with(&sources, |line| contains_any(line, &clocks));
-    let exception = "grader/src/build/toolchain.rs:";
-    assert!(
-        found.iter().all(|place| place.starts_with(exception)),
-        "{found:?}"
-    );
-    assert!(!found.is_empty(), "the search finds the exception");
+fn is_call_of_a_clock(line: &str) -> bool {
+    let now = ["SystemTime", "UNIX_EPOCH", "Timestamp::now", "Zoned::now"];
+    contains_any(line, &now) || line.contains(".modified()")
 }
 
 /// Returns whether a line declares a field for the system's error, or a variant with fields for a path
@@ -151,57 +160,29 @@ fn is_error_of_the_system(line: &str) -> bool {
 }
 
 #[test]
-fn only_one_type_adds_a_path_to_the_error_of_the_system() {
-    let folders = [
-        "grader/src",
-        "grader/class/src",
-        "grader/view/src",
-        "reference/author/src",
-    ];
-    let found = lines_with(&sources(&folders), is_error_of_the_system);
-    assert_eq!(
-        found.len(),
-        1,
-        "use grader::files::PathError instead: {found:?}"
-    );
-    assert!(found[0].ends_with(|c: char| c.is_ascii_digit()) && found[0].contains("/files.rs:"));
-}
-
-#[test]
-fn all_programs_print_in_one_place() {
-    let folders = [
-        "grader/src",
-        "grader/class/src",
-        "grader/view/src",
-        "grader/judging/src",
-    ];
-    let mut sources = sources(&folders);
-    // The sandbox prints no text of students.
-    sources.retain(|(path, _)| {
-        !path.ends_with("/printing.rs") && !path.starts_with("grader/src/sandbox/")
-    });
-    let prints = ["print!(", "println!(", "dbg!(", ".exit()"];
-    let found = lines_with(&sources, |line| contains_any(line, &prints));
-    assert_eq!(found, [""; 0], "use grader::printing");
+fn only_the_exceptions_have_what_the_rules_forbid() {
+    for rule in RULES {
+        let mut found = lines_with(&sources(rule.folders), rule.is_found);
+        for exception in rule.exceptions {
+            let before = found.len();
+            found.retain(|place| !place.starts_with(exception));
+            assert!(found.len() < before, "{exception} is no exception");
+        }
+        assert_eq!(found, [""; 0], "{}", rule.instead);
+    }
 }
 
 #[test]
 fn the_search_finds_lines_of_code_only() {
+    let found = |text: &str, is_found: fn(&str) -> bool| {
+        let sources = [("a.rs".to_owned(), text.to_owned())];
+        lines_with(&sources, is_found)
+    };
     let text =
         "use std::fs;\nlet text = fs::read(path);\n// fs::\nFile::open(x)\n#[cfg(test)]\nfs::a()";
-    let sources = [("a.rs".to_owned(), text.to_owned())];
-    assert_eq!(
-        lines_with(&sources, is_call_of_std_fs),
-        ["a.rs:2", "a.rs:4"]
-    );
-    let sources = [(
-        "b.rs".to_owned(),
-        "Io {\n  pub source: io::Error,".to_owned(),
-    )];
-    assert_eq!(
-        lines_with(&sources, is_error_of_the_system),
-        ["b.rs:1", "b.rs:2"]
-    );
+    assert_eq!(found(text, is_call_of_std_fs), ["a.rs:2", "a.rs:4"]);
+    let text = "Io {\n  pub source: io::Error,";
+    assert_eq!(found(text, is_error_of_the_system), ["a.rs:1", "a.rs:2"]);
 }
 
 /// Returns the names that stand in backticks in the table of layers.

@@ -8,14 +8,14 @@ use crate::harness::{BBOX, BUILD, FULL_POINTS, Submission, TRAVERSE, TRIANGLE};
 /// An interval that begins and ends at the origin of a ray.
 const NEVER: &str = "protocol::Interval::new(0.0, 0.0)";
 
+/// The condition under which the left child is visited first.
+const LEFT_FIRST: &str = "if in_l.min <= in_r.min {";
+
 /// Returns a submission whose box test works only for rays with positive directions, since it does
 /// not swap entry and exit.
 fn without_swap() -> Submission {
-    Submission::reference("no-swap").with_replaced(
-        "bbox.rs",
-        "at_min.min(at_max).max_element()",
-        "at_min.max_element()",
-    )
+    let (swapped, kept) = ("at_min.min(at_max).max_element()", "at_min.max_element()");
+    Submission::reference("no-swap").with_replaced("bbox.rs", swapped, kept)
 }
 
 #[test]
@@ -25,23 +25,16 @@ fn a_wrong_box_test_does_not_cost_traversal_points() {
     assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
     assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
     // Without the reference, the traversal cannot be judged.
-    assert!(submission.grade().points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
-    assert!(
-        submission
-            .grade()
-            .verdicts("traverse")
-            .contains(&"blocked".to_owned())
-    );
+    let graded = submission.grade();
+    assert!(graded.points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
+    let verdicts = graded.verdicts("traverse");
+    assert!(verdicts.contains(&"blocked".to_owned()), "{verdicts:?}");
 }
 
 #[test]
 fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
     let graded = without_swap()
-        .with_replaced(
-            "bvh.rs",
-            "if in_l.min <= in_r.min {",
-            "if in_l.min > in_r.min {",
-        )
+        .with_replaced("bvh.rs", LEFT_FIRST, "if in_l.min > in_r.min {")
         .grade_with_reference();
     let points = graded.points();
     assert!(
@@ -81,17 +74,13 @@ fn finds_two_mistakes_that_hide_each_other() {
 /// The tree has cycles, so that the traversal of the submission's own trees never ends.
 #[test]
 fn a_tree_without_end_does_not_cost_traversal_points() {
-    let endless = Submission::reference("endless").with_replaced(
-        "bvh.rs",
-        "Node::interior(bbox, l, r)",
-        "Node::interior(bbox, start, middle)",
-    );
-    let points = endless.grade_with_reference().points();
+    let (right, cyclic) = ("interior(bbox, l, r)", "interior(bbox, start, middle)");
+    let endless = Submission::reference("endless").with_replaced("bvh.rs", right, cyclic);
+    let [points, alone] = endless.grade_impatiently().map(|graded| graded.points());
     assert_eq!(points[BUILD], 0);
     assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
     // Without the reference, the items that build a tree cannot be judged: two with three points.
-    let points = endless.grade().points();
-    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE] - 3);
+    assert_eq!(alone[TRAVERSE], FULL_POINTS[TRAVERSE] - 3);
 }
 
 /// A triangle without area lets the triangles' task hang, and its last items are not run. An item of
@@ -104,35 +93,25 @@ fn what_depends_on_a_stopped_task_is_not_run() {
         "while e1.cross(e2) == glam::Vec3::ZERO { std::hint::spin_loop(); }\n\
          let e1_x_d = e1.cross(ray.dir);",
     );
-    let points = hanging.grade_with_reference().points();
+    let [graded, alone] = hanging.grade_impatiently();
+    let points = graded.points();
     assert!(points[TRIANGLE] < FULL_POINTS[TRIANGLE], "{points:?}");
     assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
     // Without the reference, the picture and the radiance cannot be judged: two items with two points.
-    let graded = hanging.grade();
-    assert_eq!(graded.points()[TRAVERSE], FULL_POINTS[TRAVERSE] - 4);
-    assert_eq!(graded.verdicts("traverse"), ["blocked", "pass"]);
+    assert_eq!(alone.points()[TRAVERSE], FULL_POINTS[TRAVERSE] - 4);
+    assert_eq!(alone.verdicts("traverse"), ["blocked", "pass"]);
 }
 
 #[test]
 fn keeps_the_first_result_if_substitution_does_not_compile() {
+    let helper = "/// Mine.\npub const ZERO: f32 = 0.0;\n\nimpl Sphere {";
+    let with_helper = "if in_l.min <= in_r.min + crate::sphere::ZERO {";
     let graded = without_swap()
-        .with_replaced(
-            "sphere.rs",
-            "impl Sphere {",
-            "/// Mine.\npub const ZERO: f32 = 0.0;\n\nimpl Sphere {",
-        )
-        .with_replaced(
-            "bvh.rs",
-            "if in_l.min <= in_r.min {",
-            "if in_l.min <= in_r.min + crate::sphere::ZERO {",
-        )
+        .with_replaced("sphere.rs", "impl Sphere {", helper)
+        .with_replaced("bvh.rs", LEFT_FIRST, with_helper)
         .grade_with_reference();
     assert!(graded.points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
     assert!(!graded.verdicts("traverse").contains(&"blocked".to_owned()));
-    assert!(
-        !graded
-            .score()
-            .to_string()
-            .contains("\"carried_forward\":true")
-    );
+    let score = graded.score().to_string();
+    assert!(!score.contains("\"carried_forward\":true"), "{score}");
 }

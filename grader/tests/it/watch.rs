@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use crate::harness::{Submission, grader};
+use crate::harness::{Submission, assert_fails, grader};
 
 /// A grader process that waits for changes. The process is killed when this is dropped.
 pub struct WatchProcess {
@@ -18,13 +18,8 @@ impl WatchProcess {
     }
 
     fn start_with(submission: &Submission, add: impl Fn(&mut Command) -> &mut Command) -> Self {
-        let mut command = grader();
-        command
-            .arg("--watch")
-            .arg(submission.path())
-            .args(["--no-reference", "--out"])
-            .arg(submission.path().join("out"))
-            .stdout(Stdio::piped());
+        let mut command = submission.command();
+        command.arg("--watch").stdout(Stdio::piped());
         let mut child = add(&mut command).spawn().unwrap();
         let lines = BufReader::new(child.stdout.take().unwrap());
         WatchProcess { child, lines }
@@ -58,7 +53,7 @@ fn grades_every_save_and_updates_the_score_file() {
     let sphere = submission.path().join("sphere.rs");
     let right = fs::read_to_string(Submission::reference("right").path().join("sphere.rs"));
     let score = || {
-        let text = fs::read(submission.path().join("out/score.json")).unwrap();
+        let text = fs::read(submission.out().join("score.json")).unwrap();
         let score: serde_json::Value = serde_json::from_slice(&text).unwrap();
         (score["points"].as_u64(), score["complete"].as_bool())
     };
@@ -102,10 +97,8 @@ fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
     let path = std::env::join_paths(folders).unwrap();
 
     let mut watching = WatchProcess::start_with(&submission, |command| {
-        command
-            .arg("--open")
-            .env("DISPLAY", ":99")
-            .env("PATH", &path)
+        command.arg("--open").env("DISPLAY", ":99");
+        command.env("PATH", &path)
     });
     watching.report();
     // Twice, so that a page that is opened after every grading has been opened when we look.
@@ -115,11 +108,9 @@ fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
         fs::write(&sphere, format!("{code}{comment}\n")).unwrap();
         watching.report();
     }
-    let page = submission.path().join("out/report.html");
-    assert_eq!(
-        fs::read_to_string(opened).unwrap(),
-        format!("{}\n", page.display())
-    );
+    let page = submission.out().join("report.html");
+    let opened = fs::read_to_string(opened).unwrap();
+    assert_eq!(opened, format!("{}\n", page.display()));
     let page = fs::read_to_string(page).unwrap();
     assert!(page.contains("<body data-reload>"));
 }
@@ -127,5 +118,5 @@ fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
 #[test]
 fn fails_at_once_without_a_submission() {
     let output = grader().args(["--watch", "nowhere"]).output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    assert_fails(&output, 2, "nowhere: name the folder");
 }

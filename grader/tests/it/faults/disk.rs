@@ -11,7 +11,7 @@ use seccompiler::{
 use serde_json::Value;
 
 use super::workspace::WorkspaceCopy;
-use crate::harness::{FULL_POINTS, Submission, grader};
+use crate::harness::{Submission, grade_into};
 
 /// A script that mounts a `tmpfs` of a certain size at a path, runs a command, and prints the score
 /// file on that disk. Its arguments are the size, the path, and the command.
@@ -35,24 +35,13 @@ fn grade_on_disk(
 ) -> Option<Output> {
     let disk = workspace.path().join("target/grade/.cache/work");
     fs::create_dir_all(&disk).unwrap();
+    let grade = grade_into(&submission.path(), &disk.join("out"));
     let mut command = Command::new("unshare");
-    command.args([
-        "--mount",
-        "--user",
-        "--map-root-user",
-        "sh",
-        "-c",
-        SCRIPT,
-        "sh",
-    ]);
+    command.args(["--mount", "--user", "--map-root-user"]);
+    command.args(["sh", "-c", SCRIPT, "sh"]);
     command.arg(format!("{kilobytes}k")).arg(&disk);
-    command
-        .arg(env!("CARGO_BIN_EXE_grader"))
-        .arg(submission.path());
-    command
-        .arg("--no-reference")
-        .arg("--out")
-        .arg(disk.join("out"));
+    command.arg(grade.get_program()).args(grade.get_args());
+    command.arg("--no-reference");
     let output = command.current_dir(workspace.path()).output();
     let output = output.ok().filter(|output| {
         let refused = String::from_utf8_lossy(&output.stderr).contains("unshare: ");
@@ -69,10 +58,8 @@ fn grade_on_disk(
 /// fits. A full disk must never cost the student points.
 #[test]
 fn a_full_disk_is_reported_and_gives_no_score() {
-    let (workspace, submission) = (
-        WorkspaceCopy::with_dependencies(),
-        Submission::reference("any"),
-    );
+    let workspace = WorkspaceCopy::with_dependencies();
+    let submission = Submission::reference("any");
     let mut complete = Vec::new();
     for kilobytes in [4, 1_000, 3_000, 200_000] {
         let Some(output) = grade_on_disk(kilobytes, &workspace, &submission) else {
@@ -82,11 +69,7 @@ fn a_full_disk_is_reported_and_gives_no_score() {
         let score: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
         match output.status.code() {
             Some(0) => {
-                assert_eq!(
-                    score["points"],
-                    FULL_POINTS.iter().sum::<u64>(),
-                    "{kilobytes} kB"
-                );
+                assert_eq!(score["points"], 100, "{kilobytes} kB");
                 complete.push(kilobytes);
             }
             code => {
@@ -96,17 +79,13 @@ fn a_full_disk_is_reported_and_gives_no_score() {
                 let is_complete = score["complete"] == true;
                 assert!(!is_complete || score["points"] == 100, "{kilobytes} kB");
                 let reasons = ["no space left on device", "the disk is full"];
-                assert!(
-                    reasons.iter().any(|reason| error.contains(reason)),
-                    "{kilobytes} kB: {error}"
-                );
+                let says_why = reasons.iter().any(|reason| error.contains(reason));
+                assert!(says_why, "{kilobytes} kB: {error}");
             }
         }
     }
-    assert!(
-        complete.contains(&200_000) && !complete.contains(&1_000),
-        "{complete:?}"
-    );
+    let [least, most] = [1_000, 200_000].map(|size| complete.contains(&size));
+    assert!(most && !least, "{complete:?}");
 }
 
 /// Denies `tmpfs` mounts to this thread from now on, and to all processes that it starts.
@@ -128,17 +107,10 @@ fn deny_tmpfs_mounts() {
 #[test]
 fn without_tmpfs_full_isolation_is_refused_and_nothing_is_graded() {
     let submission = Submission::reference("any");
-    let out = submission.path().join("out");
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(&out);
-    command.args(["--no-reference", "--isolation", "full"]);
     let graded = thread::spawn(move || {
         deny_tmpfs_mounts();
-        command.output().unwrap()
+        submission.grade_with(&["--isolation", "full"])
     });
-    super::assert_grader_fault(
-        &graded.join().unwrap(),
-        &out,
-        "isolation level full is not available",
-    );
+    let why = "isolation level full is not available";
+    super::assert_grader_fault(&graded.join().unwrap(), why);
 }

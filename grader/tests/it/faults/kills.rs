@@ -8,17 +8,17 @@ use std::time::Instant;
 
 use serde_json::Value;
 
-use crate::harness::{Submission, grader};
+use crate::cases::compile_dependencies;
+use crate::harness::{Submission, grade_into};
 
 #[cfg(target_os = "linux")]
-use super::processes::{child_named, eventually, is_running};
+use super::processes::{eventually, is_running};
 #[cfg(target_os = "linux")]
 use super::workspace::WorkspaceCopy;
 
 /// Starts the grader on a submission, with `out` as the output folder.
 fn start(submission: &Submission, out: &Path) -> Child {
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(out);
+    let mut command = grade_into(&submission.path(), out);
     command.args(["--no-reference", "--format", "gradescope", "junit"]);
     let command = command.stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().unwrap()
@@ -47,8 +47,8 @@ fn assert_outputs_parse(out: &Path) {
 fn kill_at_moments(times: u32) {
     let submission = Submission::reference("killed");
     let out = submission.path().join("undisturbed");
-    // Compiles the dependencies, so that the run that is timed does not.
-    submission.grade();
+    // The run that is timed does not compile the dependencies.
+    compile_dependencies();
     let began = Instant::now();
     start(&submission, &out).wait().unwrap();
     let took = began.elapsed();
@@ -73,11 +73,8 @@ fn kill_at_moments(times: u32) {
         }
         if time % 10 == 0 {
             start(&submission, &out).wait().unwrap();
-            assert_eq!(
-                read_score(&out).as_ref(),
-                Some(&undisturbed),
-                "at {moment:?}"
-            );
+            let score = read_score(&out);
+            assert_eq!(score.as_ref(), Some(&undisturbed), "at {moment:?}");
         }
     }
     eprintln!("killed {times} times in {took:?}, {partial} times with some points");
@@ -94,20 +91,6 @@ fn two_hundred_killed_runs_leave_no_incomplete_file_that_looks_complete() {
     kill_at_moments(200);
 }
 
-/// Kills the grader while it runs a submission that hangs.
-#[cfg(target_os = "linux")]
-#[test]
-fn no_process_outlives_a_killed_grader() {
-    Submission::reference("first").grade();
-    let submission = Submission::looping();
-    let out = submission.path().join("out");
-    let mut grader = start(&submission, &out);
-    let probe = eventually(|| child_named("probe", grader.id()));
-    grader.kill().unwrap();
-    grader.wait().unwrap();
-    eventually(|| (!is_running(probe)).then_some(()));
-}
-
 /// Kills the grader while it waits for a fake cargo, which has started another process and takes
 /// ten minutes.
 #[cfg(target_os = "linux")]
@@ -116,10 +99,9 @@ fn cargo_does_not_outlive_a_killed_grader() {
     let workspace = WorkspaceCopy::new();
     let cargo = workspace.fake_cargo("sleep 600 &\necho $! > slept\nwait\n");
     let submission = Submission::reference("any");
-    let mut grader = grader();
-    let grader = grader.arg(submission.path()).env("CARGO", cargo);
-    let grader = grader.current_dir(workspace.path()).stderr(Stdio::null());
-    let mut grader = grader.spawn().unwrap();
+    let mut command = submission.command();
+    let command = command.env("CARGO", cargo).current_dir(workspace.path());
+    let mut grader = command.stderr(Stdio::null()).spawn().unwrap();
     let slept = || fs::read_to_string(workspace.path().join("slept")).ok();
     let sleeping: u32 = eventually(|| slept()?.trim().parse().ok());
     assert!(is_running(sleeping));

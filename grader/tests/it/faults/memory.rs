@@ -2,28 +2,18 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
-
-use serde_json::Value;
 
 use super::assert_grader_fault;
 use super::processes::{child_named, cpu_time, eventually};
-use crate::harness::{Submission, grader, workspace};
+use crate::cases::compile_dependencies;
+use crate::harness::{GradeRun, Submission, assert_fails, workspace};
 
 /// CPU time after which a process has certainly started its work.
 const BUSY: Duration = Duration::from_millis(100);
 /// The name of the honest program that shows whether the machine is the reason.
 const CONTROL: &str = "control";
-
-/// Starts the grader on a submission, with `out` as the output folder.
-fn start(submission: &Submission, out: &Path) -> Child {
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(out);
-    command.args(["--no-reference", "--cpu-limit", "5"]);
-    let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
-    command.spawn().unwrap()
-}
 
 fn kill(process: u32) {
     let kill = format!("kill -KILL {process}");
@@ -33,90 +23,68 @@ fn kill(process: u32) {
 
 /// Grades a submission. Meanwhile, kills children of the grader: one with each name and at least
 /// this much CPU time, in this order.
-fn grade_while_killing(
-    victims: &[(&str, Duration)],
-    submission: &Submission,
-    out: &Path,
-) -> Output {
-    let grader = start(submission, out);
+fn grade_while_killing(victims: &[(&str, Duration)], submission: &Submission) -> GradeRun {
+    compile_dependencies();
+    let mut command = submission.command();
+    command.args(["--cpu-limit", "2"]);
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let grader = command.spawn().unwrap();
     let mut last = 0;
     for (name, busy) in victims {
         let is_next = |child: &u32| *child != last && cpu_time(*child) >= Some(*busy);
         last = eventually(|| child_named(name, grader.id()).filter(is_next));
         kill(last);
     }
-    grader.wait_with_output().unwrap()
+    submission.results(grader.wait_with_output().unwrap())
 }
 
-fn score(out: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(out.join("score.json")).unwrap()).unwrap()
+/// The reference with another item in `sphere.rs`.
+fn with_constant(name: &str, item: &str) -> Submission {
+    let first = "use framework::math;";
+    let submission = Submission::reference(name);
+    submission.with_replaced("sphere.rs", first, &format!("{first}\n{item}"))
 }
 
 /// A submission that the compiler works on for a long time.
 fn long_to_compile() -> Submission {
-    Submission::reference("long").with_replaced(
-        "sphere.rs",
-        "use framework::math;",
-        "use framework::math;\n#[allow(long_running_const_eval)]\nconst LONG: u32 = {\nlet mut n = \
-         0_u32;\nwhile n < 2 { n = (n + 1) % 2; }\nn\n};",
-    )
+    let long = "#[allow(long_running_const_eval)]\nconst LONG: u32 = {\nlet mut n = \
+                0_u32;\nwhile n < 2 { n = (n + 1) % 2; }\nn\n};";
+    with_constant("long", long)
 }
 
 #[test]
 fn if_every_compiler_is_killed_it_is_not_the_submissions_fault() {
-    Submission::reference("first").grade();
-    let submission = long_to_compile();
-    let out = submission.path().join("out");
     let victims = [("rustc", BUSY), ("rustc", BUSY), ("rustc", Duration::ZERO)];
-    let output = grade_while_killing(&victims, &submission, &out);
-    assert_grader_fault(&output, &out, "give this machine more memory");
+    let graded = grade_while_killing(&victims, &long_to_compile());
+    assert_grader_fault(&graded, "give this machine more memory");
 }
 
 #[test]
 fn if_only_the_submissions_compiler_is_killed_it_is_the_submissions_fault() {
-    Submission::reference("first").grade();
-    let submission = long_to_compile();
-    let out = submission.path().join("out");
-    let output = grade_while_killing(&[("rustc", BUSY); 2], &submission, &out);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{error}");
-    let why = &score(&out)["build"]["not_compiled"][0]["message"];
+    let graded = grade_while_killing(&[("rustc", BUSY); 2], &long_to_compile());
+    let why = &graded.score()["build"]["not_compiled"][0]["message"];
     let why = why.as_str().unwrap();
     assert!(why.contains("when nothing else was running"), "{why}");
 }
 
 #[test]
 fn a_program_killed_once_is_run_again() {
-    Submission::reference("first").grade();
-    let submission = Submission::looping();
-    let out = submission.path().join("out");
-    let output = grade_while_killing(&[("probe", BUSY)], &submission, &out);
-    assert_eq!(output.status.code(), Some(0));
-    let tasks = &score(&out)["tasks"];
-    assert_eq!(tasks[2]["items"][0]["verdict"], "timed_out");
+    let graded = grade_while_killing(&[("probe", BUSY)], &Submission::looping());
+    assert_eq!(graded.items("sphere")[0]["verdict"], "timed_out");
 }
 
 #[test]
 fn if_every_program_is_killed_it_costs_no_points() {
-    Submission::reference("first").grade();
-    let submission = Submission::looping();
-    let out = submission.path().join("out");
     let victims = [("probe", BUSY), ("probe", BUSY), (CONTROL, Duration::ZERO)];
-    let output = grade_while_killing(&victims, &submission, &out);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{error}");
-    assert!(error.contains("the system killed the program"), "{error}");
-    assert_eq!(score(&out)["complete"], false);
+    let graded = grade_while_killing(&victims, &Submission::looping());
+    assert_fails(&graded.output, 3, "the system killed the program");
+    assert_eq!(graded.written_score()["complete"], false);
 }
 
 #[test]
 fn if_only_the_submissions_program_is_killed_it_is_the_submissions_fault() {
-    Submission::reference("first").grade();
-    let submission = Submission::looping();
-    let out = submission.path().join("out");
-    let output = grade_while_killing(&[("probe", BUSY); 2], &submission, &out);
-    assert_eq!(output.status.code(), Some(0));
-    let item = &score(&out)["tasks"][2]["items"][0];
+    let graded = grade_while_killing(&[("probe", BUSY); 2], &Submission::looping());
+    let item = &graded.items("sphere")[0];
     assert_eq!(item["verdict"], "crashed", "{item}");
 }
 
@@ -167,35 +135,19 @@ fn in_a_small_container_a_bomb_exceeds_its_own_limit() {
         eprintln!("SKIPPED: no control group can be created here; this needs root");
         return;
     };
-    Submission::reference("first").grade();
+    compile_dependencies();
+    let grade = |submission: &Submission| submission.results(group.run(&submission.command()));
     // The compiler builds these values in its memory.
     for value in [
         "#[used]\npub static HUGE: [u8; 1_500_000_000] = [1; 1_500_000_000];",
         "#[used]\npub static LONG: &[[u64; 1000]] = &[[7; 1000]; 200_000];",
     ] {
-        let bomb = Submission::reference("bomb").with_replaced(
-            "sphere.rs",
-            "use framework::math;",
-            &format!("use framework::math;\n{value}"),
-        );
-        let out = bomb.path().join("out");
-        let mut command = grader();
-        command.arg(bomb.path()).arg("--out").arg(&out);
-        let output = group.run(command.arg("--no-reference"));
-        let error = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{error}");
-        let score = score(&out);
+        let score = grade(&with_constant("bomb", value)).score();
         assert_eq!(score["complete"], true);
         assert!(score["points"].as_u64() < Some(100), "{score}");
         let why = score["build"].to_string();
         assert!(!why.contains("nothing else was running"), "killed: {why}");
     }
-    let honest = Submission::reference("honest");
-    let out = honest.path().join("out");
-    let mut command = grader();
-    command.arg(honest.path()).arg("--out").arg(&out);
-    let output = group.run(command.arg("--no-reference"));
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{error}");
-    assert_eq!(score(&out)["points"], 100);
+    let honest = grade(&Submission::reference("honest"));
+    assert_eq!(honest.score()["points"], 100);
 }

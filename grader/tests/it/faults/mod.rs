@@ -14,25 +14,21 @@ pub mod workspace;
 
 use std::fs;
 use std::path::Path;
-use std::process::Output;
 
-use crate::harness::{Submission, grader};
+use crate::harness::{GradeRun, Submission, assert_fails, grade_into};
 
-fn assert_grader_fault(output: &Output, out: &Path, why: &str) {
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{error}");
-    assert!(error.contains(why), "{error}");
-    assert!(!out.join("score.json").exists(), "a score was written");
+#[track_caller]
+fn assert_grader_fault(graded: &GradeRun, why: &str) {
+    assert_fails(&graded.output, 3, why);
+    assert!(graded.score.is_none(), "a score was written");
 }
 
 #[test]
 fn without_a_compiler_there_is_no_score() {
     let submission = Submission::reference("any");
-    let out = submission.path().join("out");
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(&out);
+    let mut command = submission.command();
     command.env_remove("CARGO").env("PATH", "/nonexistent");
-    assert_grader_fault(&command.output().unwrap(), &out, "install Rust");
+    assert_grader_fault(&submission.run(&mut command), "install Rust");
 }
 
 /// Grades with a linker on the `PATH` that always fails.
@@ -45,23 +41,13 @@ fn without_a_linker_there_is_no_score() {
     let tools = submission.path().join("tools");
     fs::create_dir(&tools).unwrap();
     let linker = tools.join("cc");
-    fs::write(
-        &linker,
-        "#!/bin/sh\necho No space left on device >&2\nexit 1\n",
-    )
-    .unwrap();
+    let script = "#!/bin/sh\necho No space left on device >&2\nexit 1\n";
+    fs::write(&linker, script).unwrap();
     fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
 
-    let out = submission.path().join("out");
     let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(&out);
-    command.arg("--no-reference").env("PATH", path);
-    assert_grader_fault(
-        &command.output().unwrap(),
-        &out,
-        "not even the starter compiles",
-    );
+    let graded = submission.run(submission.command().env("PATH", path));
+    assert_grader_fault(&graded, "not even the starter compiles");
 }
 
 /// Grades into `/dev/full`, the device that is always full.
@@ -69,9 +55,7 @@ fn without_a_linker_there_is_no_score() {
 #[test]
 fn without_a_writable_disk_there_is_no_score() {
     let submission = Submission::reference("any");
-    let out = Path::new("/dev/full/out");
-    let mut command = grader();
-    command.arg(submission.path()).arg("--out").arg(out);
-    command.arg("--no-reference");
-    assert_grader_fault(&command.output().unwrap(), out, "cannot write /dev/full");
+    let mut command = grade_into(&submission.path(), Path::new("/dev/full/out"));
+    let graded = submission.run(command.arg("--no-reference"));
+    assert_grader_fault(&graded, "cannot write /dev/full");
 }

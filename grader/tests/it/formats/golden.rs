@@ -4,17 +4,22 @@
 use insta::assert_snapshot;
 
 use crate::formats::{
-    FormatTexts, grade_in_all_formats, hostile_submission, models, small_exam, student_formats,
+    FormatTexts, KNOWN_MISTAKE, grade_in_all_formats, hostile_submission, models, small_exam,
+    student_formats,
 };
 use crate::harness::Submission;
 
-/// Grades a submission, checks each output against the model of its platform, and returns all
-/// outputs.
-fn assert_valid(submission: &Submission, arguments: &[&str]) -> FormatTexts {
-    let written = grade_in_all_formats(submission, &small_exam("practice"), arguments);
+/// Checks each output against the model of its platform.
+fn assert_valid(written: &FormatTexts) {
     for format in student_formats() {
         models::check(format.id, &written[format.id]);
     }
+}
+
+/// Grades a submission, checks the outputs, and returns them.
+fn valid_outputs(submission: &Submission, arguments: &[String]) -> FormatTexts {
+    let written = grade_in_all_formats(submission, &small_exam("practice"), arguments);
+    assert_valid(&written);
     written
 }
 
@@ -36,16 +41,18 @@ fn runner_commands(log: &str) -> String {
 
 #[test]
 fn every_submission_is_rendered_in_valid_formats() {
-    let written = assert_valid(&Submission::reference("perfect"), &[]);
+    let written = valid_outputs(&Submission::reference("perfect"), &[]);
     assert_eq!(runner_commands(&written["log"]), "");
-    assert_valid(&Submission::starter("starter"), &[]);
-    assert_valid(&Submission::not_compiling(), &[]);
-    assert_valid(&Submission::looping(), &["--cpu-limit", "1"]);
+    valid_outputs(&Submission::starter("starter"), &[]);
+    valid_outputs(&Submission::not_compiling(), &[]);
+    let limit = ["--cpu-limit", "1"].map(str::to_owned);
+    valid_outputs(&Submission::looping(), &limit);
 }
 
 #[test]
 fn renders_a_known_mistake() {
-    let written = assert_valid(&Submission::far_first("partial"), &[]);
+    let written = &*KNOWN_MISTAKE;
+    assert_valid(written);
     snapshot_settings().bind(|| {
         // The snapshots of a sample show each format; this shows what a real submission adds to it.
         assert_snapshot!(
@@ -58,7 +65,7 @@ fn renders_a_known_mistake() {
 
 #[test]
 fn hostile_text_is_rendered_without_commands_for_the_runner() {
-    let written = assert_valid(&hostile_submission(), &[]);
+    let written = valid_outputs(&hostile_submission(), &[]);
     snapshot_settings().bind(|| {
         assert_snapshot!("annotations-forging", runner_commands(&written["log"]));
     });

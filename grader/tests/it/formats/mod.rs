@@ -10,12 +10,11 @@ mod numbers;
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::sync::LazyLock;
 
+use crate::harness::{Submission, workspace};
 use grader::format::{FORMATS, FormatContext, FormatSpec, StudentView};
 use serde_json::Value;
-use tempfile::TempDir;
-
-use crate::harness::{Submission, grader, workspace};
 
 /// Returns all formats that students can read, which is all except the score file.
 pub fn student_formats() -> impl Iterator<Item = &'static FormatSpec> {
@@ -80,34 +79,32 @@ pub fn small_exam(id: &str) -> String {
     exam.to_string()
 }
 
+/// The outputs for a known mistake, in a folder called `partial`, in the practice exam.
+pub static KNOWN_MISTAKE: LazyLock<FormatTexts> = LazyLock::new(|| {
+    let submission = Submission::far_first("partial");
+    grade_in_all_formats(&submission, &small_exam("practice"), &[])
+});
+
 /// Grades a submission once, and returns the output in all formats.
 pub fn grade_in_all_formats(
     submission: &Submission,
     exam: &str,
-    arguments: &[&str],
+    arguments: &[String],
 ) -> FormatTexts {
-    let folder = TempDir::new().unwrap();
-    let (out, exam_file) = (folder.path().join("out"), folder.path().join("exam.json"));
-    fs::write(&exam_file, exam).unwrap();
-    let formats = student_formats().map(|format| format.id);
-    let output = grader()
+    let mut command = submission.command();
+    command
         .current_dir(submission.path().parent().unwrap())
-        .arg(submission.path())
-        .args(["--no-reference", "--exam"])
-        .arg(&exam_file)
-        .arg("--out")
-        .arg(&out)
+        .args(submission.file_option("--exam", "exam.json", exam))
         .arg("--format")
-        .args(formats)
+        .args(student_formats().map(|format| format.id))
         .args(arguments)
         .envs(RUNNER_VARIABLES)
         .env_remove("GITHUB_STEP_SUMMARY")
         .env_remove("GITHUB_WORKSPACE")
-        .env("GITHUB_ACTIONS", "true")
-        .output()
-        .unwrap();
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{error}");
+        .env("GITHUB_ACTIONS", "true");
+    let graded = submission.run(&mut command);
+    assert_eq!(graded.exit_code(), 0, "{}", graded.error());
+    let (out, output) = (submission.out(), graded.output);
     let text = |format: &FormatSpec| fs::read_to_string(out.join(format.file)).unwrap();
     let mut written: FormatTexts = FORMATS
         .into_iter()

@@ -106,9 +106,8 @@ fn students_cannot_tell_what_a_program_sent() {
     for level in ["feedback", "hidden"] {
         let policy = format!("[visibility]\nfinal = '{level}'");
         let outputs = [BITS, !BITS].map(|bits| {
-            let submission = sender(bits).with("policy.toml", &policy);
-            let path = submission.path().join("policy.toml");
-            let policy = ["--policy", path.to_str().unwrap()];
+            let submission = sender(bits);
+            let policy = submission.file_option("--policy", "policy.toml", &policy);
             grade_in_all_formats(&submission, &small_exam("final"), &policy)
         });
         let [one, other] = outputs.each_ref().map(messages);

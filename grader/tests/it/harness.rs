@@ -157,6 +157,16 @@ pub fn grade_into(submission: &Path, out: &Path) -> Command {
     command
 }
 
+/// Returns a command's program and arguments as a line for a shell.
+#[cfg(unix)]
+pub fn shell_line(command: &Command) -> String {
+    let words = [command.get_program()]
+        .into_iter()
+        .chain(command.get_args());
+    let quoted: Vec<String> = words.map(|word| format!("'{}'", word.display())).collect();
+    quoted.join(" ")
+}
+
 /// Checks that a run ended with this exit code and an error that contains `why`.
 #[track_caller]
 pub fn assert_fails(output: &Output, code: i32, why: &str) {

@@ -6,7 +6,7 @@ use std::process::Command;
 use grader::handed_out::RAYS;
 
 use crate::cases::{REFERENCE, STARTER};
-use crate::harness::{GradeRun, Submission, grade_into, linked_workspace, workspace};
+use crate::harness::{GradeRun, Submission, grade_into, linked_workspace, shell_line, workspace};
 
 /// The starter with these files of the reference.
 fn with_solved(files: &[&str]) -> Submission {
@@ -89,10 +89,8 @@ fn what_to_read_is_a_link_if_there_is_a_book() {
     assert!(!page.contains("sphere.html"), "the book has no such page");
 
     // `script` runs a command on a terminal of its own.
-    let words = [grade.get_program()].into_iter().chain(grade.get_args());
-    let line: Vec<String> = words.map(|word| format!("'{}'", word.display())).collect();
     let mut script = Command::new("script");
-    script.args(["-qec", &line.join(" "), "/dev/null"]);
+    script.args(["-qec", &shell_line(&grade), "/dev/null"]);
     script.current_dir(folder.path());
     script.env("TERM", "xterm-256color");
     script.env_remove("NO_COLOR").env_remove("CI");

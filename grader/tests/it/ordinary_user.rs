@@ -9,7 +9,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use crate::faults::workspace::WorkspaceCopy;
-use crate::harness::{Submission, workspace};
+use crate::harness::{Submission, grade_into, workspace};
 
 /// A user that exists on every system and owns nothing.
 const NOBODY: u32 = 65_534;
@@ -78,12 +78,9 @@ fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value>
         .args(["--mount", "sh", "-c", SCRIPT, "sh"])
         .arg(&home);
     command.arg(NOBODY.to_string());
-    command.args(at_home).arg("--").arg(grader);
-    command
-        .arg(submission.path())
-        .arg("--out")
-        .arg(&out)
-        .args(arguments);
+    let grade = grade_into(&submission.path(), &out);
+    command.args(at_home).arg("--").arg(grade.get_program());
+    command.args(grade.get_args()).args(arguments);
     command.env("CARGO", toolchain_folder().join("bin/cargo"));
     let output = command.current_dir(copy.path()).output().ok()?;
     let error = String::from_utf8_lossy(&output.stderr);

@@ -1,6 +1,5 @@
 //! A CI system executes commands in a log. Nothing that a student chooses may become one.
 
-use std::fs;
 use std::io::{Cursor, Write};
 use std::process::{Command, Output};
 
@@ -67,18 +66,15 @@ fn nothing_of_a_submission_is_a_command_in_a_log() {
 
 #[test]
 fn no_name_in_an_error_is_a_command_in_a_log() {
-    let submission = Submission::reference("alice");
-    let file = |name: &str, bytes: &[u8]| {
-        fs::write(submission.path().join(name), bytes).unwrap();
-    };
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let options = zip::write::SimpleFileOptions::default();
     let member = format!("../{COMMANDS}");
     archive.start_file(member, options).unwrap();
     archive.write_all(b"x").unwrap();
-    file("a.zip", &archive.finish().unwrap().into_inner());
-    file("policy.toml", format!("{COMMANDS:?} = 1").as_bytes());
-    file("exam.json", format!("{{{COMMANDS:?}: 1}}").as_bytes());
+    let submission = Submission::reference("alice")
+        .with("a.zip", archive.finish().unwrap().into_inner())
+        .with("policy.toml", format!("{COMMANDS:?} = 1"))
+        .with("exam.json", format!("{{{COMMANDS:?}: 1}}"));
     for arguments in [
         &["a.zip"][..],
         &[COMMANDS],

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::harness::{Submission, workspace};
+use crate::harness::{Submission, shell_line, workspace};
 
 /// A grader that watches a submission in a terminal. It ends when this is dropped.
 struct Terminal {
@@ -16,7 +16,7 @@ struct Terminal {
 impl Terminal {
     /// Starts the grader in a terminal with this many rows of 80 columns. Returns `None` without
     /// tmux, which is required in CI.
-    fn watch(submission: &Submission, rows: u32, options: &str) -> Option<Self> {
+    fn watch(submission: &Submission, rows: u32, options: &[&str]) -> Option<Self> {
         if Command::new("tmux").arg("-V").output().is_err() {
             assert!(std::env::var_os("CI").is_none(), "tmux is not installed");
             eprintln!("SKIPPED: tmux is not installed");
@@ -30,25 +30,12 @@ impl Terminal {
                 path.replace('/', "-")
             ),
         };
-        let command = format!(
-            "'{}' --watch '{path}' --no-reference --out '{path}/out' {options}",
-            env!("CARGO_BIN_EXE_grader")
-        );
-        let started = terminal
-            .tmux()
-            .current_dir(workspace())
-            .args([
-                "-f",
-                "/dev/null",
-                "new-session",
-                "-d",
-                "-x",
-                "80",
-                "-y",
-                &rows.to_string(),
-            ])
-            .arg(command)
-            .status();
+        let mut grade = submission.command();
+        grade.arg("--watch").args(options);
+        let mut tmux = terminal.tmux();
+        tmux.current_dir(workspace());
+        tmux.args(["-f", "/dev/null", "new-session", "-d", "-x", "80", "-y"]);
+        let started = tmux.args([rows.to_string(), shell_line(&grade)]).status();
         assert!(started.is_ok_and(|status| status.success()));
         Some(terminal)
     }
@@ -111,7 +98,7 @@ fn wrong_camera(name: &str) -> Submission {
 #[test]
 fn twelve_lines_show_the_failing_item_and_a_short_table() {
     let submission = wrong_camera("twelve");
-    let Some(terminal) = Terminal::watch(&submission, 12, "") else {
+    let Some(terminal) = Terminal::watch(&submission, 12, &[]) else {
         return;
     };
     let lines = terminal.lines_of_the_report();
@@ -122,21 +109,17 @@ fn twelve_lines_show_the_failing_item_and_a_short_table() {
         panic!("{lines:#?}")
     };
     assert!(rest.contains("… the rest: cargo grade "), "{lines:#?}");
-    assert!(
-        rest.ends_with("--task camera") || rest.ends_with('…'),
-        "{lines:#?}"
-    );
-    assert!(
-        table.contains("83 / 100: camera 0/15, triangle ✓"),
-        "{lines:#?}"
-    );
+    let is_whole = rest.ends_with("--task camera") || rest.ends_with('…');
+    assert!(is_whole, "{lines:#?}");
+    let points = "83 / 100: camera 0/15, triangle ✓";
+    assert!(table.contains(points), "{lines:#?}");
     assert!(!lines.concat().contains("TASK"), "{lines:#?}");
 }
 
 #[test]
 fn the_report_is_arranged_again_when_the_terminal_is_resized() {
     let submission = wrong_camera("resized");
-    let Some(terminal) = Terminal::watch(&submission, 12, "") else {
+    let Some(terminal) = Terminal::watch(&submission, 12, &[]) else {
         return;
     };
     let lines = terminal.lines_of_the_report().join("\n");
@@ -153,7 +136,7 @@ fn a_save_interrupts_an_endless_loop_and_old_results_are_grey() {
     let camera = fs::read_to_string(wrong_camera("x").path().join("camera.rs")).unwrap();
     let submission = wrong_camera("hanging");
     // With this limit, the loop takes five minutes.
-    let Some(terminal) = Terminal::watch(&submission, 24, "--cpu-limit 300") else {
+    let Some(terminal) = Terminal::watch(&submission, 24, &["--cpu-limit", "300"]) else {
         return;
     };
     terminal.wait_for("save a file");

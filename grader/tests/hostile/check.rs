@@ -40,6 +40,12 @@ pub enum ViolationKind {
     Harmed,
 }
 
+impl Violation {
+    fn new(kind: ViolationKind, what: String) -> Self {
+        Violation { kind, what }
+    }
+}
+
 /// Returns all failed checks. If there is a `baseline`, the score must equal the baseline's.
 pub fn violations(
     entry: &Entry,
@@ -48,91 +54,68 @@ pub fn violations(
     canaries: &Canaries,
     changes: Vec<String>,
 ) -> Vec<Violation> {
-    let mut all = Vec::new();
-    let mut found = |kind, what| all.push(Violation { kind, what });
-    changes
-        .into_iter()
-        .for_each(|what| found(ViolationKind::LeftBehind, what));
-    for listener in canaries.reached_listeners() {
-        found(ViolationKind::Leaked, format!("{listener} was contacted"));
-    }
-    for text in [Some(&run.printed), run.score.as_ref(), run.page.as_ref()] {
-        for secret in text.map_or(Vec::new(), |text| canaries.secrets_in(text)) {
-            found(
-                ViolationKind::Leaked,
-                format!("the output contains the secret from {secret}"),
-            );
+    let of = |kind| move |what| Violation::new(kind, what);
+    let left = changes.into_iter().map(of(ViolationKind::LeftBehind));
+    let leaked = leaks(run, canaries).into_iter();
+    let mut all: Vec<Violation> = left.chain(leaked.map(of(ViolationKind::Leaked))).collect();
+    let mut harms = excesses(entry, run);
+    let (code, printed) = (run.exit_code, &run.printed);
+    match &entry.expect.refused {
+        Some(why) => {
+            let is_refused = code == Some(2) && printed.contains(why) && run.score.is_none();
+            if !is_refused || !has_no_control_characters(printed) {
+                harms.push(format!("not refused, {code:?}: {printed}"));
+            }
+        }
+        None if code != Some(0) => harms.push(format!("exit code {code:?}: {printed}")),
+        None => {
+            harms.extend(report_problems(run));
+            let says = entry.expect.says.iter();
+            let missing = says.filter(|says| !printed.contains(*says));
+            harms.extend(missing.map(|says| format!("it does not say {says:?}:\n{printed}")));
+            match run.reproducible_score() {
+                Some(score) => all.extend(wrong_points(entry, &score)),
+                None => harms.push("there is no readable score".to_owned()),
+            }
+            let is_as_before =
+                |before: &GraderRun| before.reproducible_score() == run.reproducible_score();
+            if !baseline.is_none_or(is_as_before) {
+                harms.push("the reference is graded differently than before".to_owned());
+            }
         }
     }
-    if let Some(line) = run
-        .printed
-        .lines()
-        .find(|line| line.contains(REACHED_PREFIX))
-    {
-        found(ViolationKind::Leaked, line.trim().to_owned());
-    }
+    all.extend(harms.into_iter().map(of(ViolationKind::Harmed)));
+    all
+}
+
+/// Returns a message for each secret in the output, each line that says that something was reached,
+/// and each listener that was contacted.
+fn leaks(run: &GraderRun, canaries: &Canaries) -> Vec<String> {
+    let listeners = canaries.reached_listeners().into_iter();
+    let contacted = listeners.map(|listener| format!("{listener} was contacted"));
+    let texts = [Some(&run.printed), run.score.as_ref(), run.page.as_ref()];
+    let secrets = texts.into_iter().flatten();
+    let secrets = secrets.flat_map(|text| canaries.secrets_in(text));
+    let secrets = secrets.map(|secret| format!("the output contains the secret from {secret}"));
+    let mut lines = run.printed.lines();
+    let reached = lines.find(|line| line.contains(REACHED_PREFIX));
+    let reached = reached.map(|line| line.trim().to_owned());
+    contacted.chain(secrets).chain(reached).collect()
+}
+
+/// Returns a message for each limit of time, memory and open files that the grader has exceeded.
+fn excesses(entry: &Entry, run: &GraderRun) -> Vec<String> {
+    let mut excesses = Vec::new();
     if run.elapsed > entry.wall() {
-        found(ViolationKind::Harmed, format!("it took {:?}", run.elapsed));
+        excesses.push(format!("it took {:?}", run.elapsed));
     }
     if run.memory > MAX_MEMORY {
-        let megabytes = run.memory >> 20;
-        found(
-            ViolationKind::Harmed,
-            format!("the grader used {megabytes} MiB"),
-        );
+        excesses.push(format!("the grader used {} MiB", run.memory >> 20));
     }
     if run.open_files > MAX_OPEN_FILES {
-        found(
-            ViolationKind::Harmed,
-            format!("the grader had {} files open", run.open_files),
-        );
+        excesses.push(format!("the grader had {} files open", run.open_files));
     }
-    if let Some(why) = &entry.expect.refused {
-        let is_refused = run.exit_code == Some(2) && run.printed.contains(why);
-        if !is_refused || run.score.is_some() || !has_no_control_characters(&run.printed) {
-            let (code, printed) = (run.exit_code, &run.printed);
-            found(
-                ViolationKind::Harmed,
-                format!("not refused, {code:?}: {printed}"),
-            );
-        }
-        return all;
-    }
-    if run.exit_code != Some(0) {
-        let (code, printed) = (run.exit_code, &run.printed);
-        found(
-            ViolationKind::Harmed,
-            format!("exit code {code:?}: {printed}"),
-        );
-        return all;
-    }
-    for what in report_problems(run) {
-        found(ViolationKind::Harmed, what);
-    }
-    if let Some(says) = &entry.expect.says
-        && !run.printed.contains(says)
-    {
-        found(
-            ViolationKind::Harmed,
-            format!("it does not say {says:?}:\n{}", run.printed),
-        );
-    }
-    match run.reproducible_score() {
-        Some(score) => check_points(entry, &score, &mut found),
-        None => found(
-            ViolationKind::Harmed,
-            "there is no readable score".to_owned(),
-        ),
-    }
-    if let Some(before) = baseline
-        && before.reproducible_score() != run.reproducible_score()
-    {
-        found(
-            ViolationKind::Harmed,
-            "the reference is graded differently than before".to_owned(),
-        );
-    }
-    all
+    excesses
 }
 
 /// Returns a message for each problem with the reports themselves.
@@ -165,60 +148,49 @@ fn has_no_control_characters(text: &str) -> bool {
 }
 
 static SCHEMA: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {
-    let mut schemas = Schemas::new();
-    let mut compiler = Compiler::new();
+    let (mut schemas, mut compiler) = (Schemas::new(), Compiler::new());
     let schema = serde_json::from_str(score::PUBLISHED_SCHEMA).expect("JSON");
-    compiler
-        .add_resource("score.json", schema)
-        .expect("a schema");
-    let index = compiler
-        .compile("score.json", &mut schemas)
-        .expect("a schema");
-    (schemas, index)
+    let added = compiler.add_resource("score.json", schema);
+    added.expect("a schema");
+    let index = compiler.compile("score.json", &mut schemas);
+    (schemas, index.expect("a schema"))
 });
 
-/// Checks that each task has permitted points, and each item a permitted verdict.
-fn check_points(entry: &Entry, score: &Value, found: &mut impl FnMut(ViolationKind, String)) {
-    let tasks = score["tasks"].as_array();
-    for task in tasks.into_iter().flatten() {
+/// Returns a violation for each task without permitted points, and for each item without a permitted
+/// verdict.
+fn wrong_points(entry: &Entry, score: &Value) -> Vec<Violation> {
+    let mut wrong = Vec::new();
+    for task in score["tasks"].as_array().into_iter().flatten() {
         let id = task["id"].as_str().unwrap_or_default();
         let points = task["points"].as_u64().unwrap_or_default();
         let expected = entry.base_points().find(|(task, _)| *task == id);
         let expected = expected.map_or(0, |(_, points)| points);
-        match entry.expect.points.get(id) {
-            None if points > expected => {
-                found(
-                    ViolationKind::Forged,
-                    format!("{id}: {points} points instead of {expected}"),
-                );
-            }
-            None if points < expected => {
-                found(
-                    ViolationKind::Harmed,
-                    format!("{id}: {points} points instead of {expected}"),
-                );
-            }
-            None => {}
-            Some(most) => {
-                if points > *most {
-                    found(
-                        ViolationKind::Forged,
-                        format!("{id}: {points} points, at most {most}"),
-                    );
-                }
-                check_verdicts(entry, task, found);
-            }
+        let (most, limit) = match entry.expect.points.get(id) {
+            Some(most) => (*most, format!(", at most {most}")),
+            None => (expected, format!(" instead of {expected}")),
+        };
+        let what = format!("{id}: {points} points{limit}");
+        let is_affected = entry.expect.points.contains_key(id);
+        if points > most {
+            wrong.push(Violation::new(ViolationKind::Forged, what));
+        } else if points < most && !is_affected {
+            wrong.push(Violation::new(ViolationKind::Harmed, what));
+        }
+        if is_affected {
+            wrong.extend(wrong_verdicts(entry, task));
         }
     }
+    wrong
 }
 
-fn check_verdicts(entry: &Entry, task: &Value, found: &mut impl FnMut(ViolationKind, String)) {
-    for item in task["items"].as_array().into_iter().flatten() {
+fn wrong_verdicts(entry: &Entry, task: &Value) -> Vec<Violation> {
+    let items = task["items"].as_array().into_iter().flatten();
+    let wrong = items.filter_map(|item| {
         let verdict = item["verdict"].as_str().unwrap_or_default();
         let allowed = entry.expect.verdicts.iter().any(|known| known == verdict);
-        if verdict != "pass" && !allowed {
-            let (id, why) = (&item["id"], &item["message"]);
-            found(ViolationKind::Harmed, format!("{id} is {verdict}: {why}"));
-        }
-    }
+        let (id, why) = (&item["id"], &item["message"]);
+        let what = format!("{id} is {verdict}: {why}");
+        (verdict != "pass" && !allowed).then(|| Violation::new(ViolationKind::Harmed, what))
+    });
+    wrong.collect()
 }

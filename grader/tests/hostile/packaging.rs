@@ -67,45 +67,44 @@ pub enum Packaging {
 /// Packs the folder, and returns the path to submit.
 pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     let files = read_files(folder);
+    let tar_with =
+        |files: &[(String, Vec<u8>)], others: &[Member]| write_tar(folder, files, others);
+    let in_place_of_camera = |kind, target| tar_with(&files[1..], &[("camera.rs", kind, target)]);
     match packaging {
-        Packaging::Climbing => write_zip(folder, &files, Some("../../bvh.rs")),
-        Packaging::Absolute => write_zip(folder, &files, Some("/bvh.rs")),
-        Packaging::TwoSpellings => write_zip(folder, &files, Some("./Camera.rs")),
+        Packaging::Climbing => return write_zip(folder, &files, Some("../../bvh.rs")),
+        Packaging::Absolute => return write_zip(folder, &files, Some("/bvh.rs")),
+        Packaging::TwoSpellings => return write_zip(folder, &files, Some("./Camera.rs")),
         Packaging::OddNames => {
             let odd = "\u{1b}[2J\n\u{202e}sr.hvb\u{7}.rs";
-            write_tar(folder, &files, &[(odd, EntryType::Regular, None)])
+            return tar_with(&files, &[(odd, EntryType::Regular, None)]);
         }
-        Packaging::LinkToTheKey => {
-            let link = ("camera.rs", EntryType::Symlink, Some(key));
-            write_tar(folder, &files[1..], &[link])
-        }
+        Packaging::LinkToTheKey => return in_place_of_camera(EntryType::Symlink, Some(key)),
+        Packaging::HardLink => return in_place_of_camera(EntryType::Link, Some(key)),
+        Packaging::Pipe => return in_place_of_camera(EntryType::Fifo, None),
         Packaging::LinkedFolder => {
             let link = ("src", EntryType::Symlink, key.parent());
-            write_tar(
-                folder,
-                &files,
-                &[link, ("src/key", EntryType::Regular, None)],
-            )
+            let through = ("src/key", EntryType::Regular, None);
+            return tar_with(&files, &[link, through]);
         }
-        Packaging::HardLink => {
-            let link = ("camera.rs", EntryType::Link, Some(key));
-            write_tar(folder, &files[1..], &[link])
-        }
-        Packaging::Pipe => write_tar(folder, &files[1..], &[("camera.rs", EntryType::Fifo, None)]),
         Packaging::Bomb => {
-            let mut files = files;
-            files[0].1 = vec![b' '; 256 << 20];
-            write_zip(folder, &files, None)
+            let bomb = (files[0].0.clone(), vec![b' '; 256 << 20]);
+            return write_zip(folder, &[&[bomb], &files[1..]].concat(), None);
         }
         Packaging::ManyFiles => {
             let names = (0..1 << 16).map(|n| format!("{n}.txt"));
             let many: Vec<_> = names.map(|name| (name, Vec::new())).collect();
-            write_zip(folder, &[files, many].concat(), None)
+            return write_zip(folder, &[files, many].concat(), None);
+        }
+        Packaging::Empty => return write_archive(folder, "zip", b""),
+        Packaging::OtherKind => return write_archive(folder, "zip", b"Rar!\x1a\x07\x01\x00"),
+        Packaging::Truncated => {
+            let whole = write_zip(folder, &files, None);
+            let bytes = fs::read(&whole).expect("the archive can be read");
+            return write_archive(folder, "zip", &bytes[..bytes.len() / 2]);
         }
         Packaging::LookAlike => {
             let text = "compile_error!(\"this is not camera.rs\");";
             fs::write(folder.join("cam\u{435}ra.rs"), text).expect("the file can be written");
-            folder.to_owned()
         }
         Packaging::ManyArchives => {
             let archive = write_zip(&folder.join("0"), &files, None);
@@ -113,58 +112,42 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
                 let copy = folder.join(format!("{number}.zip"));
                 fs::copy(&archive, copy).expect("the file can be copied");
             }
-            folder.to_owned()
-        }
-        Packaging::Empty => write_archive(folder, "zip", b""),
-        Packaging::OtherKind => write_archive(folder, "zip", b"Rar!\x1a\x07\x01\x00"),
-        Packaging::Truncated => {
-            let whole = write_zip(folder, &files, None);
-            let bytes = fs::read(&whole).expect("the archive can be read");
-            fs::write(&whole, &bytes[..bytes.len() / 2]).expect("the file can be written");
-            whole
         }
         Packaging::Sparse => {
             let file = File::create(folder.join("camera.rs")).expect("the file can be created");
-            file.set_len(10 << 30)
-                .expect("the file system supports sparse files");
-            folder.to_owned()
+            let grown = file.set_len(10 << 30);
+            grown.expect("the file system supports sparse files");
         }
         Packaging::OddModes => {
             for (name, mode) in [("camera.rs", 0), ("sphere.rs", 0o6777)] {
                 let mode = Permissions::from_mode(mode);
                 fs::set_permissions(folder.join(name), mode).expect("the file can be changed");
             }
-            folder.to_owned()
         }
         Packaging::PipeOnDisk => {
-            fs::remove_file(folder.join("camera.rs")).expect("the file can be changed");
-            let made = Command::new("mkfifo")
-                .arg(folder.join("camera.rs"))
-                .status();
+            let camera = folder.join("camera.rs");
+            fs::remove_file(&camera).expect("the file can be changed");
+            let made = Command::new("mkfifo").arg(&camera).status();
             assert!(made.expect("Linux has mkfifo").success());
-            folder.to_owned()
         }
         Packaging::LinkedFileOnDisk => {
             let others = move_elsewhere(folder, "");
             for (name, bytes) in &files[1..] {
                 fs::write(folder.join(name), bytes).expect("the file can be written");
             }
-            with_link(folder, "camera.rs", &others.join("camera.rs"))
+            link(&others.join("camera.rs"), &folder.join("camera.rs"));
         }
         Packaging::LinkedFolderOnDisk => {
-            let others = move_elsewhere(folder, "src");
-            with_link(folder, "student", &others)
+            link(&move_elsewhere(folder, "src"), &folder.join("student"));
         }
         Packaging::LinkedSourceOnDisk => {
-            let others = move_elsewhere(folder, "");
-            fs::create_dir(folder.join("student")).expect("the folder can be created");
-            with_link(folder, "student/src", &others)
+            link(&move_elsewhere(folder, ""), &folder.join("student/src"));
         }
         Packaging::LinkedOnlyFolderOnDisk => {
-            let others = move_elsewhere(folder, "");
-            with_link(folder, "pathtracing", &others)
+            link(&move_elsewhere(folder, ""), &folder.join("pathtracing"));
         }
     }
+    folder.to_owned()
 }
 
 /// Moves the files into the subfolder `below` of a new folder beside this one, as if they were
@@ -178,10 +161,11 @@ fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     others
 }
 
-/// Creates a link at `path` in the folder, and returns the folder.
-fn with_link(folder: &Path, path: &str, original: &Path) -> PathBuf {
-    symlink(original, folder.join(path)).expect("the link can be created");
-    folder.to_owned()
+/// Creates a link, and its folder.
+fn link(original: &Path, path: &Path) {
+    let folder = path.parent().expect("it has a parent");
+    fs::create_dir_all(folder).expect("the folder can be created");
+    symlink(original, path).expect("the link can be created");
 }
 
 type Files = Vec<(String, Vec<u8>)>;
@@ -211,16 +195,12 @@ fn write_zip(folder: &Path, files: &[(String, Vec<u8>)], also: Option<&str>) -> 
     let also = also.map(|name| (name.to_owned(), Vec::new()));
     for (name, bytes) in files.iter().chain(&also) {
         let options = SimpleFileOptions::default();
-        writer
-            .start_file(name.as_str(), options)
-            .expect("the name is valid");
+        let started = writer.start_file(name.as_str(), options);
+        started.expect("the name is valid");
         writer.write_all(bytes).expect("writing to memory succeeds");
     }
-    let bytes = writer
-        .finish()
-        .expect("the archive is complete")
-        .into_inner();
-    write_archive(folder, "zip", &bytes)
+    let bytes = writer.finish().expect("the archive is complete");
+    write_archive(folder, "zip", &bytes.into_inner())
 }
 
 type Member<'a> = (&'a str, EntryType, Option<&'a Path>);
@@ -230,22 +210,20 @@ type Member<'a> = (&'a str, EntryType, Option<&'a Path>);
 fn write_tar(folder: &Path, files: &[(String, Vec<u8>)], others: &[Member]) -> PathBuf {
     let compressed = GzEncoder::new(Vec::new(), Compression::fast());
     let mut builder = Builder::new(compressed);
-    for (name, kind, target) in others {
+    let others = others.iter().map(|(name, kind, target)| {
         let mut header = header(name, *kind, 0);
-        if let Some(target) = target {
-            header.set_link_name(target).expect("the name fits");
-        }
+        let target = target.map(|target| header.set_link_name(target));
+        target.transpose().expect("the name fits");
+        (header, &[][..])
+    });
+    let files = files.iter().map(|(name, bytes)| {
+        let header = header(name, EntryType::Regular, bytes.len());
+        (header, bytes.as_slice())
+    });
+    for (mut header, bytes) in others.chain(files) {
         header.set_cksum();
-        builder
-            .append(&header, &[][..])
-            .expect("writing to memory succeeds");
-    }
-    for (name, bytes) in files {
-        let mut header = header(name, EntryType::Regular, bytes.len());
-        header.set_cksum();
-        builder
-            .append(&header, bytes.as_slice())
-            .expect("writing to memory succeeds");
+        let added = builder.append(&header, bytes);
+        added.expect("writing to memory succeeds");
     }
     let bytes = builder.into_inner().and_then(GzEncoder::finish);
     write_archive(folder, "tar.gz", &bytes.expect("the archive is complete"))

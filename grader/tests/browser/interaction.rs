@@ -23,12 +23,27 @@ fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     tab
 }
 
+/// Runs all checks in one browser.
 #[test]
-fn the_keyboard_moves_the_slider_between_expected_and_submitted_picture() {
+fn every_control_works_by_mouse_and_keyboard() {
     let Some(chromium) = Chromium::start() else {
         return;
     };
-    let mut tab = open_noisy_page(&chromium, DESKTOP);
+    for check in [
+        the_keyboard_moves_the_slider_between_expected_and_submitted_picture,
+        flicker_is_off_until_started_and_can_be_stopped,
+        reduced_motion_swaps_by_click,
+        a_wrong_pixel_is_marked_in_every_picture_with_a_replay_command,
+        another_view_can_be_chosen,
+        the_keyboard_reaches_and_opens_everything,
+        a_watched_page_reloads_and_keeps_open_sections,
+    ] {
+        check(&chromium);
+    }
+}
+
+fn the_keyboard_moves_the_slider_between_expected_and_submitted_picture(chromium: &Chromium) {
+    let mut tab = open_noisy_page(chromium, DESKTOP);
     assert_eq!(tab.eval(CLIP_PATH), "inset(0px 50% 0px 0px)");
     tab.eval(&format!("{SLIDER}.focus()"));
     tab.press("ArrowRight", 39);
@@ -44,12 +59,8 @@ fn the_keyboard_moves_the_slider_between_expected_and_submitted_picture() {
     assert_eq!(tab.errors(), [""; 0]);
 }
 
-#[test]
-fn flicker_is_off_until_started_and_can_be_stopped() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
-    let mut tab = open_noisy_page(&chromium, DESKTOP);
+fn flicker_is_off_until_started_and_can_be_stopped(chromium: &Chromium) {
+    let mut tab = open_noisy_page(chromium, DESKTOP);
     let pressed = format!("{FLICKER}.getAttribute('aria-pressed')");
     assert_eq!(tab.eval(&pressed), "false");
     tab.eval(&format!("{FLICKER}.click()"));
@@ -65,16 +76,12 @@ fn flicker_is_off_until_started_and_can_be_stopped() {
     assert_eq!(tab.eval(&pressed), "false");
 }
 
-#[test]
-fn reduced_motion_swaps_by_click() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
+fn reduced_motion_swaps_by_click(chromium: &Chromium) {
     let reader = Viewer {
         reduced_motion: true,
         ..DESKTOP
     };
-    let mut tab = open_noisy_page(&chromium, reader);
+    let mut tab = open_noisy_page(chromium, reader);
     assert_eq!(tab.eval(&format!("{FLICKER}.textContent")), "Swap");
     tab.eval(&format!("{FLICKER}.click()"));
     assert_eq!(tab.eval(CLIP_PATH), "inset(0px 100% 0px 0px)");
@@ -86,12 +93,8 @@ fn reduced_motion_swaps_by_click() {
     );
 }
 
-#[test]
-fn a_wrong_pixel_is_marked_in_every_picture_with_a_replay_command() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
-    let mut tab = open_noisy_page(&chromium, DESKTOP);
+fn a_wrong_pixel_is_marked_in_every_picture_with_a_replay_command(chromium: &Chromium) {
+    let mut tab = open_noisy_page(chromium, DESKTOP);
     let picture = "document.querySelector('#triangle\\\\.picture .picture')";
     assert_eq!(
         tab.eval(&format!("{picture}.querySelectorAll('.marks a').length")),
@@ -124,12 +127,8 @@ fn a_wrong_pixel_is_marked_in_every_picture_with_a_replay_command() {
     }
 }
 
-#[test]
-fn another_view_can_be_chosen() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
-    let mut tab = open_noisy_page(&chromium, DESKTOP);
+fn another_view_can_be_chosen(chromium: &Chromium) {
+    let mut tab = open_noisy_page(chromium, DESKTOP);
     let alt = "document.querySelector('#triangle\\\\.picture .stage .wanted').alt";
     let first = tab.eval(alt);
     tab.eval("document.querySelector('#triangle\\\\.picture input[value=uv]').click()");
@@ -139,12 +138,8 @@ fn another_view_can_be_chosen() {
     assert_eq!(tab.eval(rows), 1);
 }
 
-#[test]
-fn the_keyboard_reaches_and_opens_everything() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
-    let mut tab = open_noisy_page(&chromium, DESKTOP);
+fn the_keyboard_reaches_and_opens_everything(chromium: &Chromium) {
+    let mut tab = open_noisy_page(chromium, DESKTOP);
     tab.press("Tab", 9);
     assert_eq!(tab.eval("document.activeElement.className"), "skip");
     tab.press("Enter", 13);
@@ -168,11 +163,7 @@ fn the_keyboard_reaches_and_opens_everything() {
     assert_eq!(tab.eval(outline), "solid");
 }
 
-#[test]
-fn a_watched_page_reloads_and_keeps_open_sections() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
+fn a_watched_page_reloads_and_keeps_open_sections(chromium: &Chromium) {
     let text = std::fs::read_to_string(&*pages::NOISY).unwrap();
     let watched = text.replace("<body>", "<body data-reload>");
     let path = pages::NOISY.with_file_name("watched.html");

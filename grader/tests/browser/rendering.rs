@@ -9,11 +9,24 @@ const PHONE: Viewer = Viewer {
     ..DESKTOP
 };
 
+/// Runs all checks in one browser.
 #[test]
-fn no_page_logs_errors_sends_requests_or_runs_injected_scripts() {
+fn every_page_is_shown_as_it_should_be() {
     let Some(chromium) = Chromium::start() else {
         return;
     };
+    for check in [
+        no_page_logs_errors_sends_requests_or_runs_injected_scripts,
+        detects_a_page_that_runs_an_injected_script,
+        nothing_overflows_horizontally_on_a_phone,
+        dark_mode_has_light_text_on_a_dark_background,
+        printing_opens_everything_and_hides_buttons,
+    ] {
+        check(&chromium);
+    }
+}
+
+fn no_page_logs_errors_sends_requests_or_runs_injected_scripts(chromium: &Chromium) {
     for page in pages::all() {
         let mut tab = chromium.tab();
         tab.load(page, DESKTOP);
@@ -30,11 +43,7 @@ fn no_page_logs_errors_sends_requests_or_runs_injected_scripts() {
     }
 }
 
-#[test]
-fn detects_a_page_that_runs_an_injected_script() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
+fn detects_a_page_that_runs_an_injected_script(chromium: &Chromium) {
     let page = std::fs::read_to_string(&*pages::STARTER).unwrap();
     let script =
         "<script>document.title = 'taken'</script><img src=\"https://example.org/x.png\"></main>";
@@ -59,11 +68,7 @@ fn detects_a_page_that_runs_an_injected_script() {
     assert_eq!(tab.requests(), ["https://example.org/x.png"]);
 }
 
-#[test]
-fn nothing_overflows_horizontally_on_a_phone() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
+fn nothing_overflows_horizontally_on_a_phone(chromium: &Chromium) {
     for page in pages::all() {
         let mut tab = chromium.tab();
         tab.load(page, PHONE);
@@ -80,11 +85,7 @@ fn nothing_overflows_horizontally_on_a_phone() {
     }
 }
 
-#[test]
-fn dark_mode_has_light_text_on_a_dark_background() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
+fn dark_mode_has_light_text_on_a_dark_background(chromium: &Chromium) {
     let mut tab = chromium.tab();
     let mut brightness = |dark| {
         tab.load(&pages::STARTER, Viewer { dark, ..DESKTOP });
@@ -102,11 +103,7 @@ fn dark_mode_has_light_text_on_a_dark_background() {
     assert!(paper < 60.0 && ink > 200.0, "{paper} {ink}");
 }
 
-#[test]
-fn printing_opens_everything_and_hides_buttons() {
-    let Some(chromium) = Chromium::start() else {
-        return;
-    };
+fn printing_opens_everything_and_hides_buttons(chromium: &Chromium) {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, DESKTOP);
     let shown = |what| {

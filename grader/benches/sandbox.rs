@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use bench_support::cost::Cost;
-use bench_support::short_form::repetitions;
+use bench_support::{Cost, median, repetitions};
 use grader::build::{Build, Builder};
 use grader::handed_out::RAYS;
 use grader::probe::ItemLimits;
@@ -77,16 +76,14 @@ fn first_answer(build: &Build) {
 /// short form. Prints the median CPU and wall times in milliseconds, and their ratio.
 fn report(what: &str, rounds: usize, one: impl Fn(usize) -> Cost) {
     let rounds: Vec<[Cost; 2]> = (0..repetitions(rounds)).map(|_| [one(0), one(1)]).collect();
-    let median = |index: usize, time: &dyn Fn(&Cost) -> Duration| {
-        let mut times: Vec<Duration> = rounds.iter().map(|round| time(&round[index])).collect();
-        times.sort();
-        1e3 * times[times.len() / 2].as_secs_f64()
-    };
-    let print = |name: &str, time: &dyn Fn(&Cost) -> Duration| {
-        let [open, confined] = [0, 1].map(|index| median(index, time));
+    let print = |name: &str, time: fn(&Cost) -> Duration| {
+        let [open, confined] = [0, 1].map(|index| {
+            let times = rounds.iter().map(|round| time(&round[index]));
+            1e3 * median(times.map(|time| time.as_secs_f64()))
+        });
         let ratio = confined / open;
         println!("{what:18}{name:14}{open:8.1} and {confined:8.1} ms, {ratio:.3} ×");
     };
-    print("CPU", &|cost| cost.cpu);
-    print("wall", &|cost| cost.wall);
+    print("CPU", |cost| cost.cpu);
+    print("wall", |cost| cost.wall);
 }

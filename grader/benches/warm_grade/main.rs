@@ -11,11 +11,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use bench_support::bare::BareRustc;
-use bench_support::changed::{baseline, change, submission};
-use bench_support::cost::Cost;
-use bench_support::median::median;
-use bench_support::short_form::repetitions;
+use bench_support::{BareRustc, Cost, baseline, change, median, repetitions, submission};
 use grader::build::Builder;
 use grader::grade::default_folder;
 use grader::handed_out::RAYS;

@@ -6,10 +6,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-use bench_support::bare::BareRustc;
-use bench_support::cost::Cost;
-use bench_support::median::median;
-use bench_support::short_form::repetitions;
+use bench_support::{BareRustc, Cost, median, repetitions};
 use glam::{Vec2, Vec3, vec3};
 use grader::probe::{ItemLimits, Launcher};
 use protocol::{Geometry, Question, Ray, Shape, Vertex, wire};

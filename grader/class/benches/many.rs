@@ -8,11 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{fs, iter, thread};
 
-use bench_support::bare::BareRustc;
-use bench_support::changed::{baseline, change, copy};
-use bench_support::cost::Cost;
-use bench_support::median::median;
-use bench_support::short_form::{is_short, repetitions};
+use bench_support::{BareRustc, Cost, baseline, change, copy, is_short, median, repetitions};
 use grader::workspace::Workspace;
 use tempfile::TempDir;
 

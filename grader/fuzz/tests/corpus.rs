@@ -2,15 +2,11 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 
-use fuzz::Target;
+use fuzz::{TARGETS, Target};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-
-/// A lock that each test holds while it runs, because memory is counted for the whole process.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// The number of random inputs per target, about half of them changes to the corpus and half noise.
 /// `cargo fuzz` runs millions.
@@ -20,10 +16,9 @@ const MAX_NOISE_BYTES: usize = 300;
 
 fn corpus(target: &Target) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
-    let mut files: Vec<_> = fs::read_dir(folder.join(target.name))
-        .expect("each target has a corpus")
-        .map(|entry| entry.expect("the folder can be read").path())
-        .collect();
+    let files = fs::read_dir(folder.join(target.name)).expect("each target has a corpus");
+    let files = files.map(|entry| entry.expect("the folder can be read").path());
+    let mut files: Vec<_> = files.collect();
     files.sort();
     files.iter().map(|file| fs::read(file).unwrap()).collect()
 }
@@ -86,9 +81,8 @@ fn runner() -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha))
 }
 
-fn survives_anything(name: &str) {
-    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    let target = Target::find(name).expect("the target exists");
+fn survives_anything(target: Target) {
+    println!("{target:?}");
     let corpus = corpus(&target);
     corpus.iter().for_each(|bytes| target.run(bytes));
 
@@ -100,65 +94,19 @@ fn survives_anything(name: &str) {
         changes.iter().for_each(|change| change.apply(&mut bytes));
         bytes
     });
-    let any = prop_oneof![
-        changed,
-        prop::collection::vec(any::<u8>(), 0..MAX_NOISE_BYTES)
-    ];
-    let survived = runner().run(&any, |bytes| {
+    let noise = prop::collection::vec(any::<u8>(), 0..MAX_NOISE_BYTES);
+    let survived = runner().run(&prop_oneof![changed, noise], |bytes| {
         target.run(&bytes);
         Ok(())
     });
     survived.unwrap();
 }
 
+/// Runs all targets in one test, because memory is counted for the whole process.
 #[test]
-fn frames_can_be_any_bytes() {
-    survives_anything("wire");
-}
+fn no_target_panics_or_uses_too_much_memory_whatever_the_bytes_are() {
+    TARGETS.into_iter().for_each(survives_anything);
 
-#[test]
-fn well_formed_answers_can_have_any_values() {
-    survives_anything("answers");
-}
-
-#[test]
-fn archives_can_be_any_bytes() {
-    survives_anything("archive");
-}
-
-#[test]
-fn exam_files_can_be_any_bytes() {
-    survives_anything("exam");
-}
-
-#[test]
-fn scene_files_can_be_any_bytes() {
-    survives_anything("scene");
-}
-
-#[test]
-fn score_files_can_be_any_bytes() {
-    survives_anything("score");
-}
-
-#[test]
-fn meshes_can_be_any_bytes() {
-    survives_anything("mesh");
-}
-
-#[test]
-fn source_files_can_be_any_bytes() {
-    survives_anything("source");
-}
-
-#[test]
-fn compiler_output_can_be_any_bytes() {
-    survives_anything("diagnostics");
-}
-
-#[test]
-fn excessive_memory_use_is_detected() {
-    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     let wasteful = Target::new("wasteful", |_| drop(vec![1_u8; 64 << 20]), 1);
     let panic = std::panic::catch_unwind(|| wasteful.run(b"few")).unwrap_err();
     let message = panic.downcast_ref::<String>().expect("a message");

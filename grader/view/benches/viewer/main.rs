@@ -15,11 +15,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-use bench_support::bare::BareRustc;
-use bench_support::changed::{baseline, change};
-use bench_support::cost::Cost;
-use bench_support::median::median;
-use bench_support::short_form::{is_short, repetitions};
+use bench_support::{BareRustc, Cost, baseline, change, is_short, median, repetitions};
 use browser_support::{Chromium, DESKTOP};
 use grader::workspace::Workspace;
 use serde_json::{Value, json};

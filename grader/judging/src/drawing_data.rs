@@ -139,18 +139,13 @@ impl Sweep {
 
 #[cfg(test)]
 mod tests {
-    use protocol::{Corners, Query, Ray};
+    use protocol::Ray;
 
     use super::*;
-    use crate::tests::sphere;
+    use crate::tests::{boxes, sphere};
 
     fn bbox() -> Question {
-        let query = Query {
-            ray: Ray::new(Vec3::ZERO, Vec3::X),
-            times: Interval::AHEAD,
-        };
-        let (min, max) = (Vec3::NEG_ONE, Vec3::ONE);
-        Question::boxes(Corners { min, max }, vec![query])
+        boxes(Vec3::NEG_ONE, Vec3::ONE, &[Ray::new(Vec3::ZERO, Vec3::X)])
     }
 
     fn traverse() -> Question {

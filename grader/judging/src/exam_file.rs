@@ -12,8 +12,6 @@ use crate::content_hash::file_hash;
 use crate::exam::{Exam, Item, Key};
 use crate::judge::table::judged_quantities;
 
-/// Version of the file format that this grader reads.
-const SCHEMA_VERSION: u32 = 2;
 /// Maximum number of pixels along one side of a picture. The committed exams use 64.
 const MAX_PICTURE_SIDE: u32 = 4096;
 
@@ -107,8 +105,9 @@ struct Format {
 
 /// Returns the problem if this is not the version of the format that this grader reads.
 fn format_problem(schema: u32) -> Option<String> {
-    (schema != SCHEMA_VERSION).then(|| {
-        format!("its format is version {schema}, but this grader reads version {SCHEMA_VERSION}")
+    (schema != Exam::SCHEMA).then(|| {
+        let known = Exam::SCHEMA;
+        format!("its format is version {schema}, but this grader reads version {known}")
     })
 }
 

@@ -201,7 +201,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let build = Build::without_programs(folder.path(), BTreeMap::new());
         let others = pending(&exam(&["bbox.flat"]));
-        let bbox = RAYS.assignment.task_of("bbox.flat").unwrap();
+        let bbox = Task::in_id("bbox.flat").unwrap();
         let mut dependent = item("traverse.root", vec![boxes(1)]);
         dependent.needs = vec!["bbox.flat".to_owned()];
         let verdict = |item: &Item, stopped: &[Task], has_blocked_fault: bool| {

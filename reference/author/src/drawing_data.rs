@@ -80,11 +80,9 @@ fn traversal_steps(tree: &Tree, ray: &Ray) -> Vec<TraversalStep> {
 #[cfg(test)]
 mod tests {
     use glam::{DVec3, Vec3, vec3};
-    use grader::handed_out::RAYS;
 
     use super::*;
     use crate::items::{self, meshes};
-    use crate::seed::Seed;
     use crate::tree::construction;
 
     #[test]
@@ -122,14 +120,7 @@ mod tests {
 
     #[test]
     fn drawing_data_fits_its_questions() {
-        let exam = Exam {
-            schema: 2,
-            assignment: RAYS.assignment.id.to_owned(),
-            id: "small".to_owned(),
-            mistakes: Vec::new(),
-            items: items::resolve(items::bbox::items(Seed(1))),
-        };
-        let exam = with_drawing_data(exam);
+        let exam = with_drawing_data(items::exam_of_boxes());
         for question in exam.items.iter().flat_map(|item| &item.questions) {
             assert!(!question.drawing_data.is_none());
             assert_eq!(question.drawing_data.problem(&question.question), None);

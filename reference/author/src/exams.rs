@@ -19,9 +19,6 @@ use crate::solutions::Solutions;
 use crate::solutions::recording::Recorder;
 use crate::solutions::workbench::Workbench;
 
-/// The version of the exam file's format.
-const SCHEMA: u32 = 2;
-
 /// The path of the practice exam, relative to the workspace root.
 const PRACTICE_FILE: &str = "grader/exams/practice.json";
 
@@ -60,13 +57,7 @@ pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam> {
 
 /// Assembles an exam without hints, in which each item comes after the items that it needs.
 pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
-    Exam {
-        schema: SCHEMA,
-        assignment: RAYS.assignment.id.to_owned(),
-        id: id.to_owned(),
-        mistakes: Vec::new(),
-        items: items::items(seed, recorded),
-    }
+    Exam::new(RAYS.assignment, id, items::items(seed, recorded))
 }
 
 /// Writes the exam as JSON with one item per line, so that a diff shows which items changed.
@@ -110,16 +101,14 @@ mod tests {
     #[test]
     fn text_parses_back_to_the_exam() {
         let exam = Exam {
-            schema: SCHEMA,
             assignment: "another".to_owned(),
-            id: "a \"test\"".to_owned(),
             mistakes: vec![KnownMistake {
                 id: "bbox.none".to_owned(),
                 nudge: "Really?".to_owned(),
                 hint: "No.".to_owned(),
                 section: None,
             }],
-            items: items::resolve(items::bbox::items(Seed(1))),
+            ..items::exam_of_boxes()
         };
         let text = to_text(&exam).unwrap();
         assert_eq!(serde_json::from_str::<Exam>(&text).unwrap(), exam);

@@ -89,13 +89,6 @@ impl Assignment {
         self.tasks.iter().find(|task| task.id == id)
     }
 
-    /// Returns the task of an item or a mistake, whose id begins with the task's id and a dot.
-    /// `None` if the assignment has no such task.
-    pub fn task_of(&self, id: &str) -> Option<Task> {
-        let task = Task::in_id(id)?;
-        self.find(task.id()).map(TaskInfo::task)
-    }
-
     /// Returns the ids of the tasks as a list for a message, such as `a, b, c`.
     pub fn id_list(&self) -> String {
         let ids: Vec<&str> = self.tasks.iter().map(|task| task.id).collect();

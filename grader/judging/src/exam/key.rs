@@ -75,6 +75,26 @@ impl Key {
     pub fn spans(spans: Vec<Option<Interval>>) -> Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
     }
+
+    /// Returns a correct answer, or `None` if the answer is a tree: many different ones are right.
+    pub fn answer(&self) -> Option<Answer> {
+        Some(match self {
+            Key::Table { rows, .. } => rows.answer(),
+            Key::FirstHits { hits, .. } => {
+                let trace = |surface: &Surface| Trace {
+                    distance: surface.depth,
+                    position: Vec3::ZERO,
+                    normal: surface.normal,
+                    uv: surface.uv,
+                    origin: Vec3::ZERO,
+                    shape: 0,
+                };
+                Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
+            }
+            Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
+            Key::Tree { .. } => return None,
+        })
+    }
 }
 
 /// How the rows of a table together earn credit.
@@ -146,9 +166,6 @@ impl ExpectedRows {
 
     /// Returns the correct answer to a table with these rows.
     pub fn answer(&self) -> Answer {
-        fn values<T>(rows: impl Iterator<Item = T>) -> Vec<ElementOutcome<T>> {
-            rows.map(ElementOutcome::Value).collect()
-        }
         match self {
             ExpectedRows::Rays(rows) => {
                 Answer::Rays(values(rows.iter().map(|dir| camera_ray(*dir))))
@@ -184,6 +201,10 @@ impl ExpectedRows {
             ExpectedRows::Spans(rows) => ExpectedRows::Spans(each(rows, change)),
         }
     }
+}
+
+fn values<T>(rows: impl Iterator<Item = T>) -> Vec<ElementOutcome<T>> {
+    rows.map(ElementOutcome::Value).collect()
 }
 
 /// Returns the camera ray with this direction.

@@ -6,10 +6,10 @@
 mod key;
 mod subset;
 
-use protocol::Question;
+use protocol::{Question, Shape};
 use serde::{Deserialize, Serialize};
 
-use crate::assignment::Task;
+use crate::assignment::{Assignment, Task};
 use crate::drawing_data::DrawingData;
 use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
@@ -35,6 +35,20 @@ pub struct Exam {
 }
 
 impl Exam {
+    /// The version of the file format.
+    pub const SCHEMA: u32 = 2;
+
+    /// Creates an exam without known mistakes.
+    pub fn new(assignment: &Assignment, id: &str, items: Vec<Item>) -> Self {
+        Exam {
+            schema: Exam::SCHEMA,
+            assignment: assignment.id.to_owned(),
+            id: id.to_owned(),
+            mistakes: Vec::new(),
+            items,
+        }
+    }
+
     /// Returns an exam with the items that `wanted` selects and the items that these need.
     pub fn with_needed_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let dependents = self.items.iter().filter(|item| wanted(item));
@@ -83,6 +97,25 @@ pub struct Item {
 }
 
 impl Item {
+    /// Creates an item that needs no others, without texts and signatures.
+    ///
+    /// # Panics
+    ///
+    /// If the id does not begin with a task.
+    pub fn new(id: &str, points: u32, questions: Vec<ExamQuestion>) -> Self {
+        Item {
+            id: id.to_owned(),
+            title: String::new(),
+            task: Task::in_id(id).expect("the id of an item begins with its task"),
+            points,
+            look: String::new(),
+            section: None,
+            needs: Vec::new(),
+            questions,
+            signatures: MistakeSignatures::default(),
+        }
+    }
+
     /// Returns the number of elements in all questions of the item.
     pub fn count(&self) -> usize {
         let counts = self
@@ -137,6 +170,22 @@ impl ExamQuestion {
             key,
             drawing_data: DrawingData::None,
         }
+    }
+
+    /// Creates a question about a tree over these shapes. Its cost is judged if the exact sweep's is
+    /// given.
+    pub fn tree(
+        shapes: Vec<Shape>,
+        max_leaf_size: u32,
+        checks: &[TreeCheck],
+        sweep_cost: Option<f64>,
+    ) -> Self {
+        let question = Question::Build {
+            shapes,
+            max_leaf_size,
+        };
+        let checks = checks.to_vec();
+        ExamQuestion::new(question, Key::Tree { checks, sweep_cost })
     }
 
     /// Returns a question with only this element, and its key. A question with a single element is

@@ -132,16 +132,7 @@ mod tests {
 
     #[test]
     fn the_defect_of_a_tree_is_named_as_it_was_found() {
-        let question = ExamQuestion::new(
-            Question::Build {
-                shapes: row(4),
-                max_leaf_size: 2,
-            },
-            Key::Tree {
-                checks: ALL_CHECKS.to_vec(),
-                sweep_cost: None,
-            },
-        );
+        let question = ExamQuestion::tree(row(4), 2, &ALL_CHECKS, None);
         let mut tree = valid_tree();
         tree.order.swap(0, 1);
         tree.order[3] = 0;

@@ -243,11 +243,11 @@ impl ExpectedTable {
 #[cfg(test)]
 mod tests {
     use glam::{UVec2, Vec3};
-    use protocol::{Corners, Geometry, Interval, PinholeCamera, Query, Question, Ray, Rows, Table};
+    use protocol::{Geometry, Interval, PinholeCamera, Question, Ray, Rows, Table};
 
     use super::*;
     use crate::judge::{judge, mismatches};
-    use crate::tests::{HIT, sphere};
+    use crate::tests::{HIT, boxes, sphere};
     use crate::types::{direction, length};
 
     #[test]
@@ -324,12 +324,8 @@ mod tests {
 
     #[test]
     fn an_answer_of_another_function_is_wrong_even_where_nothing_is_hit() {
-        let query = Query {
-            ray: Ray::new(Vec3::ZERO, Vec3::X),
-            times: Interval::AHEAD,
-        };
-        let (min, max) = (Vec3::ONE, 2.0 * Vec3::ONE);
-        let question = Question::boxes(Corners { min, max }, vec![query]);
+        let ray = Ray::new(Vec3::ZERO, Vec3::X);
+        let question = boxes(Vec3::ONE, 2.0 * Vec3::ONE, &[ray]);
         let question = ExamQuestion::new(question, Key::spans(vec![None]));
         let spans = Answer::Spans(vec![ElementOutcome::Value(None)]);
         assert_eq!(judge(&question, &spans).credit, Credit::FULL);

@@ -1,11 +1,11 @@
 //! Tests of observed numbers: they are multiples of the tolerances of their own question.
 
 use glam::{Vec2, Vec3};
-use protocol::{Corners, Fields, Geometry, Interval, Query, Ray, Trace};
+use protocol::{Fields, Geometry, Interval, Ray, Trace};
 
 use super::*;
 use crate::exam::ExpectedRows;
-use crate::tests::{HIT, sphere};
+use crate::tests::{HIT, boxes, sphere};
 use crate::types::direction::TOLERANCE as DIRECTION;
 use crate::types::length::TOLERANCE as LENGTH;
 use crate::types::uv::TOLERANCE as UV;
@@ -66,17 +66,10 @@ fn distances_are_multiples_of_the_tolerance_of_their_ray() {
 #[test]
 fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
     let (near, far) = (8.0, 800.0);
-    let query = |x: f32| Query {
-        ray: Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X),
-        times: Interval::AHEAD,
-    };
-    let corners = Corners {
-        min: -Vec3::ONE,
-        max: Vec3::ONE,
-    };
+    let rays = [near, far].map(|x| Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X));
     let span = |from: f32, error: f32| Interval::new(from - 1.0 + error, from + 1.0 + error);
     let question = ExamQuestion::new(
-        Question::boxes(corners, vec![query(near), query(far)]),
+        boxes(-Vec3::ONE, Vec3::ONE, &rays),
         Key::spans(vec![Some(span(near, 0.0)), Some(span(far, 0.0))]),
     );
     let answer = |tolerances: f32| {

@@ -175,9 +175,9 @@ fn of_ranges(tree: &Tree) -> String {
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use protocol::{Question, TreeNode};
+    use protocol::TreeNode;
 
-    use crate::exam::{ExamQuestion, Key, TreeCheck};
+    use crate::exam::{ExamQuestion, TreeCheck};
     use crate::judge::tree::tests::{ALL_CHECKS, row, valid_tree};
     use crate::observe::observe_tree;
     use crate::signatures::ObservedAnswer;
@@ -192,18 +192,11 @@ mod tests {
 
     /// The same, if only these properties are checked.
     fn defect_by(checks: &[TreeCheck], change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
-        let question = Question::Build {
-            shapes: row(4),
-            max_leaf_size: 2,
-        };
-        let key = Key::Tree {
-            checks: checks.to_vec(),
-            sweep_cost: None,
-        };
+        let question = ExamQuestion::tree(row(4), 2, checks, None);
         let mut tree = valid_tree();
         tree.order.swap(0, 1);
         change(&mut tree);
-        let observed = observe_tree(&ExamQuestion::new(question, key), &tree);
+        let observed = observe_tree(&question, &tree);
         let ObservedAnswer::Tree(defect) = observed else {
             panic!("expected a tree, got {observed:?}");
         };

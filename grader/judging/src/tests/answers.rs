@@ -3,41 +3,19 @@
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use protocol::{Answer, ElementOutcome, Interval, Panic, Trace};
+use protocol::{Answer, ElementOutcome, Interval, Panic};
 
 use super::{EXAM, HIT};
-use crate::exam::{ExamQuestion, Key, Surface};
+use crate::exam::ExamQuestion;
 
 /// The questions, each with the answer that follows from its key. Trees are left out: many different
 /// ones are right.
 pub static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| {
     let questions = EXAM.items.iter().flat_map(|item| &item.questions);
     questions
-        .filter_map(|question| Some((question, keys_answer(question)?)))
+        .filter_map(|question| Some((question, question.key.answer()?)))
         .collect()
 });
-
-fn values<T>(all: impl IntoIterator<Item = T>) -> Vec<ElementOutcome<T>> {
-    all.into_iter().map(ElementOutcome::Value).collect()
-}
-
-/// Returns the answer that the key describes.
-pub fn keys_answer(question: &ExamQuestion) -> Option<Answer> {
-    Some(match &question.key {
-        Key::Table { rows, .. } => rows.answer(),
-        Key::FirstHits { hits, .. } => {
-            let trace = |surface: &Surface| Trace {
-                distance: surface.depth,
-                normal: surface.normal,
-                uv: surface.uv,
-                ..HIT
-            };
-            Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
-        }
-        Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
-        Key::Tree { .. } => return None,
-    })
-}
 
 /// A way in which an element is wrong.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use protocol::{Answer, ElementOutcome, Question};
 
 use super::EXAM;
-use super::answers::{Error, keys_answer};
+use super::answers::Error;
 use crate::assignment::{RAYS, TaskInfo};
 use crate::exam::{ExamQuestion, Item, Key};
 use crate::recognise::Observations;
@@ -13,7 +13,7 @@ use crate::signatures::NoAnswerReason;
 
 /// Returns an item's correct answers. A tree has none, and does not matter here.
 fn right(item: &Item) -> Vec<Answer> {
-    let answers = item.questions.iter().map(keys_answer);
+    let answers = item.questions.iter().map(|question| question.key.answer());
     answers
         .map(|own| own.unwrap_or(Answer::Tree(ElementOutcome::Skipped)))
         .collect()

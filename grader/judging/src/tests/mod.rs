@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use glam::{UVec2, Vec2, Vec3};
-use protocol::{Question, Rows, Shape, Trace};
+use protocol::{Corners, Interval, Query, Question, Ray, Rows, Shape, Trace};
 
 use crate::assignment::RAYS;
 use crate::exam::{Exam, ExamQuestion, ExpectedRows, Key};
@@ -31,6 +31,13 @@ pub fn sphere(center: Vec3, radius: f32) -> Shape {
         radius,
         shape: 0,
     }
+}
+
+/// Returns a question about when these rays are in a box.
+pub fn boxes(min: Vec3, max: Vec3, rays: &[Ray]) -> Question {
+    let times = Interval::AHEAD;
+    let queries = rays.iter().map(|&ray| Query { ray, times });
+    Question::boxes(Corners { min, max }, queries.collect())
 }
 
 /// The practice exam.

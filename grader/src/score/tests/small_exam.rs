@@ -1,11 +1,9 @@
 //! A small exam for tests: items of a question or two, made by hand.
 
 use glam::Vec3;
-use judging::assignment::Task;
 use judging::exam::{Exam, ExamQuestion, Item, Key};
 use judging::exam_file::ExamName;
 use judging::section::Section;
-use judging::signatures::MistakeSignatures;
 use protocol::{Corners, Interval, Query, Question, Ray};
 
 use crate::handed_out::RAYS;
@@ -29,28 +27,17 @@ pub fn boxes(rays: u8) -> ExamQuestion {
 /// Returns an item of 4 points with these questions.
 pub fn item(id: &str, questions: Vec<ExamQuestion>) -> Item {
     Item {
-        id: id.to_owned(),
         title: format!("title of {id}"),
-        task: Task::in_id(id).unwrap(),
-        points: 4,
         look: "look here".to_owned(),
         section: Some(Section::new("boxes.md#a-heading")),
-        needs: Vec::new(),
-        questions,
-        signatures: MistakeSignatures::default(),
+        ..Item::new(id, 4, questions)
     }
 }
 
 /// Returns an exam with items of 4 points, with these ids.
 pub fn exam(ids: &[&str]) -> Exam {
     let items = ids.iter().map(|id| item(id, vec![boxes(1)]));
-    Exam {
-        schema: 2,
-        assignment: RAYS.assignment.id.to_owned(),
-        id: "small".to_owned(),
-        mistakes: Vec::new(),
-        items: items.collect(),
-    }
+    Exam::new(RAYS.assignment, "small", items.collect())
 }
 
 /// Returns the score of a submission of this exam before any item is graded.

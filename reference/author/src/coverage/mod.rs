@@ -192,18 +192,10 @@ mod tests {
 
     use super::*;
     use crate::items;
-    use crate::seed::Seed;
 
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
-        let exam = Exam {
-            schema: 2,
-            assignment: RAYS.assignment.id.to_owned(),
-            id: "test".to_owned(),
-            mistakes: Vec::new(),
-            items: items::resolve(items::bbox::items(Seed(1))),
-        };
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let exam = exam.filter_items(keep);
+        let exam = items::exam_of_boxes().filter_items(keep);
         let all = coverage(&root, &RAYS, &exam)
             .expect("the list can be read")
             .problems;

@@ -91,23 +91,14 @@ fn anchors(pages: &[Page]) -> BTreeMap<&str, BTreeSet<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::items::{bbox, resolve};
-    use crate::seed::Seed;
-    use grader::handed_out::RAYS;
+    use crate::items;
 
     #[test]
     fn reports_missing_sections_and_differing_headings_with_their_item() {
-        let mut items = resolve(bbox::items(Seed(1)));
-        items.truncate(3);
-        items[1].section = Some(Section::new("boxes.md#flat-boxes"));
-        items[2].section = None;
-        let exam = Exam {
-            schema: 2,
-            assignment: RAYS.assignment.id.to_owned(),
-            id: String::new(),
-            mistakes: Vec::new(),
-            items,
-        };
+        let mut exam = items::exam_of_boxes();
+        exam.items.truncate(3);
+        exam.items[1].section = Some(Section::new("boxes.md#flat-boxes"));
+        exam.items[2].section = None;
         let page = "# Boxes\n## From the last entry to the first exit\n## Flat, boxes\n";
         assert_eq!(
             missing_sections(&[Page::new("boxes.md", page)], &exam, Some("boxes.md#more")),

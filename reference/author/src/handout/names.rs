@@ -155,7 +155,6 @@ fn identifiers(text: &str) -> impl Iterator<Item = &str> {
 mod tests {
     use super::*;
     use crate::items;
-    use crate::seed::Seed;
 
     fn problems(markdown: &str) -> Vec<String> {
         let sources = [SourceFile {
@@ -163,13 +162,7 @@ mod tests {
             text: "impl Bvh { pub fn build(max_leaf_size: usize) {} }".to_owned(),
         }];
         let files = BTreeSet::from(["student/src/bvh.rs".to_owned()]);
-        let exam = Exam {
-            schema: 2,
-            assignment: "rays".to_owned(),
-            id: String::new(),
-            mistakes: Vec::new(),
-            items: items::resolve(items::bbox::items(Seed(1))),
-        };
+        let exam = items::exam_of_boxes();
         let known = KnownNames {
             sources: &sources,
             files: &files,

@@ -1,9 +1,7 @@
-//! The declaration of an item: everything about it except its questions, in one place.
+//! The declaration of an item: everything about it, in one place.
 
-use judging::assignment::Task;
 use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
-use judging::signatures::MistakeSignatures;
 
 use super::place::in_a_room;
 use crate::seed::{Rng, Seed};
@@ -13,7 +11,7 @@ use crate::seed::{Rng, Seed};
 pub(super) struct Declaration {
     /// The task's id, a dot, and a name, such as `sphere.near_side`.
     pub id: &'static str,
-    /// The points for correct answers to all questions.
+    /// The points for correct answers to all questions. Most items have one.
     pub points: u32,
     /// A sentence that says what must hold, which is the feedback for students.
     pub title: &'static str,
@@ -79,10 +77,11 @@ impl DeclaredItem {
 }
 
 impl Declaration {
-    /// The fields of an item that neither belongs to a group nor needs one. The others are empty.
+    /// The fields of an item of one point that neither belongs to a group nor needs one. The others
+    /// are empty.
     pub const ALONE: Declaration = Declaration {
         id: "",
-        points: 0,
+        points: 1,
         title: "",
         look: "",
         section: "",
@@ -91,7 +90,8 @@ impl Declaration {
         needs: &[],
     };
 
-    /// Returns the fields of an item that belongs to a group and needs none. The others are empty.
+    /// Returns the fields of an item of one point that belongs to a group and needs none. The others
+    /// are empty.
     pub const fn in_group(group: Group) -> Self {
         Declaration {
             group: Some(group),
@@ -101,16 +101,12 @@ impl Declaration {
 
     /// Draws the item's questions.
     pub(super) fn draw(&self, seed: Seed) -> DeclaredItem {
+        let questions = (self.questions)(&mut seed.rng(self.id));
         let item = Item {
-            id: self.id.to_owned(),
             title: self.title.to_owned(),
-            task: task(self.id),
-            points: self.points,
             look: self.look.to_owned(),
             section: Some(Section::new(self.section)),
-            needs: Vec::new(),
-            questions: (self.questions)(&mut seed.rng(self.id)),
-            signatures: MistakeSignatures::default(),
+            ..Item::new(self.id, self.points, questions)
         };
         DeclaredItem {
             item,
@@ -118,10 +114,6 @@ impl Declaration {
             needs: self.needs,
         }
     }
-}
-
-fn task(id: &str) -> Task {
-    Task::in_id(id).expect("the id of an item begins with its task")
 }
 
 /// Returns the items, each with the ids of all items in the groups that it needs.
@@ -141,6 +133,8 @@ pub fn resolve(declared: Vec<DeclaredItem>) -> Vec<Item> {
 
 #[cfg(test)]
 mod tests {
+    use judging::assignment::Task;
+
     use super::*;
 
     fn declared(id: &'static str, group: Option<Group>, needs: &'static [Group]) -> DeclaredItem {

@@ -3,10 +3,9 @@
 
 use std::sync::LazyLock;
 
-use glam::Vec3;
-use judging::exam::{ExamQuestion, Item, Key, Surface};
+use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge};
-use protocol::{Answer, ElementOutcome, Trace};
+use protocol::Answer;
 
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
@@ -44,7 +43,8 @@ fn draw_distinct(seed: Seed, item: &Declaration) -> DeclaredItem {
 /// Some questions are left out. If no ray hits anything, there is only one answer. A tree is an
 /// answer to its own primitives only, and these are drawn by the seed.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
-    let answers: Vec<Answer> = other.questions.iter().filter_map(correct_answer).collect();
+    let answers = other.questions.iter();
+    let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();
     let is_drawn = |question: &&ExamQuestion| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
         Key::FirstHits { .. } | Key::Radiance { .. } => true,
@@ -54,27 +54,6 @@ pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     drawn.any(|question| {
         let mut credits = answers.iter().map(|answer| judge(question, answer).credit);
         credits.any(|credit: Credit| credit.apply(item.points) > 0)
-    })
-}
-
-/// Returns a correct answer to a question, or `None` if the answer is a tree.
-fn correct_answer(question: &ExamQuestion) -> Option<Answer> {
-    Some(match &question.key {
-        Key::Table { rows, .. } => rows.answer(),
-        Key::FirstHits { hits, .. } => {
-            let trace = |surface: &Surface| Trace {
-                distance: surface.depth,
-                position: Vec3::ZERO,
-                normal: surface.normal,
-                uv: surface.uv,
-                origin: Vec3::ZERO,
-                shape: 0,
-            };
-            let hits = hits.iter().map(|surface| surface.as_ref().map(trace));
-            Answer::Hits(hits.map(ElementOutcome::Value).collect())
-        }
-        Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
-        Key::Tree { .. } => return None,
     })
 }
 

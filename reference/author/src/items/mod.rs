@@ -50,6 +50,13 @@ fn declared_items(seed: Seed) -> impl Iterator<Item = DeclaredItem> {
     all.map(move |item| item.with_a_room(seed))
 }
 
+/// Returns an exam of the items about boxes, for tests.
+#[cfg(test)]
+pub(crate) fn exam_of_boxes() -> judging::exam::Exam {
+    let items = resolve(bbox::items(Seed(1)));
+    judging::exam::Exam::new(&judging::assignment::RAYS, "test", items)
+}
+
 /// Returns the ray from one point toward another, in single precision.
 fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
@@ -72,10 +79,8 @@ fn shape_question(
 ) -> ExamQuestion {
     let rays: Vec<Ray> = rays.into_iter().collect();
     let key = hits_key(judged, &rays, |ray64| scan::intersect(ray64, &shape));
-    let shapes = Geometry::List {
-        shapes: vec![shape],
-    };
-    ExamQuestion::new(Question::hits(shapes, rays), key)
+    let shapes = vec![shape];
+    ExamQuestion::new(Question::hits(Geometry::List { shapes }, rays), key)
 }
 
 /// Returns the key for a list of rays, where `answer` computes the correct answer for each ray.

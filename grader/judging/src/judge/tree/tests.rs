@@ -24,16 +24,25 @@ fn node(first: u32, last: u32, size: u32, l: u32, r: u32) -> TreeNode {
     }
 }
 
+/// Returns a leaf with the spheres from `first` to `last`.
+fn leaf(first: u32, last: u32) -> TreeNode {
+    node(first, last, last - first + 1, 0, 0)
+}
+
+/// Returns a tree over this many spheres, in their order. Its root is the first node.
+fn tree_of(nodes: Vec<TreeNode>, count: u32) -> Tree {
+    Tree {
+        nodes,
+        root: 0,
+        order: (0..count).collect(),
+    }
+}
+
 /// Returns a tree over four spheres, with two in each leaf. The root is in the middle of the nodes.
 pub(crate) fn valid_tree() -> Tree {
     Tree {
-        nodes: vec![
-            node(0, 1, 2, 0, 0),
-            node(0, 3, 0, 0, 2),
-            node(2, 3, 2, 0, 0),
-        ],
         root: 1,
-        order: vec![0, 1, 2, 3],
+        ..tree_of(vec![leaf(0, 1), node(0, 3, 0, 0, 2), leaf(2, 3)], 4)
     }
 }
 
@@ -99,7 +108,7 @@ fn each_check_finds_its_defect() {
         ("nodes", |tree| tree.nodes[1].r = 1),
         ("root", |tree| tree.root = 3),
         ("nodes", |tree| tree.nodes.clear()),
-        ("leaf size", |tree| tree.nodes[1] = node(0, 3, 4, 0, 0)),
+        ("leaf size", |tree| tree.nodes[1] = leaf(0, 3)),
         ("right", |tree| tree.nodes[1].start = 9),
     ];
     for (expected, change) in changes {
@@ -111,27 +120,19 @@ fn each_check_finds_its_defect() {
 
 #[test]
 fn a_tree_may_be_deep_on_either_side() {
-    let leaf = |i: u32| node(i, i, 1, 0, 0);
     for mirrored in [false, true] {
         let fork = |first: u32, l: u32, r: u32| {
             let (l, r) = if mirrored { (r, l) } else { (l, r) };
             node(first, 3, 0, l, r)
         };
-        let tree = Tree {
-            nodes: [
-                fork(0, 1, 2),
-                leaf(0),
-                fork(1, 3, 4),
-                leaf(1),
-                fork(2, 5, 6),
-                leaf(2),
-                leaf(3),
-            ]
-            .to_vec(),
-            root: 0,
-            order: vec![0, 1, 2, 3],
-        };
-        let judgement = judge(&ALL_CHECKS, None, 4, 1, tree);
+        let forks = [fork(0, 1, 2), fork(1, 3, 4), fork(2, 5, 6)];
+        let leaves = [0, 1, 2, 3].map(|i| leaf(i, i));
+        let nodes = forks
+            .iter()
+            .zip(&leaves)
+            .flat_map(|(fork, leaf)| [*fork, *leaf]);
+        let nodes = nodes.chain([leaves[3]]).collect();
+        let judgement = judge(&ALL_CHECKS, None, 4, 1, tree_of(nodes, 4));
         assert_eq!(judgement.credit, Credit::FULL, "{judgement:?}");
     }
 }
@@ -149,9 +150,8 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
     let mut nodes: Vec<TreeNode> = (0..links).flat_map(link).collect();
     nodes.push(node(0, 3, listed, 0, 0));
     let tree = Tree {
-        nodes,
-        root: 0,
         order: vec![0; listed as usize],
+        ..tree_of(nodes, 0)
     };
     assert_eq!(
         defect_of(tree).1,
@@ -159,9 +159,8 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
     );
     // A single leaf that lists exactly as many is counted to its end.
     let full = Tree {
-        nodes: vec![node(0, 3, 4096, 0, 0)],
-        root: 0,
         order: vec![0; 4096],
+        ..tree_of(vec![node(0, 3, 4096, 0, 0)], 0)
     };
     assert!(reached_nodes(&row(4), &full).is_ok());
 }
@@ -169,32 +168,18 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
 #[test]
 fn a_leaf_with_half_of_the_primitives_is_not_split() {
     let credit = |count: u32, nodes: Vec<TreeNode>| {
-        let tree = Tree {
-            nodes,
-            root: 0,
-            order: (0..count).collect(),
-        };
-        judge(&[TreeCheck::Split], None, count, 1, tree).credit
+        judge(&[TreeCheck::Split], None, count, 1, tree_of(nodes, count)).credit
     };
-    assert_eq!(credit(1, vec![node(0, 0, 1, 0, 0)]), Credit::FULL);
-    assert_eq!(credit(4, vec![node(0, 3, 4, 0, 0)]), Credit::NONE);
+    assert_eq!(credit(1, vec![leaf(0, 0)]), Credit::FULL);
+    assert_eq!(credit(4, vec![leaf(0, 3)]), Credit::NONE);
     let fork = node(0, 4, 0, 1, 2);
-    let half = vec![fork, node(0, 1, 2, 0, 0), node(2, 3, 2, 0, 0)];
+    let half = vec![fork, leaf(0, 1), leaf(2, 3)];
     assert_eq!(credit(4, half), Credit::NONE);
-    let half = vec![
-        node(0, 5, 0, 1, 2),
-        node(0, 2, 3, 0, 0),
-        node(3, 5, 3, 0, 0),
-    ];
+    let half = vec![node(0, 5, 0, 1, 2), leaf(0, 2), leaf(3, 5)];
     assert_eq!(credit(6, half), Credit::NONE);
     // Some leaves hold more than one primitive, but each holds less than half of them.
-    let thirds = vec![
-        fork,
-        node(0, 1, 2, 0, 0),
-        node(2, 4, 0, 3, 4),
-        node(2, 3, 2, 0, 0),
-        node(4, 4, 1, 0, 0),
-    ];
+    let right = node(2, 4, 0, 3, 4);
+    let thirds = vec![fork, leaf(0, 1), right, leaf(2, 3), leaf(4, 4)];
     assert_eq!(credit(5, thirds), Credit::FULL);
 }
 
@@ -238,14 +223,7 @@ fn cost_matches_a_hand_calculation() {
 
 #[test]
 fn an_empty_tree_has_no_node_or_one_empty_leaf() {
-    let empty = |nodes| {
-        let tree = Tree {
-            nodes,
-            root: 0,
-            order: Vec::new(),
-        };
-        judge(&ALL_CHECKS, None, 0, 1, tree).credit
-    };
+    let empty = |nodes| judge(&ALL_CHECKS, None, 0, 1, tree_of(nodes, 0)).credit;
     assert_eq!(empty(Vec::new()), Credit::FULL);
     let leaf = TreeNode::new(Vec3::INFINITY, Vec3::NEG_INFINITY, 0, 0, 0, 0);
     assert_eq!(empty(vec![leaf]), Credit::FULL);

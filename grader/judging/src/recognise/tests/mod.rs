@@ -51,19 +51,12 @@ fn explain(correct: &str, mistakes: &[Mistake], answers: &str) -> String {
             })
         };
         Item {
-            id: format!("{task}.{index}"),
-            title: String::new(),
-            task,
-            points: 1,
-            look: String::new(),
-            section: None,
-            needs: Vec::new(),
-            questions: Vec::new(),
             signatures: MistakeSignatures {
                 elements: (0..correct.len() as u32).collect(),
                 correct_answers: correct.clone(),
                 mistake_answers: wrong.iter().enumerate().filter_map(changed).collect(),
             },
+            ..Item::new(&format!("{task}.{index}"), 1, Vec::new())
         }
     };
     let known = mistakes.iter().map(|(hint, _)| KnownMistake {
@@ -72,12 +65,10 @@ fn explain(correct: &str, mistakes: &[Mistake], answers: &str) -> String {
         hint: (*hint).to_owned(),
         section: None,
     });
+    let items_of_exam = correct.iter().enumerate().map(item).collect();
     let exam = Exam {
-        schema: 2,
-        assignment: RAYS.id.to_owned(),
-        id: "small".to_owned(),
         mistakes: known.collect(),
-        items: correct.iter().enumerate().map(item).collect(),
+        ..Exam::new(&RAYS, "small", items_of_exam)
     };
     let ids = exam.items.iter().map(|item| item.id.clone());
     let observations = Observations {

@@ -14,15 +14,7 @@ use crate::seed::Rng;
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
-    let question = Question::Build {
-        shapes,
-        max_leaf_size,
-    };
-    let key = Key::Tree {
-        checks: Vec::new(),
-        sweep_cost,
-    };
-    ExamQuestion::new(question, key)
+    ExamQuestion::tree(shapes, max_leaf_size, &[], sweep_cost)
 }
 
 /// The maximum cost of a correct builder's tree, relative to the exact sweep's tree. The judge
@@ -112,7 +104,6 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
 
 pub(super) const COST_STRANDS: Declaration = Declaration {
     id: "build.cost_strands",
-    points: 1,
     title: "the best of all three axes is chosen, for strands along x, y and z",
     look: "At every node, compare the partitions along all three axes by the same cost, which \
            depends on the areas of boxes around whole primitives and on their numbers. The \
@@ -124,7 +115,6 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
 
 pub(super) const COST_SHEETS: Declaration = Declaration {
     id: "build.cost_sheets",
-    points: 1,
     title: "the areas of both sides decide, for sheets stacked above each other",
     look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
            buckets from the left and from the right.",

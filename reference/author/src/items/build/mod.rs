@@ -7,8 +7,8 @@ mod structure;
 mod unusual_inputs;
 
 use judging::exam::TreeCheck::{Partition, Split};
-use judging::exam::{ExamQuestion, Key, TreeCheck};
-use protocol::{Question, Shape};
+use judging::exam::{ExamQuestion, TreeCheck};
+use protocol::Shape;
 
 use super::meshes;
 use crate::items::{DeclaredItem, draw_items};
@@ -60,13 +60,5 @@ fn build_question(
     shapes: impl IntoIterator<Item = Shape>,
     max_leaf_size: u32,
 ) -> ExamQuestion {
-    let question = Question::Build {
-        shapes: meshes::number_shapes(shapes),
-        max_leaf_size,
-    };
-    let key = Key::Tree {
-        checks: checks.to_vec(),
-        sweep_cost: None,
-    };
-    ExamQuestion::new(question, key)
+    ExamQuestion::tree(meshes::number_shapes(shapes), max_leaf_size, checks, None)
 }

@@ -27,29 +27,23 @@ pub(super) fn of_mistake(item: &Item, answers: &Answers) -> Deviation {
 }
 
 fn measure_all(item: &Item, answers: &Answers) -> Vec<Measurement> {
-    let wrong = Measurement {
-        deviation: Deviation::WRONG,
-        count: None,
+    let Ok(answers) = answers else {
+        return vec![Measurement {
+            deviation: Deviation::WRONG,
+            count: None,
+        }];
     };
-    match answers {
-        Err(_) => vec![wrong],
-        Ok(answers) => {
-            let answered = item.questions.iter().zip(answers);
-            answered
-                .flat_map(|(question, answer)| measure(question, answer))
-                .collect()
-        }
-    }
+    let answered = item.questions.iter().zip(answers);
+    let measured = answered.flat_map(|(question, answer)| measure(question, answer));
+    measured.collect()
 }
 
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
     use grader::probe::{Crash, Fault};
-    use judging::assignment::RAYS;
     use judging::exam::{ExamQuestion, Key};
     use judging::judge::Tolerance;
-    use judging::signatures::MistakeSignatures;
     use protocol::{Answer, Corners, ElementOutcome, Interval, Query, Question, Ray};
 
     use super::*;
@@ -64,17 +58,7 @@ mod tests {
         let question = Question::boxes(Corners { min, max }, vec![query]);
         let key = Key::spans(vec![Some(Interval::new(1.0, 2.0))]);
         let exam_question = ExamQuestion::new(question, key);
-        Item {
-            id: "bbox.through".to_owned(),
-            title: String::new(),
-            task: RAYS.find("bbox").unwrap().task(),
-            points: 1,
-            look: String::new(),
-            section: None,
-            needs: Vec::new(),
-            questions: vec![exam_question; questions],
-            signatures: MistakeSignatures::default(),
-        }
+        Item::new("bbox.through", 1, vec![exam_question; questions])
     }
 
     fn entered(at: f32) -> Answer {

@@ -83,41 +83,18 @@ impl dyn Hierarchy {
 /// A scene's camera and primitives, converted to a submission's own types. The integrator calls the
 /// submission only through this type.
 pub struct World {
-    camera: Box<dyn CameraRays>,
-    bvh: Box<dyn Hierarchy>,
+    /// The camera. Its rays are in camera space.
+    pub camera: Box<dyn CameraRays>,
+    /// The tree that `Bvh::build` has built. Its rays are in world space.
+    pub bvh: Box<dyn Hierarchy>,
 }
 
 impl World {
     /// Converts a scene to the submission's types, which includes building a tree over the shapes.
     pub fn new(submission: &dyn Submission, scene: &Scene) -> Self {
-        World::from_parts(
-            submission.camera(&scene.camera.pinhole),
-            submission.build(&scene.shapes, scene.max_leaf_size),
-        )
-    }
-
-    /// Creates a world from a camera and a tree.
-    pub fn from_parts(camera: Box<dyn CameraRays>, bvh: Box<dyn Hierarchy>) -> Self {
-        World { camera, bvh }
-    }
-
-    /// Replaces the camera, and keeps the tree.
-    pub fn set_camera(&mut self, camera: Box<dyn CameraRays>) {
-        self.camera = camera;
-    }
-
-    /// Calls `Camera::sample_ray`. The ray is in camera space.
-    pub fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
-        self.camera.ray(pixel, offset)
-    }
-
-    /// Calls `Bvh::hit`, with a ray in world space.
-    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        self.bvh.closest_hit(ray)
-    }
-
-    /// Returns the tree that `Bvh::build` has built.
-    pub fn tree(&self) -> Tree {
-        self.bvh.tree()
+        World {
+            camera: submission.camera(&scene.camera.pinhole),
+            bvh: submission.build(&scene.shapes, scene.max_leaf_size),
+        }
     }
 }

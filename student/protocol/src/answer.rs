@@ -107,6 +107,12 @@ impl<T> ElementOutcome<T> {
     }
 }
 
+impl<T> From<Result<T, Panic>> for ElementOutcome<T> {
+    fn from(result: Result<T, Panic>) -> Self {
+        result.map_or_else(ElementOutcome::Panicked, ElementOutcome::Value)
+    }
+}
+
 /// The message and location of a panic, as sent to the grader.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Panic {

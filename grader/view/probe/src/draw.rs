@@ -2,11 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use framework::harness::attempt::attempt;
 use framework::render::integrator::{Integrator, RenderStats};
 use glam::{UVec2, Vec2};
 use protocol::{Panic, Trace};
 
-use crate::catch_panic;
 use crate::messages::{
     Draw, Drawn, Follow, Followed, MAX_PANICS, Quantity, Target, TestCounts, Values,
 };
@@ -64,7 +64,7 @@ impl Pixels<'_> {
             read_at: Instant::now(),
         };
         for (index, (pass, pixel)) in (0..).zip(self.request.pixels()) {
-            values.push(catch_panic(|| value(pass, pixel)).unwrap_or_else(|panic| {
+            values.push(attempt(|| value(pass, pixel)).unwrap_or_else(|panic| {
                 self.add_panic(panic, index);
                 replacement.clone()
             }));
@@ -125,8 +125,10 @@ impl Stage<'_> {
     /// Returns the hit of the ray through the centre of a pixel, like the framework's pictures of
     /// first hits.
     fn first_hit(&self, pixel: UVec2) -> Option<Trace> {
-        let ray = self.world.camera_ray(pixel, Vec2::splat(0.5));
-        self.world.hit(&self.scene.camera.placement.to_world(&ray))
+        let ray = self.world.camera.ray(pixel, Vec2::splat(0.5));
+        self.world
+            .bvh
+            .closest_hit(&self.scene.camera.placement.to_world(&ray))
     }
 }
 
@@ -134,7 +136,7 @@ impl Stage<'_> {
 pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -> Followed {
     let mut stats = RenderStats::default();
     record::start(request);
-    let outcome = catch_panic(|| match request.target {
+    let outcome = attempt(|| match request.target {
         Target::Centre(pixel) => {
             stage.first_hit(pixel);
             None
@@ -143,7 +145,7 @@ pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -
             Some(integrator.sample_radiance(pixel, sample, &mut stats))
         }
         Target::Ray(ray) => {
-            stage.world.hit(&ray);
+            stage.world.bvh.closest_hit(&ray);
             None
         }
     });

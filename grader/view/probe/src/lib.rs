@@ -12,16 +12,4 @@ pub mod scene_data;
 mod serve;
 mod stage;
 
-use framework::harness::attempt::attempt;
-use protocol::{ElementOutcome, Panic};
-
 pub use serve::main;
-
-/// Runs code of the submission, and returns its panic as an error.
-fn catch_panic<T>(run: impl FnOnce() -> T) -> Result<T, Panic> {
-    match attempt(run) {
-        ElementOutcome::Value(value) => Ok(value),
-        ElementOutcome::Panicked(panic) => Err(panic),
-        ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
-    }
-}

@@ -77,7 +77,7 @@ fn serve_aimed(stage: &Stage, first: Request, pipe: &mut Pipe) -> Result<Request
         let response = match &request {
             Request::Open(_) | Request::Aim(_) => return Ok(request),
             Request::Draw(request) => Response::Drawn(draw(stage, &integrator, request)),
-            Request::Tree(_) => Response::Tree(attempt(|| TreeData(stage.world.tree()))),
+            Request::Tree(_) => Response::Tree(attempt(|| TreeData(stage.world.bvh.tree())).into()),
             Request::Follow(request) => Response::Followed(follow(stage, &integrator, request)),
             Request::Boxes(queries) => {
                 let boxes = queries.boxes.iter();

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use framework::harness::attempt::attempt;
 use framework::math::sin_cos;
 use framework::scene::Scene;
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
@@ -10,7 +11,6 @@ use protocol::{
     ElementOutcome, ExamCamera, Interval, Panic, PinholeCamera, Ray, Sample, Shape, Trace, TreeNode,
 };
 
-use crate::catch_panic;
 use crate::messages::{Opened, Part, TreeSize};
 use crate::record::Recorded;
 use crate::scene_data::{Aim, SceneData, TreeSource};
@@ -50,7 +50,7 @@ impl<'a> Stage<'a> {
             TreeSource::List => Box::new(List(submission.primitive_list(&shapes))),
         };
         let has_camera = has(Part::Camera);
-        let (tree, world) = match catch_panic(|| {
+        let opened = attempt(|| {
             let tree = build();
             let camera = camera(submission, &aim, has_camera);
             let size = TreeSize {
@@ -62,25 +62,28 @@ impl<'a> Stage<'a> {
             } else {
                 tree
             };
-            (size, World::from_parts(camera, tree))
-        }) {
-            Ok((size, world)) => (ElementOutcome::Value(size), Some(world)),
-            Err(panic) => (ElementOutcome::Panicked(panic), None),
-        };
-        let stage = world.map(|world| Stage {
-            submission,
-            scene,
-            world,
-            aim,
-            has_camera,
+            (size, World { camera, bvh: tree })
         });
+        let (tree, stage) = match opened {
+            Err(panic) => (ElementOutcome::Panicked(panic), None),
+            Ok((size, world)) => {
+                let stage = Stage {
+                    submission,
+                    scene,
+                    world,
+                    aim,
+                    has_camera,
+                };
+                (ElementOutcome::Value(size), Some(stage))
+            }
+        };
         (Opened { missing, tree }, stage)
     }
 
     /// Replaces the camera.
     pub(crate) fn aim(&mut self, aim: Aim) {
-        if let Ok(camera) = catch_panic(|| camera(self.submission, &aim, self.has_camera)) {
-            self.world.set_camera(camera);
+        if let Ok(camera) = attempt(|| camera(self.submission, &aim, self.has_camera)) {
+            self.world.camera = camera;
         }
         self.scene.camera = aim.camera;
         self.aim = aim;
@@ -90,7 +93,7 @@ impl<'a> Stage<'a> {
     pub(crate) fn intersect_box(&self, corners: (Vec3, Vec3), ray: &Ray) -> Option<Interval> {
         let (min, max) = corners;
         let test = || self.submission.intersect_box(min, max, ray, ray.range);
-        catch_panic(test).ok().flatten()
+        attempt(test).ok().flatten()
     }
 }
 
@@ -143,10 +146,10 @@ fn missing_parts(submission: &dyn Submission, scene: &Scene) -> Vec<(Part, Panic
         submission.intersect_box(Vec3::NEG_ONE, Vec3::ONE, &ray, Interval::AHEAD);
     };
     let outcomes = [
-        (Part::Camera, catch_panic(camera)),
-        (Part::Triangle, catch_panic(|| hit(false))),
-        (Part::Sphere, catch_panic(|| hit(true))),
-        (Part::BBox, catch_panic(bbox)),
+        (Part::Camera, attempt(camera)),
+        (Part::Triangle, attempt(|| hit(false))),
+        (Part::Sphere, attempt(|| hit(true))),
+        (Part::BBox, attempt(bbox)),
     ];
     let panics = outcomes.into_iter();
     let panics = panics.filter_map(|(part, outcome)| Some((part, outcome.err()?)));

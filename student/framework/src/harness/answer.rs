@@ -50,17 +50,20 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
         Question::Build {
             shapes,
             max_leaf_size,
-        } => Answer::Tree(attempt(|| {
-            let tree = submission.build(shapes, *max_leaf_size as usize).tree();
-            let (primitives, max) = (shapes.len(), Question::max_nodes(shapes.len()));
-            assert!(
-                tree.nodes.len() <= max && tree.order.len() <= max,
-                "the tree over {primitives} primitives has {} nodes and {} primitives: too many",
-                tree.nodes.len(),
-                tree.order.len(),
-            );
-            tree
-        })),
+        } => {
+            let tree = attempt(|| {
+                let tree = submission.build(shapes, *max_leaf_size as usize).tree();
+                let (primitives, max) = (shapes.len(), Question::max_nodes(shapes.len()));
+                assert!(
+                    tree.nodes.len() <= max && tree.order.len() <= max,
+                    "the tree over {primitives} primitives has {} nodes and {} primitives: too many",
+                    tree.nodes.len(),
+                    tree.order.len(),
+                );
+                tree
+            });
+            Answer::Tree(tree.into())
+        }
         Question::Radiance {
             scene,
             film,
@@ -75,7 +78,7 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
                 seed: *seed,
             };
             Answer::Picture(match Scene::from_text(scene) {
-                Ok(scene) => attempt(|| render(submission, &scene, &settings)),
+                Ok(scene) => attempt(|| render(submission, &scene, &settings)).into(),
                 // This is not the submission's fault, so it must not look like a wrong answer or a
                 // panic. The grader reports the missing answer.
                 Err(error) => {

@@ -28,19 +28,16 @@ pub fn keep_panics_quiet() {
 }
 
 /// Runs `code` and returns its value, or the panic if it panics.
-pub fn attempt<T>(code: impl FnOnce() -> T) -> ElementOutcome<T> {
+pub fn attempt<T>(code: impl FnOnce() -> T) -> Result<T, Panic> {
     // This is unwind safe: values that a panic leaves half modified are not used again, because
     // each question has its own values.
     let before = ATTEMPTING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(code));
     ATTEMPTING.set(before);
-    match result {
-        Ok(value) => ElementOutcome::Value(value),
-        Err(payload) => ElementOutcome::Panicked(Panic {
-            message: truncate(panic_message(payload.as_ref())),
-            location: truncate(&LOCATION.with(RefCell::take)),
-        }),
-    }
+    result.map_err(|payload| Panic {
+        message: truncate(panic_message(payload.as_ref())),
+        location: truncate(&LOCATION.with(RefCell::take)),
+    })
 }
 
 /// Runs `code` for each element, like [`attempt`]. After [`Panic::MAX_PER_QUESTION`] panics, the
@@ -53,8 +50,8 @@ pub fn attempt_each<Q, T>(elements: &[Q], mut code: impl FnMut(&Q) -> T) -> Vec<
             return ElementOutcome::Skipped;
         }
         let outcome = attempt(|| code(element));
-        panics += usize::from(matches!(outcome, ElementOutcome::Panicked(_)));
-        outcome
+        panics += usize::from(outcome.is_err());
+        outcome.into()
     };
     elements.iter().map(answer).collect()
 }
@@ -95,11 +92,8 @@ mod tests {
 
     #[test]
     fn truncates_a_long_message_at_a_character_boundary() {
-        let outcome: ElementOutcome<()> =
-            attempt(|| panic!("{}", "é".repeat(Panic::MAX_TEXT_BYTES)));
-        let ElementOutcome::Panicked(panic) = outcome else {
-            unreachable!("the code panics")
-        };
+        let message = "é".repeat(Panic::MAX_TEXT_BYTES);
+        let panic = attempt(|| panic!("{message}")).expect_err("the code panics");
         assert!(panic.message.len() <= Panic::MAX_TEXT_BYTES && !panic.message.is_empty());
     }
 }

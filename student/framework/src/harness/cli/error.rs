@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use glam::UVec2;
 use protocol::Panic;
 
+use crate::harness::attempt::attempt;
 use crate::scene::SceneError;
 
 /// An error that prevents a picture from being rendered or written.
@@ -23,6 +24,12 @@ pub(super) struct SubmissionPanic {
     pub(super) panic: Panic,
     /// The pixel that was being rendered, if any.
     pub(super) pixel: Option<UVec2>,
+}
+
+/// Calls the submission's code. A panic is an error, which names the pixel that is being rendered, if
+/// any.
+pub(super) fn call<T>(pixel: Option<UVec2>, code: impl FnOnce() -> T) -> Result<T, RenderError> {
+    attempt(code).map_err(|panic| RenderError::Panicked(SubmissionPanic { panic, pixel }))
 }
 
 impl RenderError {

@@ -24,11 +24,11 @@ use clap::Parser;
 use glam::{UVec2, Vec2};
 use protocol::{Trace, Tree};
 
-use crate::harness::attempt::{attempt, keep_panics_quiet};
+use crate::harness::attempt::keep_panics_quiet;
 use crate::harness::cli::canvas::{Canvas, Event};
-use crate::harness::cli::error::RenderError;
+use crate::harness::cli::error::{RenderError, call};
 use crate::harness::cli::options::Options;
-use crate::harness::cli::parallel::{RenderPool, value_or_error};
+use crate::harness::cli::parallel::RenderPool;
 use crate::harness::cli::progress::Progress;
 use crate::harness::view::{self, ViewMode};
 use crate::render::film::{Film, Tone};
@@ -122,7 +122,7 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     // Traces one ray first, so that if the submission still has a stub, the stub's panic is the
     // only message.
     let corner = UVec2::ZERO;
-    value_or_error(attempt(|| first_hit(scene, world, corner)), Some(corner))?;
+    call(Some(corner), || first_hit(scene, world, corner))?;
     if tree.nodes.is_empty() && !scene.shapes.is_empty() {
         let count = scene.shapes.len();
         let quick = if count > MANY_PRIMITIVES {
@@ -222,8 +222,10 @@ fn render_light(
 
 /// Returns the hit of the ray through the centre of a pixel.
 fn first_hit(scene: &Scene, world: &World, pixel: UVec2) -> Option<Trace> {
-    let ray = world.camera_ray(pixel, Vec2::splat(0.5));
-    world.hit(&scene.camera.placement.to_world(&ray))
+    let ray = world.camera.ray(pixel, Vec2::splat(0.5));
+    world
+        .bvh
+        .closest_hit(&scene.camera.placement.to_world(&ray))
 }
 
 impl Options {

@@ -1,14 +1,12 @@
 //! Renders a picture with many threads.
 
 use glam::{UVec2, Vec3};
-use protocol::ElementOutcome;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::canvas::{Canvas, passes};
-use super::error::{RenderError, SubmissionPanic};
+use super::error::{RenderError, call};
 use super::progress::Progress;
-use crate::harness::attempt::attempt;
 use crate::harness::probe::STACK_BYTES;
 use crate::render::integrator::RenderStats;
 
@@ -94,23 +92,9 @@ impl RenderPool {
     ) -> Result<Vec<T>, RenderError> {
         let mut one = |x: u32| {
             let position = UVec2::new(x, y);
-            value_or_error(attempt(|| pixel(position, x as usize)), Some(position))
+            call(Some(position), || pixel(position, x as usize))
         };
         (0..self.size.x).map(&mut one).collect()
-    }
-}
-
-/// Returns the value, or the panic as an error.
-pub(super) fn value_or_error<T>(
-    outcome: ElementOutcome<T>,
-    pixel: Option<UVec2>,
-) -> Result<T, RenderError> {
-    match outcome {
-        ElementOutcome::Value(value) => Ok(value),
-        ElementOutcome::Panicked(panic) => {
-            Err(RenderError::Panicked(SubmissionPanic { panic, pixel }))
-        }
-        ElementOutcome::Skipped => unreachable!("`attempt` never skips"),
     }
 }
 

@@ -5,11 +5,9 @@ use std::fmt::Write;
 use glam::{UVec2, Vec3};
 use protocol::{Shape, Trace};
 
-use super::error::RenderError;
+use super::error::{RenderError, call};
 use super::first_hit;
 use super::options::Options;
-use super::parallel::value_or_error;
-use crate::harness::attempt::attempt;
 use crate::render::integrator::{Integrator, RenderStats};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
@@ -29,8 +27,7 @@ pub(super) fn print(
         let message = format!("pixel {pixel} is outside the film, which has {x} x {y} pixels");
         return Err(RenderError::Other(message));
     }
-    let hit = attempt(|| first_hit(scene, world, pixel));
-    let hit = value_or_error(hit, Some(pixel))?;
+    let hit = call(Some(pixel), || first_hit(scene, world, pixel))?;
     print!("{}", description(pixel, scene, names, hit.as_ref()));
 
     let integrator = Integrator::new(scene, world, options.settings(size));
@@ -38,8 +35,8 @@ pub(super) fn print(
         rays: 1,
         ..RenderStats::default()
     };
-    let light = attempt(|| integrator.pixel_radiance(pixel, &mut stats));
-    let light: Vec3 = value_or_error(light, Some(pixel))?;
+    let radiance = || integrator.pixel_radiance(pixel, &mut stats);
+    let light = call(Some(pixel), radiance)?;
     let samples = options.samples;
     println!(
         "  radiance  {light}, from {samples} samples and {} rays",

@@ -9,9 +9,8 @@ use glam::{Vec2, Vec3};
 use indicatif::{ProgressBar, ProgressStyle};
 use protocol::{Interval, Ray, Shape, Tree};
 
-use super::error::RenderError;
+use super::error::{RenderError, call};
 use super::notice::Notice;
-use super::parallel::value_or_error;
 use crate::harness::attempt::attempt;
 use crate::harness::probe::STACK_BYTES;
 use crate::scene::Scene;
@@ -63,16 +62,16 @@ pub(super) fn build(
     scene: &Scene,
 ) -> Result<(World, Tree), RenderError> {
     let camera = run("task 1, camera", "Camera::new", || {
-        value_or_error(attempt(|| submission.camera(&scene.camera.pinhole)), None)
+        call(None, || submission.camera(&scene.camera.pinhole))
     })?;
     let count = scene.shapes.len();
     let step = format!("Bvh::build over {count} primitives");
     run("task 3, build", &step, || {
-        let build = || submission.build(&scene.shapes, scene.max_leaf_size);
-        let bvh = value_or_error(attempt(build), None)?;
-        let world = World::from_parts(camera, bvh);
-        let tree = value_or_error(attempt(|| world.tree()), None)?;
-        Ok((world, tree))
+        let bvh = call(None, || {
+            submission.build(&scene.shapes, scene.max_leaf_size)
+        })?;
+        let tree = call(None, || bvh.tree())?;
+        Ok((World { camera, bvh }, tree))
     })
 }
 
@@ -86,10 +85,7 @@ pub(super) fn try_methods(
 ) -> Result<(), RenderError> {
     let middle = scene.camera.pinhole.film / 2;
     let camera_ray = run("task 1, camera", "Camera::sample_ray", || {
-        value_or_error(
-            attempt(|| world.camera_ray(middle, Vec2::splat(0.5))),
-            Some(middle),
-        )
+        call(Some(middle), || world.camera.ray(middle, Vec2::splat(0.5)))
     })?;
     if let Some(note) = not_numbers(&camera_ray) {
         eprintln!("{note}");
@@ -118,7 +114,7 @@ pub(super) fn try_methods(
         })?;
     }
     try_method("task 3, traverse", "Bvh::hit", || {
-        world.hit(ray);
+        world.bvh.closest_hit(ray);
     })
 }
 
@@ -136,7 +132,7 @@ fn not_numbers(ray: &Ray) -> Option<String> {
 
 fn try_method(task: &str, step: &str, method: impl FnOnce() + Send) -> Result<(), RenderError> {
     run(task, step, || {
-        attempt(method);
+        drop(attempt(method));
         Ok(())
     })
 }

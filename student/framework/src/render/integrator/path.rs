@@ -48,7 +48,7 @@ impl Integrator<'_> {
     ) -> Result<Vec3, InvalidSample> {
         let sampler = Sampler::new(self.settings.seed, pixel, sample);
         let offset = sampler.pair(0, Purpose::Pixel);
-        let camera_ray = self.world.camera_ray(pixel, offset);
+        let camera_ray = self.world.camera.ray(pixel, offset);
         let mut ray = self.scene.camera.placement.to_world(&camera_ray);
 
         let mut light = Vec3::ZERO;
@@ -132,7 +132,7 @@ impl Integrator<'_> {
         if !ray.origin.is_finite() || !ray.dir.is_finite() {
             return Err(InvalidSample);
         }
-        let Some(trace) = self.world.hit(ray) else {
+        let Some(trace) = self.world.bvh.closest_hit(ray) else {
             return Ok(None);
         };
         // The number of a scene's shape is its index.

@@ -82,7 +82,10 @@ fn contact_in_a_furnace(ball: f32, ground: f32, distance: f32) -> f32 {
         half_width: 0.5 * ball / distance,
         film,
     };
-    let world = World::from_parts(Box::new(zoomed), CORRECT.build(&scene.shapes, 1));
+    let world = World {
+        camera: Box::new(zoomed),
+        bvh: CORRECT.build(&scene.shapes, 1),
+    };
     let integrator = Integrator::new(&scene, &world, settings);
     let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| uvec2(x, y)));
     let light = pixels.map(|pixel| {

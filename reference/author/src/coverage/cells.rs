@@ -80,6 +80,7 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
                     start_at_box(&bounds, ray)
                 };
                 add(start, 1);
+                add(octant(ray), 1);
             }
         }
         Question::BBoxHit(table) => {
@@ -87,6 +88,7 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
             place(&bounds, calls, &mut add);
             for query in table.rows.to_vec().iter() {
                 add(start_at_box(&bounds, &query.ray), 1);
+                add(octant(&query.ray), 1);
             }
         }
         Question::Build { shapes, .. } => {
@@ -94,9 +96,6 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
             add(size(shapes.len()), 1);
         }
         Question::Radiance { .. } => {}
-    }
-    for ray in asked_rays(&asked.question) {
-        add(OCTANT[ray.dir.is_negative_bitmask() as usize], 1);
     }
     add(HISTORY[0], 1);
     add(HISTORY[1], calls.saturating_sub(9));
@@ -151,6 +150,10 @@ fn start_at_shapes(shapes: &[Shape], ray: &Ray) -> Cell {
     }
 }
 
+fn octant(ray: &Ray) -> Cell {
+    OCTANT[ray.dir.is_negative_bitmask() as usize]
+}
+
 /// Returns the side of a triangle's plane on which a point is.
 fn side([p0, p1, p2]: [DVec3; 3], point: DVec3) -> Cell {
     let normal = (p1 - p0).cross(p2 - p0).normalize_or_zero();
@@ -166,15 +169,6 @@ fn start_at_box(bounds: &Bounds, ray: &Ray) -> Cell {
     let start = Bounds::around([ray.origin.as_dvec3()]);
     let is_inside = bounds.contains(&start);
     if is_inside { INSIDE } else { OUTSIDE }
-}
-
-/// Returns the rays of a question, except those of a camera.
-fn asked_rays(question: &Question) -> Vec<Ray> {
-    match question {
-        Question::Hit(table) => table.rows.to_vec().into_owned(),
-        Question::BBoxHit(table) => table.rows.to_vec().iter().map(|query| query.ray).collect(),
-        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => Vec::new(),
-    }
 }
 
 /// Returns how often a cell is asked. A cell that stands for several is asked as often as the one of

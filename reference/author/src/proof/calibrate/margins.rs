@@ -23,12 +23,6 @@ pub struct DeviationSample {
     pub seed: u64,
 }
 
-impl DeviationSample {
-    fn key(&self) -> SolutionAndItem {
-        (self.solution.clone(), self.item.clone())
-    }
-}
-
 impl fmt::Display for DeviationSample {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(
@@ -64,40 +58,45 @@ impl Margin {
     }
 }
 
-/// The ids of a solution and of an item.
-type SolutionAndItem = (String, String);
+/// What a sample is kept for. For each of these, one sample is kept: the nearest.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum KeptFor {
+    /// The largest deviation of a correct solution.
+    WorstCorrect(Threshold),
+    /// The smallest deviation of a mistake that the threshold catches.
+    MildestMistake(Threshold),
+    /// A correct solution that fails an item for a reason that has no threshold. Holds the ids of the
+    /// solution and of the item.
+    FailedVariant(String, String),
+    /// A mistake that is caught with too small a margin, or not at all, by an item that it must
+    /// fail. Holds the ids of the mistake and of the item.
+    WeakDetection(String, String),
+}
 
 /// The margins of all thresholds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Margins {
-    by_threshold: BTreeMap<Threshold, Margin>,
-    /// Correct solutions that fail an item for a reason that has no threshold, with one sample per
-    /// solution and item.
-    failed_variants: BTreeMap<SolutionAndItem, DeviationSample>,
-    /// Mistakes that are caught with too small a margin, or not at all, by an item that they must
-    /// fail.
-    weak_detections: BTreeMap<SolutionAndItem, DeviationSample>,
+    nearest: BTreeMap<KeptFor, DeviationSample>,
 }
 
 impl Margins {
     /// Returns the margin of one threshold.
     pub fn margin(&self, threshold: Threshold) -> Margin {
-        let known = self.by_threshold.get(&threshold);
-        known.cloned().unwrap_or_default()
+        let kept = |kept_for: KeptFor| self.nearest.get(&kept_for).cloned();
+        Margin {
+            worst_correct: kept(KeptFor::WorstCorrect(threshold)),
+            mildest_mistake: kept(KeptFor::MildestMistake(threshold)),
+        }
     }
 
     /// Adds a deviation of a correct solution.
     pub fn add_correct(&mut self, sample: DeviationSample) {
-        match sample.deviation.threshold {
-            None if sample.deviation.is_right() => {}
-            None => {
-                self.failed_variants.entry(sample.key()).or_insert(sample);
-            }
-            Some(threshold) => {
-                let margin = self.by_threshold.entry(threshold).or_default();
-                replace_if(&mut margin.worst_correct, sample, |new, old| new > old);
-            }
-        }
+        let kept_for = match sample.deviation.threshold {
+            None if sample.deviation.is_right() => return,
+            None => KeptFor::FailedVariant(sample.solution.clone(), sample.item.clone()),
+            Some(threshold) => KeptFor::WorstCorrect(threshold),
+        };
+        self.keep_nearest(kept_for, sample);
     }
 
     /// Adds the deciding deviations of one mistake in one exam, in the items that it must fail.
@@ -115,29 +114,31 @@ impl Margins {
     fn add_mistake(&mut self, sample: DeviationSample) {
         let Deviation { threshold, value } = sample.deviation;
         if value < MIN_MARGIN {
-            let known = self.weak_detections.entry(sample.key());
-            let mild = known.or_insert_with(|| sample.clone());
-            if value < mild.deviation.value {
-                mild.clone_from(&sample);
-            }
+            let (mistake, item) = (sample.solution.clone(), sample.item.clone());
+            self.keep_nearest(KeptFor::WeakDetection(mistake, item), sample.clone());
         }
         if let Some(threshold) = threshold.filter(|_| value > 1.0 && value.is_finite()) {
-            let margin = self.by_threshold.entry(threshold).or_default();
-            replace_if(&mut margin.mildest_mistake, sample, |new, old| new < old);
+            self.keep_nearest(KeptFor::MildestMistake(threshold), sample);
+        }
+    }
+
+    /// Keeps the sample, unless one that is as near is known.
+    fn keep_nearest(&mut self, kept_for: KeptFor, sample: DeviationSample) {
+        let is_nearer = |known: &DeviationSample| {
+            let (new, old) = (sample.deviation.value, known.deviation.value);
+            let is_correct = matches!(kept_for, KeptFor::WorstCorrect(_));
+            if is_correct { new > old } else { new < old }
+        };
+        if self.nearest.get(&kept_for).is_none_or(is_nearer) {
+            self.nearest.insert(kept_for, sample);
         }
     }
 
     /// Returns the margins of both sets of samples together.
     pub fn merge(mut self, other: Margins) -> Margins {
-        let margins = other.by_threshold.into_values();
-        let nearest = margins.map(|margin| (margin.worst_correct, margin.mildest_mistake));
-        let (correct, mistakes): (Vec<_>, Vec<_>) = nearest.unzip();
-        let correct = correct.into_iter().flatten();
-        let correct = correct.chain(other.failed_variants.into_values());
-        correct.for_each(|sample| self.add_correct(sample));
-        let mistakes = mistakes.into_iter().flatten();
-        let mistakes = mistakes.chain(other.weak_detections.into_values());
-        mistakes.for_each(|sample| self.add_mistake(sample));
+        for (kept_for, sample) in other.nearest {
+            self.keep_nearest(kept_for, sample);
+        }
         self
     }
 
@@ -148,26 +149,15 @@ impl Margins {
             let worst = margin.worst_correct.as_ref()?;
             (margin.correct_margin() < MIN_MARGIN).then(|| too_near(threshold, worst))
         });
-        let wrong = self
-            .failed_variants
-            .values()
-            .map(|sample| format!("{sample} is correct but fails: run `cargo author prove`"));
-        near.chain(wrong)
-            .chain(self.weak_detections.values().map(too_mild))
-            .collect()
-    }
-}
-
-/// Replaces `known` with `new` if there is no known sample, or if `nearer` returns true for the new
-/// value and the known one.
-fn replace_if(
-    known: &mut Option<DeviationSample>,
-    new: DeviationSample,
-    nearer: impl Fn(f64, f64) -> bool,
-) {
-    match known {
-        Some(old) if !nearer(new.deviation.value, old.deviation.value) => {}
-        Some(_) | None => *known = Some(new),
+        let wrong = self.nearest.iter();
+        let wrong = wrong.filter_map(|(kept_for, sample)| match kept_for {
+            KeptFor::WorstCorrect(_) | KeptFor::MildestMistake(_) => None,
+            KeptFor::FailedVariant(..) => Some(format!(
+                "{sample} is correct but fails: run `cargo author prove`"
+            )),
+            KeptFor::WeakDetection(..) => Some(too_mild(sample)),
+        });
+        near.chain(wrong).collect()
     }
 }
 

@@ -27,23 +27,7 @@ const NO_CARGO: &str = "CARGO is not set: run `cargo author package … --check`
 /// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
 const NO_LIMITS_CODE: i32 = 125;
 
-/// A command to run on the machine.
-#[derive(Clone, Copy, Debug)]
-pub struct Job<'a> {
-    /// The user that the command runs as: `container`, which is root with the capabilities of a Docker
-    /// container, or `runner`, the user of GitHub's runners.
-    pub user: &'static str,
-    /// Whether it gets half a core and 768 MiB. A platform builds an image without limits.
-    pub is_limited: bool,
-    /// The working directory, as a path on the machine.
-    pub folder: &'a str,
-    /// The platform's environment variables: `NAME=value`.
-    pub variables: &'a [String],
-    /// The program and its arguments.
-    pub command: &'a [String],
-}
-
-/// The result of a job.
+/// The result of a command.
 #[derive(Clone, Debug)]
 pub struct JobResult {
     /// The exit code, or `None` if the command was killed by a signal.
@@ -133,10 +117,22 @@ impl Machine {
         Ok(command.status().map(drop).at("remove", folder)?)
     }
 
-    /// Runs a job on the machine.
-    pub fn run(&self, job: Job) -> Result<JobResult> {
+    /// Runs a command in a folder of the machine, with the platform's environment variables
+    /// `NAME=value`.
+    ///
+    /// The user is `container`, which is root with the capabilities of a Docker container, or `runner`,
+    /// the user of GitHub's runners. With limits, the command gets half a core and 768 MiB. A platform
+    /// builds an image without limits.
+    pub fn run(
+        &self,
+        user: &str,
+        folder: &str,
+        variables: &[String],
+        is_limited: bool,
+        command_line: &[String],
+    ) -> Result<JobResult> {
         let usage_file = &self.root.with_extension("used");
-        let is_limited = self.is_limited && job.is_limited;
+        let is_limited = self.is_limited && is_limited;
         let mut command = self.root_command(if is_limited { "sh" } else { "unshare" });
         if is_limited {
             let script = command.args(["-c", LIMIT_SCRIPT, "sh"]);
@@ -146,14 +142,14 @@ impl Machine {
             .args(NAMESPACES)
             .args(["sh", "-c", ENTER_SCRIPT, "sh"])
             .args([&self.root, &self.toolchain])
-            .args([job.user, job.folder, "LANG=C.UTF-8"])
+            .args([user, folder, "LANG=C.UTF-8"])
             // `env -i` would remove it.
             .arg(format!(
                 "PATH={}/bin:{SYSTEM_PATH}",
                 self.toolchain.display()
             ))
-            .args(job.variables)
-            .args(job.command);
+            .args(variables)
+            .args(command_line);
         let start = Instant::now();
         let output = command.output().at("run", "unshare")?;
         let text = [output.stdout, output.stderr].concat();

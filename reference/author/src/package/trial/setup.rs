@@ -11,7 +11,7 @@ use zip::ZipArchive;
 
 use crate::bundle::{Bundle, archive, crates};
 use crate::package::Platform;
-use crate::package::trial::machine::{Job, JobResult, Machine};
+use crate::package::trial::machine::{JobResult, Machine};
 
 /// The metadata file that Gradescope provides with a submission. It does not affect the score.
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [
@@ -181,13 +181,8 @@ impl Setup {
         is_limited: bool,
         command: &[String],
     ) -> Result<JobResult> {
-        machine.run(Job {
-            user: self.run.user,
-            is_limited,
-            folder: self.run.folder,
-            variables: &self.variables,
-            command,
-        })
+        let PlatformRun { user, folder, .. } = self.run;
+        machine.run(user, folder, &self.variables, is_limited, command)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Random numbers from a seed and an item's name. They are the same on every machine.
 
-use glam::{DVec3, dvec3};
+use glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -74,11 +74,12 @@ impl Rng {
 
     /// Returns a point in the cube from `-half` to `half` along each axis.
     pub fn point(&mut self, half: f64) -> DVec3 {
-        dvec3(
-            self.uniform(-half, half),
-            self.uniform(-half, half),
-            self.uniform(-half, half),
-        )
+        self.vector(-half, half)
+    }
+
+    /// Returns a vector whose components are in `[min, max)`.
+    pub fn vector(&mut self, min: f64, max: f64) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|_| self.uniform(min, max)))
     }
 
     /// Returns a uniformly distributed direction of length one.

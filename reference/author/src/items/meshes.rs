@@ -14,6 +14,15 @@ pub fn flat_triangle(corners: [DVec3; 3], shape: u32) -> Shape {
     }
 }
 
+/// Returns the sphere around this centre.
+pub fn sphere(center: DVec3, radius: f64) -> Shape {
+    Shape::Sphere {
+        center: center.as_vec3(),
+        radius: radius as f32,
+        shape: 0,
+    }
+}
+
 /// Returns the shapes, numbered in order.
 pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
     let number = |(index, mut numbered): (u32, Shape)| {

@@ -10,8 +10,7 @@ use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};
 use protocol::{ExamCamera, Geometry, Question, Rows, Sample, Shape, Table, every_pixel};
 
-use crate::oracle::scan::Scan;
-use crate::oracle::{Intersection, Ray64};
+use crate::oracle::{Intersection, Ray64, scan};
 
 /// The distance of the neighbours from a position, along each axis and in pixels.
 const NEIGHBOUR_DISTANCE: f32 = 5e-4;
@@ -43,8 +42,7 @@ pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCa
 /// Creates a question that asks for a picture of these shapes. The expected picture is computed by
 /// testing the shapes one by one, without a tree.
 pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion {
-    let scan = Scan::new(&shapes);
-    let key = first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
+    let key = first_hits_key(&camera, |ray64| scan::closest_hit(ray64, &shapes));
     let table = Table {
         subject: Geometry::List { shapes },
         rows: Rows::Picture(camera),

@@ -106,12 +106,8 @@ impl Place {
 
     /// Moves a shape and its rays here.
     pub(super) fn table(self, (shape, rays): &(Shape, Vec<Ray>)) -> (Shape, Vec<Ray>) {
-        (self.shape(shape), self.rays(rays))
-    }
-
-    /// Moves rays here.
-    pub(super) fn rays(self, rays: &[Ray]) -> Vec<Ray> {
-        rays.iter().map(|ray| self.ray(ray)).collect()
+        let rays = rays.iter().map(|ray| self.ray(ray));
+        (self.shape(shape), rays.collect())
     }
 
     /// Moves a query of a box here.

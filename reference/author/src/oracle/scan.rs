@@ -35,48 +35,9 @@ pub fn intersect(ray: &Ray64, shape: &Shape) -> Option<Intersection> {
 }
 
 /// Returns the closest intersection with any of the shapes.
-pub fn closest_hit<'a>(
-    ray: &Ray64,
-    shapes: impl IntoIterator<Item = &'a Shape>,
-) -> Option<Intersection> {
-    shapes
-        .into_iter()
-        .filter_map(|shape| intersect(ray, shape))
-        .min_by(|a, b| a.distance.total_cmp(&b.distance))
-}
-
-/// A list of shapes with bounding spheres, for scans with very many rays, such as those of
-/// pictures.
-#[derive(Debug)]
-pub struct Scan<'a> {
-    bounded_shapes: Vec<(Sphere, &'a Shape)>,
-}
-
-impl<'a> Scan<'a> {
-    /// Computes a bounding sphere for each shape, slightly larger than necessary.
-    pub fn new(shapes: &'a [Shape]) -> Self {
-        let with_sphere = |shape| {
-            let bounds = bounds(shape);
-            let sphere = Sphere {
-                center: bounds.center(),
-                radius: 0.500_001 * bounds.min.distance(bounds.max),
-            };
-            (sphere, shape)
-        };
-        Scan {
-            bounded_shapes: shapes.iter().map(with_sphere).collect(),
-        }
-    }
-
-    /// Returns the same as [`closest_hit`], but tests only the shapes whose bounding spheres the
-    /// ray's line hits.
-    pub fn closest_hit(&self, ray: &Ray64) -> Option<Intersection> {
-        let candidates = self
-            .bounded_shapes
-            .iter()
-            .filter(|(sphere, _)| sphere.is_hit_by_line(ray));
-        closest_hit(ray, candidates.map(|&(_, shape)| shape))
-    }
+pub fn closest_hit(ray: &Ray64, shapes: &[Shape]) -> Option<Intersection> {
+    let hits = shapes.iter().filter_map(|shape| intersect(ray, shape));
+    hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
 /// Returns the corners of a triangle, or `None` for any other shape.
@@ -150,7 +111,6 @@ mod tests {
     use protocol::Ray;
 
     use super::*;
-    use crate::seed::Seed;
 
     fn shapes() -> [Shape; 2] {
         [
@@ -177,27 +137,6 @@ mod tests {
         assert_eq!((hit.distance, hit.shape), (5.0, 1));
         let hit = closest_hit(&Ray64::from(&ray.within(6.0, 20.0)), &shapes()).unwrap();
         assert_eq!((hit.distance, hit.shape), (7.0, 0));
-    }
-
-    #[test]
-    fn bounding_spheres_do_not_change_the_result() {
-        let mut rng = Seed(1).rng("scan");
-        let shapes = shapes();
-        let scan = Scan::new(&shapes);
-        let mut hits = 0;
-        for _ in 0..1000 {
-            let target = rng.point(4.0) - 6.0 * DVec3::Z;
-            let ray = Ray64 {
-                origin: DVec3::ZERO,
-                dir: target.normalize(),
-                min: 0.0,
-                max: f64::INFINITY,
-            };
-            let hit = closest_hit(&ray, &shapes);
-            assert_eq!(scan.closest_hit(&ray), hit);
-            hits += usize::from(hit.is_some());
-        }
-        assert!((100..900).contains(&hits), "{hits} of 1000 hit");
     }
 
     #[test]

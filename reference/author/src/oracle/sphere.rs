@@ -39,12 +39,6 @@ impl Sphere {
         }
     }
 
-    /// Returns whether the ray's whole line passes through the sphere.
-    pub fn is_hit_by_line(&self, ray: &Ray64) -> bool {
-        let offset = (self.center - ray.origin).cross(ray.dir);
-        offset.length_squared() <= self.radius * self.radius * ray.dir.length_squared()
-    }
-
     /// Returns the first intersection in the ray's range.
     pub fn intersect(&self, ray: &Ray64, shape: u32) -> Option<Intersection> {
         let roots = self.intersect_line(ray).roots;

@@ -27,11 +27,7 @@ pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
     Sweep {
         nodes: builder.upper_nodes,
         plane: root.flatten().map(|partition| {
-            let mut centers: Vec<f64> = boxes
-                .iter()
-                .map(|bounds| bounds.center()[partition.axis])
-                .collect();
-            centers.sort_by(f64::total_cmp);
+            let centers = sorted_centers(boxes, partition.axis);
             let middle = 0.5 * (centers[partition.left - 1] + centers[partition.left]);
             (partition.axis as u8, middle as f32)
         }),
@@ -52,10 +48,15 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let [best, second, ..] = &all[..] else {
         return None;
     };
-    let mut centers: Vec<f64> = boxes.iter().map(|bounds| bounds.center()[axis]).collect();
-    centers.sort_by(f64::total_cmp);
+    let centers = sorted_centers(boxes, axis);
     (best.axis == axis && second.cost >= MIN_RATIO * best.cost)
         .then(|| (centers[best.left - 1], centers[best.left]))
+}
+
+fn sorted_centers(boxes: &[Bounds], axis: usize) -> Vec<f64> {
+    let mut centers: Vec<f64> = boxes.iter().map(|bounds| bounds.center()[axis]).collect();
+    centers.sort_by(f64::total_cmp);
+    centers
 }
 
 /// A sweep that builds the tree and records its upper levels.

@@ -35,14 +35,10 @@ impl Tree {
     /// Adds a leaf with these shapes and a tight box, and returns its index.
     pub fn add_leaf(&mut self, shapes: Vec<Shape>) -> usize {
         let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
-        let node = TreeNode {
-            min: round_outward(bounds.min, f32::next_down),
-            max: round_outward(bounds.max, f32::next_up),
-            start: self.shapes.len() as u32,
-            size: shapes.len() as u32,
-            l: 0,
-            r: 0,
-        };
+        let min = round_outward(bounds.min, f32::next_down);
+        let max = round_outward(bounds.max, f32::next_up);
+        let (start, size) = (self.shapes.len(), shapes.len());
+        let node = TreeNode::new(min, max, start, size, 0, 0);
         self.shapes.extend(shapes);
         self.nodes.push(node);
         self.nodes.len() - 1
@@ -51,14 +47,8 @@ impl Tree {
     /// Adds an interior node around two others, and returns its index.
     pub fn add_interior(&mut self, l: usize, r: usize) -> usize {
         let (left, right) = (&self.nodes[l], &self.nodes[r]);
-        let node = TreeNode {
-            min: left.min.min(right.min),
-            max: left.max.max(right.max),
-            start: 0,
-            size: 0,
-            l: l as u32,
-            r: r as u32,
-        };
+        let (min, max) = (left.min.min(right.min), left.max.max(right.max));
+        let node = TreeNode::new(min, max, 0, 0, l, r);
         self.nodes.push(node);
         self.nodes.len() - 1
     }

@@ -228,11 +228,6 @@ impl Tree {
         self.root = moved(self.root);
     }
 
-    /// Returns the question that asks for the closest hits of these rays in this tree.
-    pub fn question(&self, rays: Vec<Ray>) -> Question {
-        Question::hits(self.geometry(), rays)
-    }
-
     /// Returns the tree as the subject of a question.
     pub fn geometry(&self) -> Geometry {
         Geometry::Tree {

@@ -12,10 +12,7 @@ use crate::seed::Rng;
 /// Returns rays that hit a box, followed by as many that miss it.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     // The planes are so close to the origin that usual formulas lose no digits, whatever they divide.
-    let mut corner = || {
-        let corner = DVec3::from_array(std::array::from_fn(|_| rng.uniform(0.2, 0.4)));
-        corner.as_vec3().as_dvec3()
-    };
+    let mut corner = || rng.vector(0.2, 0.4).as_vec3().as_dvec3();
     let bounds = Bounds {
         min: -corner(),
         max: corner(),
@@ -23,10 +20,8 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     let mut queries = Vec::new();
     for is_hit in [true, false] {
         for number in 0..QUERIES_OF_EACH_KIND {
-            queries.push((
-                ray_that_crosses_a_plane(rng, &bounds, number, is_hit),
-                Interval::AHEAD,
-            ));
+            let ray = ray_that_crosses_a_plane(rng, &bounds, number, is_hit);
+            queries.push((ray, Interval::AHEAD));
         }
     }
     bbox_question(bounds, queries)

@@ -4,7 +4,7 @@ mod almost_parallel;
 mod hits;
 mod times;
 
-use glam::{DVec3, dvec3};
+use glam::DVec3;
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Corners, Interval, Question, Ray};
 
@@ -54,11 +54,7 @@ fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
 /// Returns a box with sides from 1 to 4 and corners that are exact in single precision.
 fn random_box(rng: &mut Rng) -> Bounds {
     let min = rng.point(3.0);
-    let size = dvec3(
-        rng.uniform(1.0, 4.0),
-        rng.uniform(1.0, 4.0),
-        rng.uniform(1.0, 4.0),
-    );
+    let size = rng.vector(1.0, 4.0);
     let rounded = |corner: DVec3| corner.as_vec3().as_dvec3();
     Bounds {
         min: rounded(min),

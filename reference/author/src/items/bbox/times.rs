@@ -18,53 +18,45 @@ fn random_point_in(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
 
 pub(super) const BEHIND: Declaration = Declaration {
     id: "bbox.behind",
-    points: 1,
     title: "a box behind the ray is missed",
     look: "Behind the origin the times are negative, so nothing of the ray's way through the box \
            is within times. An interval that would end before it begins is a miss.",
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
-    questions: behind,
+    questions: |rng| {
+        vec![random_box_question(rng, |rng, bounds| {
+            let ray = if rng.coin() {
+                ray_from_around(rng, bounds)
+            } else {
+                let inside = random_point_in(rng, bounds);
+                let origin = ray_from_around(rng, bounds).origin.as_dvec3();
+                ray(origin, origin + (origin - inside))
+            };
+            (ray, Interval::AHEAD)
+        })]
+    },
     ..Declaration::in_group(Group::Boxes)
 };
 
-fn behind(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = random_box_question(rng, |rng, bounds| {
-        let ray = if rng.coin() {
-            ray_from_around(rng, bounds)
-        } else {
-            let inside = random_point_in(rng, bounds);
-            let origin = ray_from_around(rng, bounds).origin.as_dvec3();
-            ray(origin, origin + (origin - inside))
-        };
-        (ray, Interval::AHEAD)
-    });
-    vec![question]
-}
-
 pub(super) const FROM_INSIDE: Declaration = Declaration {
     id: "bbox.from_inside",
-    points: 1,
     title: "from inside, the interval starts at times.min, not behind the ray",
     look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
            times.",
     section: "boxes.md#clip-the-result-to-times",
-    questions: from_inside,
+    questions: |rng| {
+        vec![random_box_question(rng, |rng, bounds| {
+            let origin = if rng.coin() {
+                random_point_in(rng, bounds)
+            } else {
+                bounds.center() + rng.direction() * 6.0
+            };
+            let min = rng.uniform(0.0, 0.2) as f32;
+            let ray = Ray::new(origin.as_vec3(), rng.direction().as_vec3());
+            (ray, Interval::new(min, f32::INFINITY))
+        })]
+    },
     ..Declaration::in_group(Group::Boxes)
 };
-
-fn from_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = random_box_question(rng, |rng, bounds| {
-        let origin = if rng.coin() {
-            random_point_in(rng, bounds)
-        } else {
-            bounds.center() + rng.direction() * 6.0
-        };
-        let min = rng.uniform(0.0, 0.2) as f32;
-        let ray = Ray::new(origin.as_vec3(), rng.direction().as_vec3());
-        (ray, Interval::new(min, f32::INFINITY))
-    });
-    vec![question]
-}
 
 fn random_query(rng: &mut Rng, bounds: &Bounds) -> Query {
     let (ray, latest) = if rng.coin() {
@@ -89,7 +81,6 @@ fn ends_inside(bounds: &Bounds, (ray, times): &Query) -> Option<(bool, bool)> {
 
 pub(super) const CLIPPED: Declaration = Declaration {
     id: "bbox.clipped",
-    points: 1,
     title: "only the part of times in which the ray is in the box is returned",
     look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
            only if the box is entered after times.max or left before times.min.",
@@ -119,7 +110,6 @@ fn clipped(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
-    points: 1,
     title: "if the ray is in the box during all of times, all of times is returned",
     look: "The ray then crosses no plane within times, but it is a hit, from times.min to \
            times.max.",
@@ -129,7 +119,7 @@ pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
 };
 
 fn wholly_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = random_box_question(rng, |rng, bounds| {
+    vec![random_box_question(rng, |rng, bounds| {
         let ray = ray_from_around(rng, bounds);
         rng.retry(|rng| {
             let (min, size) = (rng.uniform(0.0, 12.0), rng.uniform(0.1, 0.6));
@@ -144,31 +134,26 @@ fn wholly_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
             let misses = bounds.grown(0.03).span(&ray64.within(times)).is_none();
             ((inside(times.min) && inside(times.max)) || misses).then_some((ray, times))
         })
-    });
-    vec![question]
+    })]
 }
 
 pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
     id: "bbox.times_not_range",
-    points: 1,
     title: "the times argument counts, not the ray's own range",
     look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
-    questions: times_not_range,
+    questions: |rng| {
+        vec![random_box_question(rng, |rng, bounds| {
+            let ray = ray_from_around(rng, bounds);
+            // One interval gives a hit and the other a miss; one becomes `times`, the other the range.
+            let (short, long) = (Interval::new(0.0, 1.0), Interval::new(0.0, 30.0));
+            let (range, times) = if rng.coin() {
+                (short, long)
+            } else {
+                (long, short)
+            };
+            (ray.within(range.min, range.max), times)
+        })]
+    },
     ..Declaration::in_group(Group::Boxes)
 };
-
-fn times_not_range(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = random_box_question(rng, |rng, bounds| {
-        let ray = ray_from_around(rng, bounds);
-        // One interval gives a hit and the other a miss; one becomes `times`, the other the range.
-        let (short, long) = (Interval::new(0.0, 1.0), Interval::new(0.0, 30.0));
-        let (range, times) = if rng.coin() {
-            (short, long)
-        } else {
-            (long, short)
-        };
-        (ray.within(range.min, range.max), times)
-    });
-    vec![question]
-}

@@ -60,30 +60,27 @@ const LARGE_END: Layout = Layout {
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
-    points: 1,
     title: "the best split of a few primitives in a row is found",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
            areas and the counts of its sides: does your code try it, does it compute that cost, \
            and does your root have these two sides?",
     section: "building.md#which-partitions-to-try",
-    questions: one_split,
-    ..Declaration::ALONE
-};
-
-fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut questions = Vec::new();
-    for layout in [CLUMPS, GAP, HEAVY_END, LARGE_END] {
-        for axis in 0..3 {
-            for is_mirrored in [false, true] {
-                questions.push(question(rng, &layout, axis, is_mirrored));
+    questions: |rng| {
+        let mut questions = Vec::new();
+        for layout in [CLUMPS, GAP, HEAVY_END, LARGE_END] {
+            for axis in 0..3 {
+                for is_mirrored in [false, true] {
+                    questions.push(question(rng, &layout, axis, is_mirrored));
+                }
             }
         }
-    }
-    for axis in 0..3 {
-        questions.push(dust(question(rng, &CLUMPS, axis, false)));
-    }
-    questions
-}
+        for axis in 0..3 {
+            questions.push(dust(question(rng, &CLUMPS, axis, false)));
+        }
+        questions
+    },
+    ..Declaration::ALONE
+};
 
 fn question(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> ExamQuestion {
     let shapes = rng.retry(|rng| {
@@ -101,14 +98,10 @@ fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Sh
     for (clump, &(from, to, count)) in layout.clumps.iter().enumerate() {
         let size = if clump == 0 { layout.first_size } else { SMALL };
         for i in 0..count {
-            let position = from + (to - from) * i as f64 / (count - 1) as f64;
-            let position = if is_mirrored {
-                1.0 - position
-            } else {
-                position
-            };
+            let at = from + (to - from) * i as f64 / (count - 1) as f64;
+            let at = if is_mirrored { 1.0 - at } else { at };
             let offset = rng.point(0.05);
-            let center = start + offset + (length * position - offset[axis]) * DVec3::AXES[axis];
+            let center = start + offset + (length * at - offset[axis]) * DVec3::AXES[axis];
             triangles.push(meshes::random_triangle_with_box_around(rng, center, size));
         }
     }

@@ -66,23 +66,18 @@ pub(super) const CONTAINS: Declaration = Declaration {
 
 pub(super) const TIGHT: Declaration = Declaration {
     id: "build.tight",
-    points: 1,
     title: "no box is larger than its contents need",
     look: "A node's box is the union of its primitives' boxes. A box that starts at the origin \
            instead of BBox::EMPTY, or is the parent's box, is too large.",
     section: "building.md#start-each-box-empty",
-    questions: tight,
+    questions: |rng| {
+        let tiny = soup_questions(&mut rng.sequence("build.tight.tiny"), &[Tight], &[(24, 1)]);
+        let mut questions = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
+        questions.extend(tiny.into_iter().map(dust));
+        questions
+    },
     ..Declaration::in_group(Group::Trees)
 };
-
-fn tight(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let tiny = soup_questions(&mut rng.sequence("build.tight.tiny"), &[Tight], &[(24, 1)]);
-    [
-        soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]),
-        tiny.into_iter().map(dust).collect(),
-    ]
-    .concat()
-}
 
 pub(super) const LEAF_SIZE: Declaration = Declaration {
     id: "build.leaf_size",
@@ -91,48 +86,37 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
     look: "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
            cheaper by the heuristic.",
     section: "building.md#when-a-node-becomes-a-leaf",
-    questions: leaf_size,
+    questions: |rng| {
+        let crowd = &mut rng.sequence("build.leaf_size.crowd");
+        let crowd = build_question(&[LeafSize], meshes::soup(crowd, 100, 0.3, 2.5), 1);
+        // The triangles are so large that the heuristic alone would make some leaves too large. In
+        // the first question, there are so many triangles that some node is split at its very last
+        // plane. In the last question, they are so close together that buckets over the node's box
+        // do not separate them.
+        let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
+        let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
+        questions.push(crowd);
+        questions
+    },
     ..Declaration::in_group(Group::Trees)
 };
 
-fn leaf_size(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let crowd = &mut rng.sequence("build.leaf_size.crowd");
-    let crowd = build_question(&[LeafSize], meshes::soup(crowd, 100, 0.3, 2.5), 1);
-    // The triangles are so large that the heuristic alone would make some leaves too large. In
-    // the first question, there are so many triangles that some node is split at its very last
-    // plane. In the last question, they are so close together that buckets over the node's box
-    // do not separate them.
-    soup_questions_of_size(
-        2.5,
-        rng,
-        &[LeafSize],
-        &[(300, 1), (60, 2), (150, 4), (150, 8)],
-    )
-    .into_iter()
-    .chain([crowd])
-    .collect()
-}
-
 pub(super) const STOPS: Declaration = Declaration {
     id: "build.stops",
-    points: 1,
     title: "a node with at most max_leaf_size primitives is a leaf",
     look: "A node is a leaf if and only if it has at most max_leaf_size primitives. That holds for \
            every node, the root included, and for every max_leaf_size.",
     section: "building.md#when-a-node-becomes-a-leaf",
-    questions: stops,
+    questions: |rng| {
+        let mut small = rng.sequence("build.stops.roots");
+        // The root is a node like any other: as many primitives as fit into a leaf, and one more.
+        let roots = [(1, 1), (2, 2), (3, 4), (2, 1), (5, 4)].map(|(count, max_leaf_size)| {
+            let shapes = meshes::soup(&mut small, count, 3.0, 0.2);
+            build_question(&[Stops, LeafSize], shapes, max_leaf_size)
+        });
+        let mut questions = soup_questions(rng, &[Stops], &[(64, 2), (150, 4), (160, 8)]);
+        questions.extend(roots);
+        questions
+    },
     ..Declaration::in_group(Group::Trees)
 };
-
-fn stops(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut small = rng.sequence("build.stops.roots");
-    // The root is a node like any other: as many primitives as fit into a leaf, and one more.
-    let roots = [(1, 1), (2, 2), (3, 4), (2, 1), (5, 4)].map(|(count, max_leaf_size)| {
-        let shapes = meshes::soup(&mut small, count, 3.0, 0.2);
-        build_question(&[Stops, LeafSize], shapes, max_leaf_size)
-    });
-    soup_questions(rng, &[Stops], &[(64, 2), (150, 4), (160, 8)])
-        .into_iter()
-        .chain(roots)
-        .collect()
-}

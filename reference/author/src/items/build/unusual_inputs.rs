@@ -3,7 +3,6 @@
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{Contains, Partition, Split, Tight};
-use protocol::Shape;
 
 use super::build_question;
 use crate::items::{Declaration, Group, meshes};
@@ -11,132 +10,103 @@ use crate::seed::Rng;
 
 pub(super) const NEGATIVE: Declaration = Declaration {
     id: "build.negative",
-    points: 1,
     title: "negative coordinates work as well",
     look: "A box that grows from zero never goes below zero, and a cast to usize turns negative \
            numbers into 0.",
     section: "building.md#start-each-box-empty",
-    questions: negative,
+    questions: |rng| {
+        let far = dvec3(-20.0, -30.0, -10.0);
+        let triangles = (0..80).map(|_| {
+            let center = far + rng.point(4.0);
+            meshes::random_flat_triangle(rng, center, 0.5)
+        });
+        vec![build_question(&[Partition, Contains, Tight], triangles, 2)]
+    },
     ..Declaration::in_group(Group::Trees)
 };
 
-fn negative(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let far = dvec3(-20.0, -30.0, -10.0);
-    let triangles = (0..80).map(|_| {
-        let center = far + rng.point(4.0);
-        meshes::random_flat_triangle(rng, center, 0.5)
-    });
-    vec![build_question(&[Partition, Contains, Tight], triangles, 2)]
-}
-
 pub(super) const COINCIDENT: Declaration = Declaration {
     id: "build.coincident",
-    points: 1,
     title: "primitives with the same centre are split by count",
     look: "If all centres coincide, no plane separates the primitives. A leaf with all of them is \
            too large, and a side with none of them gets you no further: split them by count.",
     section: "building.md#when-all-centres-coincide",
-    questions: coincident,
+    questions: |rng| {
+        let center = rng.point(2.0);
+        let same = meshes::random_flat_triangle(rng, center, 0.5);
+        let all = vec![same; 20];
+        // More than half of the primitives coincide, so a leaf that holds all of these counts as not
+        // split.
+        let mut some = meshes::soup(rng, 17, 3.0, 0.4);
+        some.extend(vec![same; 30]);
+        vec![
+            build_question(&[Partition, Split], all.clone(), 1),
+            build_question(&[Partition, Split], all, 4),
+            build_question(&[Partition, Split], rng.shuffled(some), 2),
+        ]
+    },
     ..Declaration::in_group(Group::Trees)
 };
 
-fn coincident(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let center = rng.point(2.0);
-    let same = meshes::random_flat_triangle(rng, center, 0.5);
-    let all = vec![same; 20];
-    // More than half of the primitives coincide, so a leaf that holds all of these counts as not
-    // split.
-    let mut some = meshes::soup(rng, 17, 3.0, 0.4);
-    some.extend(vec![same; 30]);
-    vec![
-        build_question(&[Partition, Split], all.clone(), 1),
-        build_question(&[Partition, Split], all, 4),
-        build_question(&[Partition, Split], rng.shuffled(some), 2),
-    ]
-}
-
 pub(super) const CONCENTRIC: Declaration = Declaration {
     id: "build.concentric",
-    points: 1,
     title: "spheres around one centre are split by count",
     look: "Their boxes differ, but their centres coincide, so no plane between buckets of centres \
            separates them on any axis. Split them by count.",
     section: "building.md#when-all-centres-coincide",
-    questions: concentric,
+    questions: |rng| {
+        let center = rng.point(2.0);
+        let step = rng.uniform(0.2, 0.3) as f32;
+        let shells = (1..=13).map(|i| meshes::sphere(center, (step * i as f32).into()));
+        vec![build_question(&[Partition, Split, Contains], shells, 2)]
+    },
     ..Declaration::in_group(Group::Trees)
 };
 
-fn concentric(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let center = rng.point(2.0).as_vec3();
-    let step = rng.uniform(0.2, 0.3) as f32;
-    let shells = (1..=13).map(|i| Shape::Sphere {
-        center,
-        radius: step * i as f32,
-        shape: 0,
-    });
-    vec![build_question(&[Partition, Split, Contains], shells, 2)]
-}
-
 pub(super) const COPLANAR: Declaration = Declaration {
     id: "build.coplanar",
-    points: 1,
     title: "a flat grid works as well",
     look: "Along one axis all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
            itself need another axis.",
     section: "building.md#an-axis-without-extent",
-    questions: coplanar,
+    questions: |rng| {
+        let question = |axis: usize| {
+            let start = rng.point(4.0);
+            let size = rng.uniform(0.7, 1.3);
+            let [x, y] = [1, 2].map(|next| size * DVec3::AXES[(axis + next) % 3]);
+            let cells = (0..64).map(|cell| {
+                let corner = start + f64::from(cell % 8) * x + f64::from(cell / 8) * y;
+                meshes::flat_triangle([corner, corner + x, corner + y], 0)
+            });
+            build_question(&[Partition, Split, Contains], cells, 2)
+        };
+        [0, 1, 2].map(question).to_vec()
+    },
     ..Declaration::in_group(Group::Trees)
 };
-
-fn coplanar(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = |axis: usize| {
-        let start = rng.point(4.0);
-        let size = rng.uniform(0.7, 1.3);
-        let (x, y) = (
-            size * DVec3::AXES[(axis + 1) % 3],
-            size * DVec3::AXES[(axis + 2) % 3],
-        );
-        let cells = (0..64).map(|cell| {
-            let corner = start + f64::from(cell % 8) * x + f64::from(cell / 8) * y;
-            meshes::flat_triangle([corner, corner + x, corner + y], 0)
-        });
-        build_question(&[Partition, Split, Contains], cells, 2)
-    };
-    [0, 1, 2].map(question).to_vec()
-}
 
 pub(super) const COLLINEAR: Declaration = Declaration {
     id: "build.collinear",
-    points: 1,
     title: "a row of primitives works as well, along any axis",
     look: "Along two axes all centres coincide. Find the third one, whether it is x, y or z.",
     section: "building.md#an-axis-without-extent",
-    questions: collinear,
+    questions: |rng| {
+        let question = |axis: usize| {
+            let start = rng.point(4.0);
+            let step = rng.uniform(0.6, 0.9);
+            let radius = rng.uniform(0.2, 0.3);
+            let center = |i: i32| start + step * f64::from(i) * DVec3::AXES[axis];
+            let row = (0..40).map(|i| meshes::sphere(center(i), radius));
+            build_question(&[Partition, Split, Contains], row, 3)
+        };
+        [0, 1, 2].map(question).to_vec()
+    },
     ..Declaration::in_group(Group::Trees)
 };
 
-fn collinear(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = |axis: usize| {
-        let start = rng.point(4.0);
-        let step = rng.uniform(0.6, 0.9);
-        let radius = rng.uniform(0.2, 0.3) as f32;
-        let row = (0..40).map(|i| {
-            let center = start + step * f64::from(i) * DVec3::AXES[axis];
-            Shape::Sphere {
-                center: center.as_vec3(),
-                radius,
-                shape: 0,
-            }
-        });
-        build_question(&[Partition, Split, Contains], row, 3)
-    };
-    [0, 1, 2].map(question).to_vec()
-}
-
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
-    points: 1,
     title: "one primitive far from all others does not spoil the tree",
     look: "Most of the others are then in one bucket. The split still helps: they are in a smaller \
            node, which gets buckets of its own.",
@@ -153,42 +123,35 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
         rng.shuffled(shapes)
     };
     let checks = [Partition, Split, Contains];
-    let questions = vec![
-        build_question(&checks, crowd(100.0), 2),
-        build_question(&checks, crowd(1000.0), 2),
-    ];
+    let question = |far: f64| build_question(&checks, crowd(far), 2);
+    let mut questions = [100.0, 1000.0].map(question).to_vec();
     // Each triangle is a quarter larger than the one before, so the last is over 1000 times as
     // large as the first.
     let growing = (0..32).map(|i| {
         let size = 1e-3 * 1.25f64.powi(i);
         meshes::random_flat_triangle(rng, 4.0 * size * DVec3::ONE, size)
     });
+    questions.push(build_question(&checks, growing, 1));
     questions
-        .into_iter()
-        .chain([build_question(&checks, growing, 1)])
-        .collect()
 }
 
 pub(super) const ONE_OR_NONE: Declaration = Declaration {
     id: "build.one_or_none",
-    points: 1,
     title: "trees of zero, one and two primitives are built",
     look: "For no primitives, build no nodes or one leaf of size 0. For one primitive, build one \
            leaf.",
     section: "building.md#very-small-inputs",
-    questions: one_or_none,
+    questions: |rng| {
+        let checks = [Partition, Contains];
+        let one = meshes::soup(rng, 1, 2.0, 0.5);
+        let two = meshes::soup(rng, 2, 2.0, 0.5);
+        vec![
+            build_question(&checks, Vec::new(), 4),
+            build_question(&checks, Vec::new(), 1),
+            build_question(&checks, one, 1),
+            build_question(&checks, two.clone(), 1),
+            build_question(&checks, two, 4),
+        ]
+    },
     ..Declaration::in_group(Group::Trees)
 };
-
-fn one_or_none(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let checks = [Partition, Contains];
-    let one = meshes::soup(rng, 1, 2.0, 0.5);
-    let two = meshes::soup(rng, 2, 2.0, 0.5);
-    vec![
-        build_question(&checks, Vec::new(), 4),
-        build_question(&checks, Vec::new(), 1),
-        build_question(&checks, one, 1),
-        build_question(&checks, two.clone(), 1),
-        build_question(&checks, two, 4),
-    ]
-}

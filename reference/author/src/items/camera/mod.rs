@@ -52,7 +52,11 @@ fn camera_question(judged: &[&str], camera: PinholeCamera, rows: Rows<Sample>) -
     ExamQuestion::new(Question::SampleRay(table), key)
 }
 
-fn direction_question(camera: PinholeCamera, samples: Vec<Sample>) -> ExamQuestion {
+fn direction_question(
+    camera: PinholeCamera,
+    samples: impl IntoIterator<Item = Sample>,
+) -> ExamQuestion {
+    let samples = samples.into_iter().collect();
     camera_question(&["direction"], camera, Rows::List(samples))
 }
 

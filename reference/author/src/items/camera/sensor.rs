@@ -19,7 +19,6 @@ fn aspect_of(film: UVec2) -> f64 {
 
 pub(in crate::items) const CORNERS: Declaration = Declaration {
     id: "camera.corners",
-    points: 1,
     title: "the film's corners map to the sensor's corners, and its middle to (0, 0, −1)",
     look: "The sensor spans −1 to 1 in x and y, at z = −1. Work one position out by hand: (pixel + \
            offset) / film runs from 0 to 1.",
@@ -30,21 +29,13 @@ pub(in crate::items) const CORNERS: Declaration = Declaration {
 
 fn corners(rng: &mut Rng) -> Vec<ExamQuestion> {
     // Only a film with an odd size has a pixel in its middle.
-    let sizes = [
-        odd_size(rng, 3, 9),
-        2 * rng.integer(3, 8),
-        odd_size(rng, 11, 17),
-    ];
+    let (small, even) = (odd_size(rng, 3, 9), 2 * rng.integer(3, 8));
+    let sizes = [small, even, odd_size(rng, 11, 17)];
     // tan 45° = 1, so the sensor is 2 × 2.
     let question = |n: u32| {
         let film = UVec2::splat(n);
-        let corners = [
-            (0, 0),
-            (n - 1, 0),
-            (0, n - 1),
-            (n - 1, n - 1),
-            (n / 2, n / 2),
-        ];
+        let end = n - 1;
+        let corners = [(0, 0), (end, 0), (0, end), (end, end), (n / 2, n / 2)];
         let sample = |(x, y)| middle_of(x, y);
         direction_question(camera(90.0, 1.0, film), corners.map(sample).to_vec())
     };
@@ -58,111 +49,97 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
     look: "vertical_fov is the full angle, in degrees. Draw the triangle from the camera to the \
            middle and the upper edge of the sensor: which angle is at the camera?",
     section: "camera.md#half-the-angle-and-twice-the-tangent",
-    questions: field_of_view,
+    questions: |rng| {
+        let film = UVec2::splat(9);
+        let question = |(from, to): (f64, f64)| {
+            direction_question(camera(rng.uniform(from, to), 1.0, film), middle_row(film))
+        };
+        [(15.0, 25.0), (30.0, 50.0), (55.0, 80.0), (100.0, 125.0)]
+            .map(question)
+            .to_vec()
+    },
     ..Declaration::in_group(Group::CameraRays)
 };
 
-fn field_of_view(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let film = UVec2::splat(9);
-    let question = |(from, to): (f64, f64)| {
-        direction_question(camera(rng.uniform(from, to), 1.0, film), middle_row(film))
-    };
-    [(15.0, 25.0), (30.0, 50.0), (55.0, 80.0), (100.0, 125.0)]
-        .map(question)
-        .to_vec()
-}
-
 pub(super) const ASPECT_RATIO: Declaration = Declaration {
     id: "camera.aspect_ratio",
-    points: 1,
     title: "the sensor's width is its height times the aspect ratio",
     look: "vertical_fov gives the height of the sensor, and aspect_ratio · height is its width. \
            Across the film, a position divided by film.x, the number of columns, is a fraction of \
            that width.",
     section: "camera.md#the-size-of-the-sensor",
-    questions: aspect_ratio,
+    questions: |rng| {
+        let films = [
+            uvec2(rng.integer(13, 19), odd_size(rng, 7, 11)),
+            uvec2(rng.integer(7, 10), odd_size(rng, 13, 17)),
+            uvec2(rng.integer(18, 24), odd_size(rng, 5, 7)),
+        ];
+        let question = |film: UVec2| {
+            let fov = rng.uniform(50.0, 70.0);
+            direction_question(camera(fov, aspect_of(film), film), middle_row(film))
+        };
+        films.map(question).to_vec()
+    },
     ..Declaration::in_group(Group::CameraRays)
 };
 
-fn aspect_ratio(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let films = [
-        uvec2(rng.integer(13, 19), odd_size(rng, 7, 11)),
-        uvec2(rng.integer(7, 10), odd_size(rng, 13, 17)),
-        uvec2(rng.integer(18, 24), odd_size(rng, 5, 7)),
-    ];
-    let question = |film: UVec2| {
-        let fov = rng.uniform(50.0, 70.0);
-        direction_question(camera(fov, aspect_of(film), film), middle_row(film))
-    };
-    films.map(question).to_vec()
-}
-
 pub(super) const OTHER_ASPECT: Declaration = Declaration {
     id: "camera.other_aspect",
-    points: 1,
     title: "the sensor's shape comes from aspect_ratio, not from the film",
     look: "Pixels need not be square: the film only says how many pixels the sensor is divided \
            into.",
     section: "camera.md#the-aspect-ratio-is-not-that-of-the-film",
-    questions: other_aspect,
+    questions: |rng| {
+        let question = |(film, from, to)| {
+            direction_question(camera(70.0, rng.uniform(from, to), film), middle_row(film))
+        };
+        [
+            (uvec2(9, 9), 1.6, 2.4),
+            (uvec2(16, 5), 0.5, 0.8),
+            (uvec2(5, 9), 1.2, 1.8),
+        ]
+        .map(question)
+        .to_vec()
+    },
     ..Declaration::in_group(Group::CameraRays)
 };
 
-fn other_aspect(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = |(film, from, to)| {
-        direction_question(camera(70.0, rng.uniform(from, to), film), middle_row(film))
-    };
-    [
-        (uvec2(9, 9), 1.6, 2.4),
-        (uvec2(16, 5), 0.5, 0.8),
-        (uvec2(5, 9), 1.2, 1.8),
-    ]
-    .map(question)
-    .to_vec()
-}
-
 pub(super) const FILM: Declaration = Declaration {
     id: "camera.film",
-    points: 1,
     title: "x is divided by the film's width, and y by its height",
     look: "Neither the film nor the sensor need be square. (pixel.x + offset.x) / film.x is a \
            fraction of the sensor's width, and (pixel.y + offset.y) / film.y is a fraction of its \
            height.",
     section: "camera.md#each-axis-has-its-own-size",
-    questions: film,
+    questions: |rng| {
+        let films = [
+            uvec2(odd_size(rng, 13, 21), odd_size(rng, 3, 7)),
+            uvec2(odd_size(rng, 3, 7), odd_size(rng, 13, 21)),
+        ];
+        let question = |film: UVec2| {
+            let columns = (0..film.y).map(|y| middle_of(film.x / 2, y));
+            let samples = middle_row(film).into_iter().chain(columns);
+            direction_question(camera(90.0, aspect_of(film), film), samples)
+        };
+        films.map(question).to_vec()
+    },
     ..Declaration::in_group(Group::CameraRays)
 };
 
-fn film(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let films = [
-        uvec2(odd_size(rng, 13, 21), odd_size(rng, 3, 7)),
-        uvec2(odd_size(rng, 3, 7), odd_size(rng, 13, 21)),
-    ];
-    let question = |film: UVec2| {
-        let columns = (0..film.y).map(|y| middle_of(film.x / 2, y));
-        let samples = middle_row(film).into_iter().chain(columns).collect();
-        direction_question(camera(90.0, aspect_of(film), film), samples)
-    };
-    films.map(question).to_vec()
-}
-
 pub(super) const BOTTOM_LEFT: Declaration = Declaration {
     id: "camera.bottom_left",
-    points: 1,
     title: "pixel (0, 0) is at the bottom left",
     look: "y points up on the film, as it does in space: a small y looks down, and a small x looks \
            left.",
     section: "camera.md#row-zero-is-at-the-bottom",
-    questions: bottom_left,
+    questions: |rng| {
+        let sizes = [rng.integer(6, 9), rng.integer(10, 15)];
+        let question = |n: u32| {
+            let film = UVec2::splat(n);
+            let samples = (0..n).map(|i| middle_of(i, i / 2));
+            direction_question(camera(90.0, 1.0, film), samples)
+        };
+        sizes.map(question).to_vec()
+    },
     ..Declaration::in_group(Group::CameraRays)
 };
-
-fn bottom_left(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let sizes = [rng.integer(6, 9), rng.integer(10, 15)];
-    let question = |n: u32| {
-        let film = UVec2::splat(n);
-        let samples = (0..n).map(|i| middle_of(i, i / 2));
-        direction_question(camera(90.0, 1.0, film), samples.collect())
-    };
-    sizes.map(question).to_vec()
-}

@@ -2,13 +2,13 @@
 
 use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
-use protocol::{Ray, Shape};
+use protocol::Ray;
 
 use super::{
     hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, sphere_question,
     table_questions,
 };
-use crate::items::{Declaration, picture};
+use crate::items::{Declaration, meshes, picture};
 use crate::oracle::sphere::Sphere;
 use crate::seed::Rng;
 
@@ -22,7 +22,6 @@ fn ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "sphere.position",
-    points: 1,
     title: "position is the point of the hit, in world space",
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
@@ -33,28 +32,24 @@ pub(super) const POSITION: Declaration = Declaration {
 
 pub(super) const NORMAL: Declaration = Declaration {
     id: "sphere.normal",
-    points: 1,
     title: "the normal points away from the centre and has length one, also from inside",
     look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
            surface, so it is never flipped toward the ray.",
     section: "sphere.md#the-normal-points-away-from-the-centre",
-    questions: normal,
+    questions: |rng| {
+        let judged = ["normal", "unit_normal"];
+        let outside = table_questions(rng, &judged, &[0.5, 3.0], hitting_ray);
+        let inside = &mut rng.sequence("sphere.normal.inside");
+        let inside = table_questions(inside, &judged, &[2.0], ray_from_inside);
+        let placed = &mut rng.sequence("sphere.normal.placed");
+        let placed = placed_questions(placed, &judged, ray_from_either_side);
+        [outside, inside, placed].concat()
+    },
     ..Declaration::ALONE
 };
 
-fn normal(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let judged = ["normal", "unit_normal"];
-    let outside = table_questions(rng, &judged, &[0.5, 3.0], hitting_ray);
-    let inside = &mut rng.sequence("sphere.normal.inside");
-    let inside = table_questions(inside, &judged, &[2.0], ray_from_inside);
-    let placed = &mut rng.sequence("sphere.normal.placed");
-    let placed = placed_questions(placed, &judged, ray_from_either_side);
-    [outside, inside, placed].concat()
-}
-
 pub(super) const UV: Declaration = Declaration {
     id: "sphere.uv",
-    points: 1,
     title: "uv is computed from the direction from the centre to the hit",
     look: "The given Sphere::uv needs the direction from the centre to the hit, and its length \
            must be one. Check the vector that you pass: where does it start, which way does it \
@@ -66,7 +61,6 @@ pub(super) const UV: Declaration = Declaration {
 
 pub(super) const UV_RADIUS: Declaration = Declaration {
     id: "sphere.uv_radius",
-    points: 1,
     title: "uv does not depend on the radius",
     look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
            is as long as the radius.",
@@ -74,37 +68,31 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
     questions: |rng| {
         let (judged, placed) = (["uv"], &mut rng.sequence("sphere.uv_radius.placed"));
         let near = table_questions(rng, &judged, &[0.4, 2.5], ray_from_either_side);
-        [
-            near,
-            placed_questions(placed, &judged, ray_from_either_side),
-        ]
-        .concat()
+        let placed = placed_questions(placed, &judged, ray_from_either_side);
+        [near, placed].concat()
     },
     ..Declaration::ALONE
 };
 
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "sphere.origin_and_material",
-    points: 1,
     title: "the trace holds the ray's origin and the sphere's shape",
     look: "Copy both: the origin from the ray that you were given, even if you computed with a \
            shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
-    questions: origin_and_material,
+    questions: |rng| {
+        let mut table = |shape: u32| {
+            let sphere = random_sphere(rng, 1.2);
+            let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
+            rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
+            rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
+            let judged = ["origin", "shape"];
+            sphere_question(&judged, &sphere, shape, rays)
+        };
+        vec![table(0), table(3), table(99)]
+    },
     ..Declaration::ALONE
 };
-
-fn origin_and_material(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut table = |shape: u32| {
-        let sphere = random_sphere(rng, 1.2);
-        let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
-        rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
-        rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
-        let judged = ["origin", "shape"];
-        sphere_question(&judged, &sphere, shape, rays)
-    };
-    vec![table(0), table(3), table(99)]
-}
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "sphere.picture",
@@ -122,11 +110,7 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     let side = rng.sign();
     let mut sphere = |x: f64, y: f64, z: f64, radius: f64| {
         let center = dvec3(side * x, y, z) + rng.point(0.3) * dvec3(1.0, 0.3, 1.0);
-        Shape::Sphere {
-            center: center.as_vec3(),
-            radius: (radius * rng.uniform(0.9, 1.1)) as f32,
-            shape: 0,
-        }
+        meshes::sphere(center, radius * rng.uniform(0.9, 1.1))
     };
     let camera = |half, pixels| picture::camera_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
     // No sphere is so high or so low that one of its poles is visible.

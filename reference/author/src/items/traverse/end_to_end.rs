@@ -5,45 +5,36 @@ use judging::exam::{ExamQuestion, Key};
 use protocol::{Geometry, Question, Rows, Table};
 
 use super::{
-    FIRST_UNREFERENCED, TRAVERSAL, question_without_decoys, ray_from_around, soup_tree,
+    FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, ray_from_around, soup_tree,
     unambiguous_rays,
 };
 use crate::items::{Declaration, DeclaredItem, Group, hits_key, meshes, picture};
-use crate::oracle::scan::{self, Scan};
+use crate::oracle::{Ray64, scan};
 use crate::seed::{Rng, Seed};
-
-/// Creates a small question that a linear scan gets wrong and every correct traversal gets right.
-fn linear_scan_control(rng: &mut Rng) -> ExamQuestion {
-    let tree = soup_tree(rng, 12, 0.9, 1);
-    question_without_decoys(rng, tree, [8, 4], ray_from_around)
-}
 
 pub(super) const OWN_TREE: Declaration = Declaration {
     id: "traverse.own_tree",
-    points: 1,
     title: "traversing your own tree finds the same hits as testing every primitive",
     look: "Test all primitives with the ray shown, and find out where your traversal skips the \
            closest one or loses its hit. If all other items of both tasks pass, look for something \
            that your tree has and the exam's trees do not.",
     section: "traversal.md#your-own-builder-and-your-own-traversal",
-    questions: own_tree,
+    questions: |rng| {
+        let tree = soup_tree(rng, 400, 0.5, 4);
+        let rays = unambiguous_rays(rng, &tree, [40, 16], ray_from_around);
+        let key = hits_key(&["distance"], &rays, |ray64| {
+            scan::closest_hit(ray64, &tree.shapes)
+        });
+        let built = Geometry::BuiltTree {
+            shapes: tree.shapes,
+            max_leaf_size: 4,
+        };
+        let question = Question::hits(built, rays);
+        vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
+    },
     needs: &[Group::TriangleHits, Group::Boxes, Group::Trees],
     ..TRAVERSAL
 };
-
-fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let tree = soup_tree(rng, 400, 0.5, 4);
-    let rays = unambiguous_rays(rng, &tree, [40, 16], ray_from_around);
-    let key = hits_key(&["distance"], &rays, |ray64| {
-        scan::closest_hit(ray64, &tree.shapes)
-    });
-    let built = Geometry::BuiltTree {
-        shapes: tree.shapes,
-        max_leaf_size: 4,
-    };
-    let question = Question::hits(built, rays);
-    vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
-}
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "traverse.picture",
@@ -68,8 +59,8 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 3.0 * side);
     let curtain = [corner(-4.0, -4.0), corner(0.3, 0.6), corner(-4.0, 4.0)];
 
-    let scan = Scan::new(&tree.shapes);
-    let key = picture::first_hits_key(&camera, |ray64| scan.closest_hit(ray64));
+    let nearest = |ray64: &Ray64| scan::closest_hit(ray64, &tree.shapes);
+    let key = picture::first_hits_key(&camera, nearest);
     tree.shapes
         .push(meshes::flat_triangle(curtain, FIRST_UNREFERENCED));
     let question = Question::Hit(Table {

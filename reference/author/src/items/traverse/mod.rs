@@ -13,7 +13,7 @@ mod with_decoys;
 mod without_decoys;
 
 use judging::exam::ExamQuestion;
-use protocol::Ray;
+use protocol::{Question, Ray};
 
 use super::meshes;
 use crate::items::{Declaration, DeclaredItem, Group, draw_items};
@@ -58,7 +58,7 @@ const FIRST_UNREFERENCED: u32 = 10_000;
 /// judged. This suffices, because no two primitives that a ray could hit are at the same distance.
 fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
     let key = super::hits_key(&["distance"], &rays, |ray64| tree.expected_hit(ray64));
-    ExamQuestion::new(tree.question(rays), key)
+    ExamQuestion::new(Question::hits(tree.geometry(), rays), key)
 }
 
 /// Returns a ray from a point around the tree toward a point in it.
@@ -93,9 +93,8 @@ fn unambiguous_rays(
 /// Adds an unreferenced primitive in front of the correct hit of every third ray.
 fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
-        let end = tree
-            .expected_hit(&Ray64::from(ray))
-            .map_or(3.0, |hit| hit.distance);
+        let hit = tree.expected_hit(&Ray64::from(ray));
+        let end = hit.map_or(3.0, |hit| hit.distance);
         let start = f64::from(ray.range.min);
         let distance = start + (end - start) * rng.uniform(0.3, 0.7);
         let triangle = decoy::triangle_across(rng, ray, distance, 0.1, number);
@@ -113,6 +112,12 @@ fn question_without_decoys(
     let rays = unambiguous_rays(rng, &tree, counts, kind);
     add_unreferenced(rng, &mut tree, &rays);
     traversal_question(&tree.with_roots_at_both_ends(rng), rays)
+}
+
+/// Creates a small question that a linear scan gets wrong and every correct traversal gets right.
+fn linear_scan_control(rng: &mut Rng) -> ExamQuestion {
+    let tree = soup_tree(rng, 12, 0.9, 1);
+    question_without_decoys(rng, tree, [8, 4], ray_from_around)
 }
 
 /// Returns a tree over random triangles. Most items use leaves of one primitive, because larger

@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{
-    FIRST_UNREFERENCED, TRAVERSAL, question_without_decoys, ray_from_around, soup_tree,
+    FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, ray_from_around, soup_tree,
     traversal_question, unambiguous_rays,
 };
 use crate::items::{Declaration, ray};
@@ -14,7 +14,6 @@ use crate::tree::{RootPosition, Tree, decoy};
 
 pub(super) const ROOT: Declaration = Declaration {
     id: "traverse.root",
-    points: 1,
     title: "traversal starts at root, wherever it is in nodes",
     look: "The root is nodes[root]. Any other node can be first or last in nodes, even a child or \
            one that is not part of the tree, and a node is a leaf if and only if l == r.",
@@ -24,29 +23,19 @@ pub(super) const ROOT: Declaration = Declaration {
 };
 
 fn root(rng: &mut Rng) -> Vec<ExamQuestion> {
+    use RootPosition::{First, Last, Middle};
     let in_front = &mut rng.sequence("traverse.root.child_in_front");
     let question = |position: RootPosition| {
         let tree = soup_tree(rng, 20, 0.9, 1);
         let rays = unambiguous_rays(rng, &tree, [10, 4], ray_from_around);
-        let inner = if position == RootPosition::First {
-            position
-        } else {
-            RootPosition::Middle
-        };
+        let inner = if position == First { First } else { Middle };
         let tree = tree.with_nodes_shuffled(rng, inner);
         traversal_question(&with_detached_subtrees(rng, tree, &rays, position), rays)
     };
     let children: [decoy::Child; 2] = [|root| root.l, |root| root.r];
     let child_in_front = children.map(|child| question_with_a_child_in_front(in_front, child));
-    [
-        RootPosition::First,
-        RootPosition::Middle,
-        RootPosition::Last,
-    ]
-    .map(question)
-    .into_iter()
-    .chain(child_in_front)
-    .collect()
+    let questions = [First, Middle, Last].map(question).into_iter();
+    questions.chain(child_in_front).collect()
 }
 
 /// Creates a question about a tree whose first node is a child of the root, to check that 0 is
@@ -93,7 +82,6 @@ fn with_detached_subtrees(
 
 pub(super) const NO_NODES: Declaration = Declaration {
     id: "traverse.no_nodes",
-    points: 1,
     title: "an empty tree has no hits",
     look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for every leaf. \
            In the first case there is no node at index root, in the second no primitive at start.",
@@ -105,22 +93,15 @@ pub(super) const NO_NODES: Declaration = Declaration {
 fn no_nodes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let nothing = Tree::default();
     let mut empty_leaf = nothing.clone();
-    empty_leaf.nodes.push(TreeNode {
-        min: Vec3::NEG_ONE,
-        max: Vec3::ONE,
-        start: 0,
-        size: 0,
-        l: 0,
-        r: 0,
-    });
+    let empty_box = TreeNode::new(Vec3::NEG_ONE, Vec3::ONE, 0, 0, 0, 0);
+    empty_leaf.nodes.push(empty_box);
     let toward = |rng: &mut Rng| {
         let target = rng.point(0.8);
         ray(target + 4.0 * rng.direction(), target)
     };
     let mut empty_question =
         |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(rng)).collect());
-    let empty = [empty_question(&nothing), empty_question(&empty_leaf)];
-    let tree = soup_tree(rng, 12, 0.9, 1);
-    let control = question_without_decoys(rng, tree, [8, 4], ray_from_around);
-    empty.into_iter().chain([control]).collect()
+    let mut questions = vec![empty_question(&nothing), empty_question(&empty_leaf)];
+    questions.push(linear_scan_control(rng));
+    questions
 }

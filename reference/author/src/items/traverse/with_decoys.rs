@@ -103,8 +103,9 @@ enum SlidesAnswer {
     Wrong,
 }
 
-fn is_skipped_for(tree: &Tree, leaf: usize, ray64: &Ray64, reason: SkipReason) -> bool {
-    decoy::skip_reason(tree, leaf, ray64) == Some(reason)
+/// Accepts the leaves that no correct traversal enters, for this reason.
+fn skipped_for(reason: SkipReason) -> impl Fn(&Tree, usize, &Ray64) -> bool {
+    move |tree, leaf, ray64| decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
 /// Accepts the leaves that the ray misses, and that are this child of a node of which it hits the
@@ -131,27 +132,23 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
     look: "This is what the tree is for. In this exam, some leaves hold primitives outside their \
            boxes: a traversal that enters a missed box finds them.",
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
-    questions: skips_missed,
+    questions: |rng| {
+        let fits = skipped_for(SkipReason::Missed);
+        // The slides enter the left child if both are missed, and may enter it if only the right one is
+        // hit: see `both_sides`.
+        let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+            missed_alone(|node| node.r)(tree, leaf, ray64)
+                && !decoy::hits_below_sibling(tree, leaf, ray64)
+        };
+        let with_sibling = missed_with_sibling(|node| node.r);
+        vec![
+            question_with_decoys(rng, &fits, SlidesAnswer::Correct),
+            question_with_decoys(rng, &after_nothing, SlidesAnswer::Correct),
+            question_with_decoys(rng, &with_sibling, SlidesAnswer::Correct),
+        ]
+    },
     ..TRAVERSAL
 };
-
-fn skips_missed(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        is_skipped_for(tree, leaf, ray64, SkipReason::Missed)
-    };
-    // The slides enter the left child if both are missed, and may enter it if only the right one is
-    // hit: see `both_sides`.
-    let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        missed_alone(|node| node.r)(tree, leaf, ray64)
-            && !decoy::hits_below_sibling(tree, leaf, ray64)
-    };
-    let with_sibling = missed_with_sibling(|node| node.r);
-    vec![
-        question_with_decoys(rng, &fits, SlidesAnswer::Correct),
-        question_with_decoys(rng, &after_nothing, SlidesAnswer::Correct),
-        question_with_decoys(rng, &with_sibling, SlidesAnswer::Correct),
-    ]
-}
 
 pub(super) const PRUNES: Declaration = Declaration {
     id: "traverse.prunes",
@@ -160,29 +157,24 @@ pub(super) const PRUNES: Declaration = Declaration {
     look: "First search the child whose box the ray enters first. After that, if the entry of the \
            other box is beyond the closest hit so far, nothing in it can be nearer: skip it.",
     section: "traversal.md#order-the-children-and-prune",
-    questions: prunes,
+    questions: |rng| {
+        let fits = skipped_for(SkipReason::SubtreePruned);
+        // The leaf is itself a child of the fork, so no further comparison happens on the way to it.
+        let second = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+            let fork = decoy::find_fork(tree, leaf, ray64);
+            fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)
+        };
+        vec![
+            question_with_decoys(rng, &fits, SlidesAnswer::Correct),
+            question_with_decoys(rng, &second, SlidesAnswer::Correct),
+            dust(question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
+        ]
+    },
     ..TRAVERSAL
 };
 
-fn prunes(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
-    };
-    // The leaf is itself a child of the fork, so no further comparison happens on the way to it.
-    let second = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        let fork = decoy::find_fork(tree, leaf, ray64);
-        fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)
-    };
-    vec![
-        question_with_decoys(rng, &fits, SlidesAnswer::Correct),
-        question_with_decoys(rng, &second, SlidesAnswer::Correct),
-        dust(question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
-    ]
-}
-
 pub(super) const NEARER_FIRST: Declaration = Declaration {
     id: "traverse.nearer_first",
-    points: 1,
     title: "the nearer child goes first, whether it is l or r, and the other is pruned",
     look: "The child whose box the ray enters first goes first, be it l or r. After that, compare \
            the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, \
@@ -193,9 +185,7 @@ pub(super) const NEARER_FIRST: Declaration = Declaration {
 };
 
 fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let fits = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        is_skipped_for(tree, leaf, ray64, SkipReason::SubtreePruned)
-    };
+    let fits = skipped_for(SkipReason::SubtreePruned);
     let left_last = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         let fork = decoy::find_fork(tree, leaf, ray64);
         fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
@@ -210,27 +200,24 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const BOTH_SIDES: Declaration = Declaration {
     id: "traverse.both_sides",
-    points: 1,
     title: "a child is entered only if its own box is hit, before the closest hit",
     look: "Decide about each child by its own box: enter it only if the ray hits that box, and not \
            beyond the closest hit so far. If both boxes are missed, enter neither, although the \
            slides always enter `first`.",
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
-    questions: both_sides,
+    questions: |rng| {
+        let missed_alone = missed_alone(|node| node.l);
+        let with_sibling = missed_with_sibling(|node| node.l);
+        let pruned_alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+            skipped_for(SkipReason::LeafPruned)(tree, leaf, ray64)
+                && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
+        };
+        vec![
+            question_with_decoys(rng, &missed_alone, SlidesAnswer::Wrong),
+            question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
+            question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
+            question_with_decoys(rng, &pruned_alone, SlidesAnswer::Wrong),
+        ]
+    },
     ..TRAVERSAL
 };
-
-fn both_sides(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let missed_alone = missed_alone(|node| node.l);
-    let with_sibling = missed_with_sibling(|node| node.l);
-    let pruned_alone = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-        is_skipped_for(tree, leaf, ray64, SkipReason::LeafPruned)
-            && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
-    };
-    vec![
-        question_with_decoys(rng, &missed_alone, SlidesAnswer::Wrong),
-        question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
-        question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
-        question_with_decoys(rng, &pruned_alone, SlidesAnswer::Wrong),
-    ]
-}

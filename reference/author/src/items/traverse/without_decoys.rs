@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
-use protocol::Shape;
 
 use super::{TRAVERSAL, question_without_decoys, ray_from_around, soup_tree};
 use crate::items::place::dust;
@@ -14,33 +13,29 @@ use crate::tree::{Tree, construction};
 
 pub(super) const CLOSEST_HIT: Declaration = Declaration {
     id: "traverse.closest_hit",
-    points: 1,
     title: "the closest hit counts, not the first one found",
     look: "Follow the ray shown through the tree from its root, box by box: which primitives need \
            to be tested, and which of their hits is the closest? Then see which primitives your \
            code tests, and which hit it keeps after each.",
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
-    questions: closest_hit,
+    questions: |rng| {
+        // At least half of the hits are found after a farther one.
+        let kind = |rng: &mut Rng, tree: &Tree| {
+            let any = rng.coin();
+            rng.retry(|rng| {
+                let ray = ray_from_around(rng, tree);
+                (any || replaces_a_hit(tree, &Ray64::from(&ray))).then_some(ray)
+            })
+        };
+        // With large triangles, the boxes of siblings overlap considerably.
+        let mut question = || {
+            let tree = soup_tree(rng, 40, 1.6, 1);
+            question_without_decoys(rng, tree, [24, 8], kind)
+        };
+        vec![question(), dust(question())]
+    },
     ..TRAVERSAL
 };
-
-fn closest_hit(rng: &mut Rng) -> Vec<ExamQuestion> {
-    // At least half of the hits are found after a farther one.
-    let kind = |rng: &mut Rng, tree: &Tree| {
-        let any = rng.coin();
-        rng.retry(|rng| {
-            let ray = ray_from_around(rng, tree);
-            (any || replaces_a_hit(tree, &Ray64::from(&ray))).then_some(ray)
-        })
-    };
-    // With large triangles, the boxes of siblings overlap considerably.
-    let mut question = || {
-        let tree = soup_tree(rng, 40, 1.6, 1);
-        question_without_decoys(rng, tree, [24, 8], kind)
-    };
-    let questions = vec![question(), dust(question())];
-    questions
-}
 
 /// Returns whether every correct traversal finds a farther hit before the closest one.
 fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
@@ -56,30 +51,22 @@ fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
 
 pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     id: "traverse.first_box_empty",
-    points: 1,
     title: "a ray may hit a box without hitting anything inside it",
     look: "Work out by hand what the two boxes and the primitives in them give for the ray shown. \
            Until something is hit, there is no closest hit to compare with, and no child may be \
            skipped because of one.",
     section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
-    questions: first_box_empty,
+    questions: |rng| {
+        // Small triangles leave most of a node's box empty.
+        let tree = soup_tree(rng, 40, 0.5, 1);
+        let counts = [16, 16];
+        vec![question_without_decoys(rng, tree, counts, ray_from_around)]
+    },
     ..TRAVERSAL
 };
 
-fn first_box_empty(rng: &mut Rng) -> Vec<ExamQuestion> {
-    // Small triangles leave most of a node's box empty.
-    let tree = soup_tree(rng, 40, 0.5, 1);
-    vec![question_without_decoys(
-        rng,
-        tree,
-        [16, 16],
-        ray_from_around,
-    )]
-}
-
 pub(super) const RANGE: Declaration = Declaration {
     id: "traverse.range",
-    points: 1,
     title: "only hits within the ray's range count",
     look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, and the \
            closest such hit is the answer. Find all hits of the ray shown, and see where your code \
@@ -115,7 +102,6 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
     id: "traverse.leaf_of_several",
-    points: 1,
     title: "every primitive of a leaf is tested",
     look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, be \
            it that of the first primitive, of the last one or of one in between.",
@@ -160,7 +146,6 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const DEEP: Declaration = Declaration {
     id: "traverse.deep",
-    points: 1,
     title: "a tree of 60 levels is traversed to the end",
     look: "A stack of fixed size must be large enough, and every node that is pushed must be \
            popped again.",
@@ -191,52 +176,42 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const FLAT: Declaration = Declaration {
     id: "traverse.flat",
-    points: 1,
     title: "leaves with flat boxes are entered",
     look: "A ray enters and leaves a flat box at the same time. If your box test is correct, check \
            how you use its result: an interval of one point is not empty.",
     section: "traversal.md#a-flat-box-has-equal-entry-and-exit",
-    questions: flat,
+    questions: |rng| {
+        // Axis-parallel triangles, one per leaf.
+        let triangles = (0..36).map(|i| {
+            let axis = i % 3;
+            let (x, y) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
+            let corner = rng.point(2.0);
+            let size = rng.uniform(0.6, 1.4) * rng.sign();
+            meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
+        });
+        let tree = construction::median_split(meshes::number_shapes(triangles), 1);
+        vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
+    },
     ..TRAVERSAL
 };
-
-fn flat(rng: &mut Rng) -> Vec<ExamQuestion> {
-    // Axis-parallel triangles, one per leaf.
-    let triangles = (0..36).map(|i| {
-        let axis = i % 3;
-        let (x, y) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
-        let corner = rng.point(2.0);
-        let size = rng.uniform(0.6, 1.4) * rng.sign();
-        meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
-    });
-    let tree = construction::median_split(meshes::number_shapes(triangles), 1);
-    vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
-}
 
 pub(super) const MIXED: Declaration = Declaration {
     id: "traverse.mixed",
-    points: 1,
     title: "a tree can hold spheres and triangles",
     look: "Primitive::hit tests either kind, and their distances are compared in the same way.",
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
-    questions: mixed,
+    questions: |rng| {
+        let shapes = (0..36).map(|i| {
+            let center = rng.point(2.0);
+            if i % 2 == 0 {
+                meshes::random_flat_triangle(rng, center, 0.9)
+            } else {
+                meshes::sphere(center, rng.uniform(0.2, 0.5))
+            }
+        });
+        let tree = construction::median_split(meshes::number_shapes(shapes), 1);
+        vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
+    },
     needs: &[Group::TriangleHits, Group::Boxes, Group::SphereHits],
     ..TRAVERSAL
 };
-
-fn mixed(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let shapes = (0..36).map(|i| {
-        let center = rng.point(2.0);
-        if i % 2 == 0 {
-            meshes::random_flat_triangle(rng, center, 0.9)
-        } else {
-            Shape::Sphere {
-                center: center.as_vec3(),
-                radius: rng.uniform(0.2, 0.5) as f32,
-                shape: 0,
-            }
-        }
-    });
-    let tree = construction::median_split(meshes::number_shapes(shapes), 1);
-    vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
-}

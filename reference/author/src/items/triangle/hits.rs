@@ -60,7 +60,6 @@ fn outside(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const FROM_BEHIND: Declaration = Declaration {
     id: "triangle.from_behind",
-    points: 1,
     title: "a triangle is hit from behind as well",
     look: "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
@@ -94,19 +93,16 @@ fn range_questions(
 
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "triangle.range_max",
-    points: 1,
     title: "there is no hit beyond the end of the ray's range",
     look: "A ray through the triangle hits it if and only if t is in ray.range, however small the \
            triangle is. Which comparison in your code decides about the ray shown?",
     section: "triangle.md#check-both-ends-of-the-range",
-    questions: range_max,
+    questions: |rng| {
+        let range = |rng: &mut Rng, t: f64| (0.0, t + rng.sign() * rng.uniform(0.03, 0.6));
+        range_questions(rng, range)
+    },
     ..Declaration::in_group(Group::TriangleHits)
 };
-
-fn range_max(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let range = |rng: &mut Rng, t: f64| (0.0, t + rng.sign() * rng.uniform(0.03, 0.6));
-    range_questions(rng, range)
-}
 
 /// Creates a question with rays that start on the triangle, as after a bounce, and with some that
 /// start before it.
@@ -127,47 +123,40 @@ fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
 
 pub(super) const RANGE_MIN: Declaration = Declaration {
     id: "triangle.range_min",
-    points: 1,
     title: "there is no hit before the start of the ray's range",
     look: "The range has two ends, and its start need not be 0. Compare t with these two, and with \
            no constant, however small.",
     section: "triangle.md#check-both-ends-of-the-range",
-    questions: range_min,
+    questions: |rng| {
+        let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
+        let from_the_surface = &mut rng.sequence("triangle.rays_from_the_surface");
+        let mut questions = range_questions(rng, range);
+        questions.push(rays_from_the_surface(from_the_surface));
+        questions
+    },
     ..Declaration::in_group(Group::TriangleHits)
 };
 
-fn range_min(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let range = |rng: &mut Rng, t: f64| (t + rng.sign() * rng.uniform(0.03, 0.6), t + 9.0);
-    let from_the_surface = &mut rng.sequence("triangle.rays_from_the_surface");
-    let mut questions = range_questions(rng, range);
-    questions.push(rays_from_the_surface(from_the_surface));
-    questions
-}
-
 pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
     id: "triangle.behind_the_ray",
-    points: 1,
     title: "a triangle behind the ray is missed",
     look: "Work out t for the ray shown. Behind the ray it is negative, although the weights look \
            like those of a hit; ahead of the ray it is in ray.range.",
     section: "triangle.md#hits-behind-the-origin-do-not-count",
-    questions: behind_the_ray,
+    questions: |rng| {
+        let mut table = || {
+            let vertices = random_triangle(rng);
+            let rays =
+                (0..12).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &vertices, Side::Either)));
+            distance_question(&vertices, rays)
+        };
+        vec![table(), table()]
+    },
     ..Declaration::in_group(Group::TriangleHits)
 };
 
-fn behind_the_ray(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut table = || {
-        let vertices = random_triangle(rng);
-        let rays =
-            (0..12).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &vertices, Side::Either)));
-        distance_question(&vertices, rays)
-    };
-    vec![table(), table()]
-}
-
 pub(super) const TINY: Declaration = Declaration {
     id: "triangle.tiny",
-    points: 1,
     title: "a triangle with edges of 1e-3 is hit like any other",
     look: "The determinant is small for small triangles too, not only for parallel rays: compare \
            it with zero, not with a small number.",
@@ -234,7 +223,6 @@ impl Frame {
 /// determinant is exactly zero in every correct formula.
 pub(super) const DEGENERATE: Declaration = Declaration {
     id: "triangle.degenerate",
-    points: 1,
     title: "a triangle that has no area or is parallel to the ray is missed",
     look: "The determinant is then zero, and dividing by it gives no usable number: return a miss.",
     section: "triangle.md#when-the-denominator-is-zero",

@@ -1,7 +1,6 @@
 //! The item with a picture of triangles.
 
 use glam::{Vec3, dvec3, vec2, vec3};
-use judging::exam::ExamQuestion;
 use protocol::{Shape, Vertex};
 
 use super::aim::{random_triangle, shape};
@@ -16,17 +15,13 @@ pub(super) const PICTURE: Declaration = Declaration {
            some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
            triangles?",
     section: "grading.md#reading-a-wrong-picture",
-    questions: picture,
+    questions: |rng| {
+        let shapes = picture_shapes(&mut rng.sequence("triangle.picture"));
+        let camera = picture::camera_at_origin(64);
+        vec![picture::picture_question(camera, shapes)]
+    },
     ..Declaration::ALONE
 };
-
-fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let shapes = picture_shapes(&mut rng.sequence("triangle.picture"));
-    vec![picture::picture_question(
-        picture::camera_at_origin(64),
-        shapes,
-    )]
-}
 
 /// Returns the triangles in front of a camera at the origin that looks down −z with a field of view
 /// of 90 degrees.
@@ -38,13 +33,7 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
     };
     let mut shapes = Vec::new();
     let mut add = |vertices: [Vertex; 3]| {
-        let turned = vertices.map(
-            |Vertex {
-                 position,
-                 normal,
-                 uv,
-             }| { Vertex::new(turned(position), turned(normal), uv) },
-        );
+        let turned = vertices.map(|it| Vertex::new(turned(it.position), turned(it.normal), it.uv));
         shapes.push(shape(&turned, 0));
     };
 
@@ -55,12 +44,8 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
         let uv = vec2(0.3 + 0.15 * x, 0.4 + 0.15 * y);
         Vertex::new(vec3(middle.x + x, middle.y + y, -4.0), Vec3::Z, uv)
     };
-    let corners = [
-        corner(-1.0, -1.0),
-        corner(1.0, -1.0),
-        corner(1.0, 1.0),
-        corner(-1.0, 1.0),
-    ];
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let corners = corners.map(|(x, y)| corner(x, y));
     add([corners[0], corners[1], corners[2]]);
     add([corners[0], corners[2], corners[3]]);
 
@@ -80,12 +65,8 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
     };
     for i in 0..5 {
         for j in 0..4 {
-            let square = [
-                hill(i, j),
-                hill(i + 1, j),
-                hill(i + 1, j + 1),
-                hill(i, j + 1),
-            ];
+            let square = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            let square = square.map(|(i, j)| hill(i, j));
             add([square[0], square[1], square[2]]);
             add([square[0], square[2], square[3]]);
         }

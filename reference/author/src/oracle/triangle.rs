@@ -83,11 +83,10 @@ pub fn intersect(ray: &Ray64, vertices: &[Vertex; 3], shape: u32) -> Option<Inte
 
 #[cfg(test)]
 mod tests {
-    use glam::{DMat3, Vec2, Vec3, dvec2, dvec3, vec2, vec3};
+    use glam::{Vec2, Vec3, dvec2, dvec3, vec2, vec3};
     use protocol::Ray;
 
     use super::*;
-    use crate::seed::Seed;
 
     fn triangle() -> [Vertex; 3] {
         [
@@ -126,31 +125,5 @@ mod tests {
         let point = Vertex::new(Vec3::ONE, Vec3::X, Vec2::ZERO);
         let ray = Ray::new(Vec3::ZERO, Vec3::ONE);
         assert!(intersect(&Ray64::from(&ray), &[point; 3], 0).is_none());
-    }
-
-    #[test]
-    fn solves_the_three_linear_equations() {
-        // o + t·d = p0 + u·e1 + v·e2, by inverting the matrix.
-        let mut rng = Seed(1).rng("oracle");
-        for _ in 0..1000 {
-            let corners = [rng.point(2.0), rng.point(2.0), rng.point(2.0)];
-            let ray = Ray64 {
-                origin: rng.point(5.0),
-                dir: rng.direction(),
-                min: 0.0,
-                max: f64::INFINITY,
-            };
-            let [p0, p1, p2] = corners;
-            let equations = DMat3::from_cols(p1 - p0, p2 - p0, -ray.dir);
-            if equations.determinant().abs() < 1e-3 {
-                continue;
-            }
-            let solved = equations.inverse() * (ray.origin - p0);
-            let intersection = intersect_plane(&ray, corners).unwrap();
-            let [_, u, v] = intersection.weights;
-            let found = dvec3(u, v, intersection.distance);
-            assert!((found - solved).length() < 1e-8 * (1.0 + solved.length()));
-            assert!((intersection.weights.iter().sum::<f64>() - 1.0).abs() < 1e-8);
-        }
     }
 }

@@ -27,7 +27,7 @@ pub enum Answer {
     Picture(ElementOutcome<Vec<Vec3>>),
 }
 
-/// What a function returned in one row: a record, or `None`.
+/// The outcome of one row: the record that the function returned, or `None`.
 pub type Returned<'a> = ElementOutcome<Option<&'a dyn Record>>;
 
 impl Answer {

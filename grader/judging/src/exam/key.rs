@@ -114,7 +114,7 @@ impl Aggregate {
     }
 }
 
-/// What a function is expected to return in each row.
+/// The rows that a function is expected to return.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExpectedRows {

@@ -43,7 +43,7 @@ pub enum Reload {
     WhileUnfocused,
 }
 
-/// What a page shows.
+/// The content of a page.
 struct Page<'a> {
     score: &'a Score,
     /// The exam, of which readers may see the items that it has.

@@ -58,7 +58,7 @@ impl Margin {
     }
 }
 
-/// What a sample is kept for. For each of these, one sample is kept: the nearest.
+/// The purpose that a sample is kept for. For each purpose, one sample is kept: the nearest.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum KeptFor {
     /// The largest deviation of a correct solution.

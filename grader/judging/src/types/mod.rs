@@ -83,3 +83,6 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         | Value::Nodes(_) => Box::new(asked::Asked(value)),
     }
 }
+
+#[cfg(test)]
+mod tests;

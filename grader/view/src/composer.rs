@@ -197,4 +197,15 @@ mod tests {
         assert!(away.z > away.x, "a normal that points away is blue");
         assert!(clay(hit(Vec3::NAN), eye).is_finite());
     }
+    #[test]
+    fn values_that_are_no_light_have_the_bytes_of_the_framework() {
+        for stops in [0.0, -2.5, 3.0] {
+            let (table, tone) = (ToneTable::new(stops), Tone::Light { stops });
+            for x in [-1.0, 0.0, 0.3, f32::NAN, f32::INFINITY] {
+                let pixel = Vec3::new(x, x * x, 10.0 * x);
+                let bytes = table.to_bytes(pixel);
+                assert_eq!(bytes, tone.to_bytes(pixel), "{stops} {pixel}");
+            }
+        }
+    }
 }

@@ -185,7 +185,7 @@ fn draw_outlines<'a>(
     let page = |at: DVec3| window.page_position(plane.project(at));
     let mut triangles = Vec::new();
     for shape in all.take(MAX_PRIMITIVES) {
-        if let Shape::Sphere { center, radius, .. } = *shape {
+        if let &Shape::Sphere { center, radius, .. } = shape {
             let radius = window.page_length(radius.into());
             canvas.circle(page(center.as_dvec3()), radius, LineStyle::Grid, fill);
         } else {

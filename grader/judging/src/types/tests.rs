@@ -63,7 +63,15 @@ fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>>
             min: length(times.min),
             ..times
         }),
-        _ => return None,
+        Value::Index(_)
+        | Value::Count(_)
+        | Value::Angle(_)
+        | Value::Ratio(_)
+        | Value::Film(_)
+        | Value::Pixel(_)
+        | Value::Offset(_)
+        | Value::Shapes(_)
+        | Value::Nodes(_) => return None,
     })
 }
 

@@ -167,7 +167,9 @@ impl<'a> OpenProgram<'a> {
             Some(tree) => tree,
             None => self.tree(work).map_err(|stop| match stop {
                 Stop::Unwanted => stop,
-                _ => Stop::Invalid(format!("The tree cannot be read: {stop}")),
+                Stop::Fault(_) | Stop::Invalid(_) => {
+                    Stop::Invalid(format!("The tree cannot be read: {stop}"))
+                }
             })?,
         };
         let explanation = self.explain_in(&tree, work, pinned);

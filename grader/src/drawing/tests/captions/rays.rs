@@ -43,7 +43,8 @@ fn captions_of_missing_or_misplaced_hits() {
 #[test]
 fn captions_of_hits_with_another_wrong_field() {
     let ray = ahead(0.0, f32::INFINITY);
-    let cases: [(&str, fn(&mut Trace)); 8] = [
+    type Change = fn(&mut Trace);
+    let cases: [(&str, Change); 8] = [
         ("position", |trace| trace.position.z = 4.0),
         ("normal", |trace| trace.normal = Vec3::NEG_Z),
         ("normal", |trace| trace.normal = vec3(0.0, 1.0, 1.0)),

@@ -16,7 +16,7 @@ fn all_margins_are_wide_enough_for_one_seed() {
 }
 
 #[test]
-fn the_committed_table_covers_a_hundred_seeds() {
+fn the_committed_table_covers_two_hundred_seeds() {
     let table = text(TABLE);
-    assert!(table.contains("of 100 seeds (0 to 99)"), "{table}");
+    assert!(table.contains("of 200 seeds (0 to 199)"), "{table}");
 }

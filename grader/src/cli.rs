@@ -6,9 +6,10 @@ use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Id, Parser, value_parser};
 
 use crate::build::select_isolation::IsolationRequest;
+use crate::error::Error;
 use crate::format::{FORMATS, OutputSpec};
 use crate::grade::options::{Dependents, GradeOptions};
-use crate::handed_out::{HandedOut, RAYS};
+use crate::handed_out::HandedOut;
 use crate::inputs::exam_source::ExamSource;
 use crate::inputs::question_ref::QuestionRef;
 use crate::inputs::task_selection::{NamedTasks, TaskSelection};
@@ -47,7 +48,7 @@ pub enum Command {
         /// The folder; `None` is the folder of students' own work.
         folder: Option<PathBuf>,
         /// The tasks and files to start afresh.
-        names: TaskNames,
+        names: Vec<NamedTasks>,
     },
     /// Show what this machine offers and lacks.
     Diagnose,
@@ -71,8 +72,8 @@ pub struct Arguments {
     pub submission: Option<PathBuf>,
 
     /// Grade one task only, such as sphere, or all tasks of a file, such as bvh; writes no score
-    #[arg(long, value_name = "TASK", value_parser = parse_tasks)]
-    pub task: Option<TaskSelection>,
+    #[arg(long, value_name = "TASK")]
+    pub task: Option<String>,
 
     /// Run one question again, such as sphere.from_inside#7, and show the whole answer; without a
     /// number, the first wrong question of the item
@@ -81,8 +82,8 @@ pub struct Arguments {
 
     /// Start a task afresh, such as sphere, or a whole file, such as bvh; keeps a copy of your file,
     /// such as bvh.rs.bak-1
-    #[arg(long, value_name = "TASK", value_parser = parse_names)]
-    pub reset: Option<TaskNames>,
+    #[arg(long, value_name = "TASK")]
+    pub reset: Option<String>,
 
     /// If a known mistake is recognised, show its full hint instead of a nudge
     #[arg(long)]
@@ -107,6 +108,10 @@ pub struct Arguments {
     /// Show the compiler, the available isolation levels, and what is missing on this machine
     #[arg(long)]
     pub doctor: bool,
+
+    /// The assignment; default: rays
+    #[arg(long, value_name = "ID", value_parser = HandedOut::find, help_heading = STAFF_OPTIONS)]
+    pub assignment: Option<&'static HandedOut>,
 
     /// The exam file, or - for standard input; default: the practice exam
     #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
@@ -167,9 +172,6 @@ pub struct Arguments {
     pub help_staff: bool,
 }
 
-/// The tasks and files named by an option.
-pub type TaskNames = std::sync::Arc<[NamedTasks]>;
-
 impl Arguments {
     /// Parses this process's command line. If it is invalid or asks for help, prints a message and
     /// exits.
@@ -194,18 +196,25 @@ impl Arguments {
         command.after_help(MORE_HELP)
     }
 
-    /// Returns the command that these arguments select.
-    pub fn resolve(self) -> Command {
+    /// Returns the command that these arguments select. Fails if the assignment has no task with a name
+    /// that they contain.
+    pub fn resolve(self) -> Result<Command, Error> {
+        let handed_out = self.assignment.unwrap_or_default();
+        let assignment = handed_out.assignment;
+        let tasks = self
+            .task
+            .map(|text| TaskSelection::parse(&text, assignment));
+        let tasks = tasks.transpose().map_err(Error::User)?;
         let isolation = match (self.isolation, self.untrusted) {
             (Some(level), _) => IsolationRequest::Level(level),
             (None, true) => IsolationRequest::Untrusted,
             (None, false) => IsolationRequest::OwnWork,
         };
         let options = GradeOptions {
-            handed_out: &RAYS,
+            handed_out,
             submission: self.submission,
             exam: ExamSource::from_option(self.exam),
-            tasks: self.task.unwrap_or_default(),
+            tasks: tasks.unwrap_or_default(),
             policy: self.policy,
             gradescope_metadata: self.gradescope_metadata,
             dependents: Dependents::new(self.no_reference),
@@ -227,14 +236,14 @@ impl Arguments {
             timings: self.timings,
             require: self.require.unwrap_or(0),
         };
-        if let Some(names) = self.reset {
-            return Command::Reset {
-                handed_out: options.handed_out,
+        if let Some(text) = self.reset {
+            return Ok(Command::Reset {
+                handed_out,
                 folder: options.submission,
-                names,
-            };
+                names: NamedTasks::parse_list(&text, assignment).map_err(Error::User)?,
+            });
         }
-        match self.replay {
+        Ok(match self.replay {
             _ if self.help_staff => Command::PrintHelp(Self::command().render_long_help()),
             _ if self.schema => Command::PrintSchema,
             _ if self.policy_default => Command::PrintDefaultPolicy,
@@ -245,7 +254,7 @@ impl Arguments {
                 open: print.open,
             },
             None => Command::Grade(options, print),
-        }
+        })
     }
 }
 
@@ -257,12 +266,4 @@ fn format_help() -> String {
          to =PATH if given, else where the platform expects it, else to the --out folder.\n\
          Formats: {known}"
     )
-}
-
-fn parse_names(text: &str) -> Result<TaskNames, String> {
-    NamedTasks::parse_list(text, RAYS.assignment).map(TaskNames::from)
-}
-
-fn parse_tasks(text: &str) -> Result<TaskSelection, String> {
-    TaskSelection::parse(text, RAYS.assignment)
 }

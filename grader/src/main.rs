@@ -17,7 +17,8 @@ fn main() -> ExitCode {
     if let Some(code) = sandbox::run_as_launcher() {
         return code;
     }
-    run(Arguments::from_command_line().resolve()).unwrap_or_else(|error| {
+    let command = Arguments::from_command_line().resolve();
+    command.and_then(run).unwrap_or_else(|error| {
         print_error(&error);
         ExitCode::from(error.exit_code())
     })

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, value_parser};
 use grader::exam_source::ExamSource;
+use grader::handed_out::HandedOut;
 use grader::options::{Dependents, GradeOptions};
 use grader::probe::Budget;
 use grader::sandbox::Isolation;
@@ -90,6 +91,10 @@ pub struct ClassArguments {
 /// Options for grading each submission, with the meaning that they have in `cargo grade`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct GradingArguments {
+    /// The assignment; default: rays
+    #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
+    pub assignment: Option<&'static HandedOut>,
+
     /// Exam file; default: the practice exam
     #[arg(long, value_name = "FILE")]
     pub exam: Option<PathBuf>,
@@ -164,6 +169,10 @@ pub struct Lists {
 /// The arguments of `cargo class merge`.
 #[derive(Clone, Debug, Args)]
 pub struct MergeArguments {
+    /// The assignment; default: rays
+    #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
+    pub assignment: Option<&'static HandedOut>,
+
     /// Output folders of the shards
     #[arg(required = true)]
     pub shards: Vec<PathBuf>,
@@ -199,6 +208,7 @@ impl GradingArguments {
     /// Returns the options for grading each submission.
     pub fn resolve(&self) -> GradeOptions {
         GradeOptions {
+            handed_out: self.assignment.unwrap_or_default(),
             exam: ExamSource::from_option(self.exam.clone()),
             policy: self.policy.clone(),
             dependents: Dependents::new(self.no_reference),

@@ -7,7 +7,6 @@ use class::cli::{Cli, Command};
 use class::error::Error;
 use class::grade::{Completion, grade_class};
 use class::merge::merge_shards;
-use grader::handed_out::RAYS;
 use grader::printing::{exit_with, print_error};
 use grader::sandbox;
 
@@ -28,7 +27,9 @@ fn main() -> ExitCode {
 
 fn run(cli: &Cli) -> Result<Completion, Error> {
     match &cli.command {
-        Some(Command::Merge(arguments)) => merge_shards(arguments, &RAYS),
+        Some(Command::Merge(arguments)) => {
+            merge_shards(arguments, arguments.assignment.unwrap_or_default())
+        }
         None => grade_class(&cli.class, &cli.class.grading.resolve()),
     }
 }

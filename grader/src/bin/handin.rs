@@ -4,12 +4,11 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use grader::hand_in::{HandIn, HandInArguments};
-use grader::handed_out::RAYS;
 use grader::printing::{exit_with, print, print_error};
 
 fn main() -> ExitCode {
     let arguments = HandInArguments::try_parse().unwrap_or_else(|error| exit_with(&error));
-    match HandIn::make(arguments, &RAYS) {
+    match HandIn::make(arguments) {
         Ok(made) => {
             print(&made);
             ExitCode::from(u8::from(!made.is_ready()))

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::build::select_isolation::IsolationRequest;
 use crate::format::OutputSpec;
-use crate::handed_out::{HandedOut, RAYS};
+use crate::handed_out::HandedOut;
 use crate::inputs::exam_source::ExamSource;
 use crate::inputs::task_selection::TaskSelection;
 use crate::probe::Budget;
@@ -45,7 +45,7 @@ pub struct GradeOptions {
 impl Default for GradeOptions {
     fn default() -> Self {
         GradeOptions {
-            handed_out: &RAYS,
+            handed_out: Default::default(),
             submission: None,
             exam: ExamSource::default(),
             tasks: TaskSelection::All,

@@ -37,6 +37,10 @@ pub struct HandInArguments {
     /// The archive to write; default: handin.zip in the assignment's folder
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+
+    /// The assignment; default: rays
+    #[arg(long, value_name = "ID", value_parser = HandedOut::find, hide = true)]
+    pub assignment: Option<&'static HandedOut>,
 }
 
 /// An archive that was made and checked.
@@ -57,7 +61,8 @@ pub struct HandIn {
 impl HandIn {
     /// Makes the archive of a student's own work or of another folder, reads it back, and compiles
     /// what is in it.
-    pub fn make(arguments: HandInArguments, handed_out: &'static HandedOut) -> Result<Self, Error> {
+    pub fn make(arguments: HandInArguments) -> Result<Self, Error> {
+        let handed_out = arguments.assignment.unwrap_or_default();
         let folder = arguments.folder;
         if let Some(folder) = &folder
             && Workspace::find()?.resolve(folder).is_file()

@@ -21,6 +21,9 @@ pub use method_span::find_method;
 pub use rays::RAYS;
 pub use tokens::without_comments;
 
+/// The assignments that `--assignment` selects from. The first is the default.
+pub static ASSIGNMENTS: [&HandedOut; 1] = [&RAYS];
+
 /// An assignment as it is handed out.
 #[derive(PartialEq, Eq)]
 pub struct HandedOut {
@@ -101,7 +104,27 @@ impl TaskFile {
     }
 }
 
+impl Default for &'static HandedOut {
+    /// Returns the assignment of a command line that names none.
+    fn default() -> Self {
+        ASSIGNMENTS[0]
+    }
+}
+
 impl HandedOut {
+    /// Returns the assignment with this id.
+    ///
+    /// # Errors
+    ///
+    /// A message for the command line if there is none.
+    pub fn find(id: &str) -> Result<&'static HandedOut, String> {
+        let found = ASSIGNMENTS.into_iter().find(|it| it.assignment.id == id);
+        found.ok_or_else(|| {
+            let ids = ASSIGNMENTS.map(|it| it.assignment.id).join(", ");
+            format!("unknown assignment; the assignments are {ids}")
+        })
+    }
+
     /// Returns the folder of the assignment's solutions, relative to the workspace: the parent of
     /// the reference's `src`.
     pub fn solutions(&self) -> &'static str {

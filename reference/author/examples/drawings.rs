@@ -9,11 +9,11 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::{env, error, fs};
 
+use author::authoring::RAYS;
 use author::exams;
 use author::solutions::Solutions;
 use author::solutions::workbench::Workbench;
 use grader::drawing::{self, Drawing};
-use grader::handed_out::RAYS;
 use judging::exam::Item;
 use judging::judge::{Credit, judge};
 use protocol::Answer;
@@ -48,7 +48,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
         .ok_or("name the page to write, such as target/drawings.html")?;
     let word = env::args().nth(2).unwrap_or_default();
     let solutions = Solutions::load(Workbench::open(&RAYS)?)?;
-    let exam = exams::load_practice(Path::new(ROOT))?;
+    let exam = exams::load_practice(Path::new(ROOT), &RAYS)?;
     let figures = solutions
         .mistakes
         .par_iter()

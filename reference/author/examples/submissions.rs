@@ -58,7 +58,7 @@ fn solutions() -> Result<Vec<(String, Sources)>, Box<dyn Error>> {
         let sources = mistake.apply(&reference)?;
         solutions.push((mistake.id, sources));
     }
-    for variant in variants(root)? {
+    for variant in variants(root, &RAYS)? {
         let solution = variant.solution(&reference, root)?;
         solutions.push((variant.id, solution.sources));
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::authoring::Authoring;
 use crate::generated_file::Mode;
 use crate::package::Platform;
 
@@ -19,6 +20,9 @@ pub struct Cli {
     /// The subcommand to run.
     #[command(subcommand)]
     pub command: Command,
+    /// The assignment; default: rays
+    #[arg(long, value_name = "ID", value_parser = Authoring::find, global = true)]
+    pub assignment: Option<&'static Authoring>,
 }
 
 /// The subcommands of `cargo author`.

@@ -5,59 +5,56 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use grader::error::Error;
 use grader::exam_source::ExamSource;
-use grader::handed_out::RAYS;
 use judging::exam::Exam;
 use serde::Serialize;
 
+use crate::authoring::Authoring;
 use crate::drawing_data::with_drawing_data;
 use crate::generated_file::GeneratedFile;
 use crate::hints::with_hints;
-use crate::items::traverse::RecordedPicture;
-use crate::items::{self, traverse};
+use crate::items;
 use crate::seed::Seed;
 use crate::solutions::Solutions;
-use crate::solutions::recording::Recorder;
 use crate::solutions::workbench::Workbench;
 
-/// The path of the practice exam, relative to the workspace root.
-const PRACTICE_FILE: &str = "grader/exams/practice.json";
-
-/// Generates the exam files of this repository.
-pub fn generated_files() -> Result<Vec<GeneratedFile>> {
-    let practice = exam_text("practice", Seed::PRACTICE)?;
-    Ok(vec![GeneratedFile::new(PRACTICE_FILE, practice)])
+/// Generates the file of an assignment's practice exam.
+pub fn generated_file(authoring: &'static Authoring) -> Result<GeneratedFile> {
+    let practice = exam_text(authoring, "practice", Seed::PRACTICE)?;
+    Ok(GeneratedFile::new(authoring.practice_exam, practice))
 }
 
 /// Reads the practice exam that is committed in the workspace at `root`.
-pub fn load_practice(root: &Path) -> Result<Exam, Error> {
-    Ok(ExamSource::File(root.join(PRACTICE_FILE)).load(&RAYS)?.exam)
+pub fn load_practice(root: &Path, authoring: &Authoring) -> Result<Exam, Error> {
+    let file = ExamSource::File(root.join(authoring.practice_exam));
+    Ok(file.load(authoring.handed_out)?.exam)
 }
 
 /// Generates the text of a final exam. Its questions are about the same ideas as those of the
 /// practice exam, with other numbers.
-pub fn final_exam_text(seed: u64) -> Result<String> {
+pub fn final_exam_text(authoring: &'static Authoring, seed: u64) -> Result<String> {
     if Seed(seed) == Seed::PRACTICE {
         bail!("the seed {seed} is that of the practice exam; choose another one");
     }
-    exam_text("final", Seed(seed))
+    exam_text(authoring, "final", Seed(seed))
 }
 
-fn exam_text(id: &str, seed: Seed) -> Result<String> {
-    let solutions = Solutions::load(Workbench::open(&RAYS)?)?;
-    let exam = generate(id, seed, &solutions.recorder)?;
+fn exam_text(authoring: &'static Authoring, id: &str, seed: Seed) -> Result<String> {
+    let solutions = Solutions::load(Workbench::open(authoring)?)?;
+    let exam = generate(id, seed, &solutions)?;
     Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }
 
-/// Generates an exam without hints. The reference renders the picture of the radiance item.
-pub fn generate(id: &str, seed: Seed, recorder: &Recorder) -> Result<Exam> {
-    let question = traverse::radiance_question(seed, recorder.scene().to_owned());
-    let pixels = recorder.record(&question)?;
-    Ok(assemble(id, seed, RecordedPicture { question, pixels }))
+/// Generates an exam without hints, whose pictures the reference renders.
+pub fn generate(id: &str, seed: Seed, solutions: &Solutions) -> Result<Exam> {
+    let exam = assemble(solutions.workbench.authoring(), id, seed);
+    solutions.recorder.record(exam)
 }
 
-/// Assembles an exam without hints, in which each item comes after the items that it needs.
-pub fn assemble(id: &str, seed: Seed, recorded: RecordedPicture) -> Exam {
-    Exam::new(RAYS.assignment, id, items::items(seed, recorded))
+/// Assembles an exam without hints and without recorded pictures, in which each item comes after
+/// the items that it needs.
+pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Exam {
+    let assignment = authoring.handed_out.assignment;
+    Exam::new(assignment, id, items::items(authoring.items, seed))
 }
 
 /// Writes the exam as JSON with one item per line, so that a diff shows which items changed.
@@ -88,10 +85,11 @@ mod tests {
     use judging::signatures::KnownMistake;
 
     use super::*;
+    use crate::authoring::RAYS;
 
     #[test]
     fn the_practice_seed_gives_no_final_exam() {
-        let error = final_exam_text(Seed::PRACTICE.0).unwrap_err();
+        let error = final_exam_text(&RAYS, Seed::PRACTICE.0).unwrap_err();
         assert_eq!(
             error.to_string(),
             "the seed 2025 is that of the practice exam; choose another one"

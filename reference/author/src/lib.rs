@@ -15,10 +15,13 @@
 //! | packages for platforms; the proof that the exam is right, and what it covers | [`package`], [`proof`], [`coverage`] |
 //! | whole exams; the students' bundle | [`exams`], [`bundle`] |
 //! | additions to an exam | [`hints`], [`drawing_data`] |
-//! | an exam's items; solutions, and how they are built and run | [`items`], [`solutions`] |
+//! | solutions, and how they are built and run | [`solutions`] |
+//! | assignments as data | [`authoring`] |
+//! | an exam's items | [`items`] |
 //! | trees with decoys; other generated files | [`tree`], [`starter`] |
 //! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
+pub mod authoring;
 pub mod bundle;
 pub mod cli;
 pub mod commands;

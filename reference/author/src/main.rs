@@ -3,13 +3,16 @@
 
 use std::process::ExitCode;
 
+use author::authoring::ASSIGNMENTS;
 use author::cli::Cli;
 use author::commands;
 use clap::Parser;
 use grader::printing::print_error;
 
 fn main() -> ExitCode {
-    match commands::run(Cli::parse().command) {
+    let cli = Cli::parse();
+    let authoring = cli.assignment.unwrap_or(ASSIGNMENTS[0]);
+    match commands::run(cli.command, authoring) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             print_error(&error);

@@ -72,6 +72,7 @@ impl Shards {
 
     fn arguments(&self) -> MergeArguments {
         MergeArguments {
+            assignment: None,
             shards: vec![self.path("1"), self.path("2")],
             out: self.path("out"),
             policy: None,

@@ -10,16 +10,13 @@ use std::path::Path;
 
 use anyhow::Result;
 use grader::files;
-use grader::handed_out::HandedOut;
 use judging::exam::Exam;
 
+use crate::authoring::Authoring;
 use crate::bundle::Bundle;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
-/// The folder of the oracles, which solve the tasks in double precision. Only their formulas are
-/// secret: other lines, such as the conversion of a ray to `f64`, can occur in any code.
-const ORACLE_FOLDER: &str = "reference/author/src/oracle";
 /// The folders of given code, whose lines solutions may repeat.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
 /// The minimum length of a secret line, not counting white space. Shorter lines occur by
@@ -57,11 +54,14 @@ pub enum Leak {
 impl Secrets {
     /// Collects the secrets of an assignment in the workspace at `root`, except lines that also occur
     /// in the bundle's given files.
-    pub fn gather(root: &Path, handed_out: &'static HandedOut, bundle: &Bundle) -> Result<Self> {
+    pub fn gather(root: &Path, authoring: &Authoring, bundle: &Bundle) -> Result<Self> {
+        let handed_out = authoring.handed_out;
         let mut secrets = Secrets {
             lines: HashMap::new(),
         };
-        secrets.read(root, ORACLE_FOLDER)?;
+        // Only the oracles' formulas are secret: other lines, such as the conversion of a ray to
+        // `f64`, can occur in any code.
+        secrets.read(root, authoring.oracles)?;
         secrets.lines.retain(|line, _| is_formula(line));
         secrets.read(root, handed_out.reference)?;
         let solutions = handed_out.solutions();

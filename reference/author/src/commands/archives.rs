@@ -5,54 +5,54 @@ use std::path::Path;
 use anyhow::bail;
 use grader::files;
 
-use super::{CommandResult, HANDED_OUT, report};
+use super::{CommandResult, report};
+use crate::authoring::Authoring;
 use crate::bundle::secrets::Secrets;
 use crate::bundle::{self, Bundle, archive};
 use crate::cli::{BundleArgs, PackageArgs};
 use crate::package::{self, Course, Platform, trial};
 
 /// Writes or checks the students' bundle.
-pub(super) fn bundle(root: &Path, args: &BundleArgs) -> CommandResult {
-    let mut bundle = Bundle::collect(root, HANDED_OUT, args.book.as_deref())?;
+pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> CommandResult {
+    let handed_out = authoring.handed_out;
+    let mut bundle = Bundle::collect(root, handed_out, args.book.as_deref())?;
     // With the students' files: what their starter contains is no secret.
-    let secrets = Secrets::gather(root, HANDED_OUT, &bundle)?;
+    let secrets = Secrets::gather(root, authoring, &bundle)?;
     if args.update {
-        bundle = bundle.without_students_files(HANDED_OUT);
+        bundle = bundle.without_students_files(handed_out);
     }
-    write_bundle(root, &bundle, &secrets, args.out.as_deref(), args.check)
-}
-
-/// Writes the students' bundle. Fails if the bundle contains a secret.
-fn write_bundle(
-    root: &Path,
-    bundle: &Bundle,
-    secrets: &Secrets,
-    out: Option<&Path>,
-    check: bool,
-) -> CommandResult {
-    let leaks = secrets.search(bundle);
-    let problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
-    if check && leaks.is_empty() {
-        bundle::check::check(root, HANDED_OUT, bundle)?;
+    report_leaks(&bundle, &secrets)?;
+    if args.check {
+        bundle::check::check(root, handed_out, &bundle)?;
     }
-    let (count, size) = (bundle.files.len(), bundle.size() / 1000);
-    let version = bundle.version();
-    let version = version.map_or(String::new(), |version| format!("version {version}, "));
-    let line = format!("{version}{count} files, {size} kB, searched for {secrets}");
-    report(&problems, &line)?;
-    if let Some(out) = out {
-        archive::write(bundle, out)?;
+    if let Some(out) = &args.out {
+        archive::write(&bundle, out)?;
     }
     Ok(())
 }
 
+/// Prints what a bundle contains. Fails if it contains a secret.
+fn report_leaks(bundle: &Bundle, secrets: &Secrets) -> CommandResult {
+    let leaks = secrets.search(bundle);
+    let problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
+    let (count, size) = (bundle.files.len(), bundle.size() / 1000);
+    let version = bundle.version();
+    let version = version.map_or(String::new(), |version| format!("version {version}, "));
+    let line = format!("{version}{count} files, {size} kB, searched for {secrets}");
+    report(&problems, &line)
+}
+
 /// Collects a platform's package, writes it, and runs it as the platform does if asked to. A template
 /// repository is searched for secrets first.
-pub(super) fn package(root: &Path, args: &PackageArgs) -> CommandResult {
+pub(super) fn package(
+    root: &Path,
+    authoring: &'static Authoring,
+    args: &PackageArgs,
+) -> CommandResult {
     let (exam, policy) = (args.exam.as_deref(), args.policy.as_deref());
-    let course = Course::new(HANDED_OUT, args.exam_seed, exam, policy)?;
+    let course = Course::new(authoring, args.exam_seed, exam, policy)?;
     let (platform, out) = (args.platform, args.out.as_path());
-    let package = &package::collect(root, HANDED_OUT, platform, course)?;
+    let package = &package::collect(root, authoring.handed_out, platform, course)?;
     match platform {
         Platform::Gradescope => {
             let is_zip = out.extension().is_some_and(|extension| extension == "zip");
@@ -68,8 +68,8 @@ pub(super) fn package(root: &Path, args: &PackageArgs) -> CommandResult {
             println!("{} files: {}", package.files.len(), out.display());
         }
         Platform::Github => {
-            let secrets = Secrets::gather(root, HANDED_OUT, package)?;
-            write_bundle(root, package, &secrets, Some(out), false)?;
+            report_leaks(package, &Secrets::gather(root, authoring, package)?)?;
+            archive::write(package, out)?;
         }
     }
     if !args.check {
@@ -82,6 +82,6 @@ pub(super) fn package(root: &Path, args: &PackageArgs) -> CommandResult {
         }
         Platform::Github => "the template's workflow grades a checkout correctly",
     };
-    let problems = trial::check(HANDED_OUT, root, platform, package, out)?;
+    let problems = trial::check(authoring, root, platform, package, out)?;
     report(&problems, line)
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{CommandResult, report};
+use crate::authoring::Authoring;
 use crate::cli::book_folder;
 use crate::exams;
 use crate::handout;
@@ -12,8 +13,14 @@ use crate::handout;
     clippy::option_option,
     reason = "absent, without a value, with a value"
 )]
-pub(super) fn handout(root: &Path, book: Option<Option<PathBuf>>, students: bool) -> CommandResult {
-    let problems = handout::problems(root, &exams::load_practice(root)?)?;
+pub(super) fn handout(
+    root: &Path,
+    authoring: &Authoring,
+    book: Option<Option<PathBuf>>,
+    students: bool,
+) -> CommandResult {
+    let practice = exams::load_practice(root, authoring)?;
+    let problems = handout::problems(root, authoring.handed_out.assignment, &practice)?;
     report(
         &problems,
         "handout: every link, name and command was checked",
@@ -21,14 +28,15 @@ pub(super) fn handout(root: &Path, book: Option<Option<PathBuf>>, students: bool
     let Some(folder) = book else {
         return Ok(());
     };
-    make_book(root, &root.join(book_folder(folder, students)), students)
+    let folder = root.join(book_folder(folder, students));
+    make_book(root, authoring, &folder, students)
 }
 
 #[cfg(feature = "book")]
-fn make_book(root: &Path, folder: &Path, students: bool) -> CommandResult {
+fn make_book(root: &Path, authoring: &Authoring, folder: &Path, students: bool) -> CommandResult {
     if students {
         handout::book::build_for_students(
-            &crate::bundle::Bundle::collect(root, super::HANDED_OUT, None)?,
+            &crate::bundle::Bundle::collect(root, authoring.handed_out, None)?,
             folder,
         )?;
     } else {
@@ -39,6 +47,6 @@ fn make_book(root: &Path, folder: &Path, students: bool) -> CommandResult {
 }
 
 #[cfg(not(feature = "book"))]
-fn make_book(_: &Path, _: &Path, _: bool) -> CommandResult {
+fn make_book(_: &Path, _: &Authoring, _: &Path, _: bool) -> CommandResult {
     anyhow::bail!("this program was built without mdBook: run `cargo book` instead")
 }

@@ -11,9 +11,9 @@ use std::path::Path;
 use std::slice;
 
 use anyhow::bail;
-use grader::handed_out::{HandedOut, RAYS};
 use grader::printing::print_error_line;
 
+use crate::authoring::Authoring;
 use crate::cli::{Command, RecordArgs};
 use crate::coverage::coverage;
 use crate::exams;
@@ -25,45 +25,46 @@ use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-/// The assignment of all commands.
-const HANDED_OUT: &HandedOut = &RAYS;
 /// The entry of the table of long runs in place of seeds.
 const PRACTICE: &str = "practice";
 
 /// The result of a command; the error is printed.
 pub type CommandResult = anyhow::Result<()>;
 
-/// Runs a subcommand.
-pub fn run(command: Command) -> CommandResult {
+/// Runs a subcommand for an assignment.
+pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
     let root = Path::new(ROOT);
     match command {
         Command::Starter(check) => {
-            let files = starter::generated_files(root, HANDED_OUT)?;
+            let files = starter::generated_files(root, authoring.handed_out)?;
             generate(&files, check.mode(), "starter")
         }
-        Command::Exams(check) => generate(&exams::generated_files()?, check.mode(), "exams"),
+        Command::Exams(check) => {
+            let practice = exams::generated_file(authoring)?;
+            generate(&[practice], check.mode(), "exams")
+        }
         Command::Exam { seed } => {
-            let exam = exams::final_exam_text(seed)?;
+            let exam = exams::final_exam_text(authoring, seed)?;
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
         Command::Handout {
             check: _,
             book,
             students,
-        } => book::handout(root, book, students),
-        Command::Bundle(args) => archives::bundle(root, &args),
-        Command::Package(args) => archives::package(root, &args),
-        Command::Mistakes(args) => proofs::mistakes(root, &args),
-        Command::Mutants { fast, record } => proofs::mutants(fast, record),
+        } => book::handout(root, authoring, book, students),
+        Command::Bundle(args) => archives::bundle(root, authoring, &args),
+        Command::Package(args) => archives::package(root, authoring, &args),
+        Command::Mistakes(args) => proofs::mistakes(root, authoring, &args),
+        Command::Mutants { fast, record } => proofs::mutants(authoring, fast, record),
         Command::Coverage(check) => {
-            let practice = exams::load_practice(root)?;
-            let coverage = coverage(root, HANDED_OUT, &practice)?;
+            let practice = exams::load_practice(root, authoring)?;
+            let coverage = coverage(root, authoring.handed_out, &practice)?;
             generate(slice::from_ref(&coverage.table), check.mode(), "coverage")?;
             report(&coverage.problems, &coverage.summary_line())
         }
-        Command::Hints(args) => proofs::hints(root, args),
-        Command::Prove(args) => proofs::prove(args),
-        Command::Calibrate(args) => proofs::calibrate(root, args),
+        Command::Hints(args) => proofs::hints(root, authoring, args),
+        Command::Prove(args) => proofs::prove(authoring, args),
+        Command::Calibrate(args) => proofs::calibrate(root, authoring, args),
     }
 }
 
@@ -75,8 +76,8 @@ fn generate(files: &[GeneratedFile], mode: Mode, name: &str) -> CommandResult {
 }
 
 /// Builds all variants and mistakes.
-fn solutions() -> anyhow::Result<Solutions> {
-    Solutions::load(Workbench::open(HANDED_OUT)?)
+fn solutions(authoring: &'static Authoring) -> anyhow::Result<Solutions> {
+    Solutions::load(Workbench::open(authoring)?)
 }
 
 /// Prints the problems and the summary line. Fails if there are problems.

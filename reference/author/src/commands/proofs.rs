@@ -5,9 +5,8 @@ use std::path::Path;
 use grader::printing::print_error_line;
 use judging::exam::Exam;
 
-use super::{
-    CommandResult, HANDED_OUT, PRACTICE, generate, record_result, report, solutions, written,
-};
+use super::{CommandResult, PRACTICE, generate, record_result, report, solutions, written};
+use crate::authoring::Authoring;
 use crate::cli::{CalibrateArgs, HintsArgs, MistakesArgs, ProveArgs, RecordArgs};
 use crate::exams;
 use crate::generated_file::Mode;
@@ -23,10 +22,14 @@ use crate::solutions::failed_items::FailedItems;
 
 /// Writes the lists of the items that each mistake fails and the table of the practice exam, or
 /// checks them.
-pub(super) fn mistakes(root: &Path, args: &MistakesArgs) -> CommandResult {
-    let mode = args.check.mode();
-    let mut solutions = solutions()?;
-    let practice = exams::load_practice(root)?;
+pub(super) fn mistakes(
+    root: &Path,
+    authoring: &'static Authoring,
+    args: &MistakesArgs,
+) -> CommandResult {
+    let (mode, handed_out) = (args.check.mode(), authoring.handed_out);
+    let mut solutions = solutions(authoring)?;
+    let practice = exams::load_practice(root, authoring)?;
     if args.table {
         return write_table_of_mistakes(&solutions, &practice, Mode::Write);
     }
@@ -46,7 +49,7 @@ pub(super) fn mistakes(root: &Path, args: &MistakesArgs) -> CommandResult {
     );
     // Before the files are written, so that they do not count as changes of the commit.
     record_result(args.record, "mistakes", &written(&(0..seeds.all)), &line)?;
-    let committed = FailedItems::load(root, HANDED_OUT)?;
+    let committed = FailedItems::load(root, handed_out)?;
     if mode == Mode::Check {
         let mut problems = failures::problems(&committed, &failed);
         problems.extend(catches.problems());
@@ -55,10 +58,10 @@ pub(super) fn mistakes(root: &Path, args: &MistakesArgs) -> CommandResult {
     }
     // A check with as many seeds must find the same lists.
     if mode == Mode::Write || failed.seeds == committed.seeds {
-        generate(&[failed.generated_file(HANDED_OUT)?], mode, "mistakes")?;
+        generate(&[failed.generated_file(handed_out)?], mode, "mistakes")?;
     }
     if mode == Mode::Write {
-        generate(&[catches.generated_file(HANDED_OUT)], mode, "mistakes")?;
+        generate(&[catches.generated_file(handed_out)], mode, "mistakes")?;
         solutions.set_failed_items(&failed);
     }
     write_table_of_mistakes(&solutions, &practice, mode)?;
@@ -72,8 +75,12 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
 }
 
 /// Makes mutants of the reference, and grades them.
-pub(super) fn mutants(fast: bool, record: RecordArgs) -> CommandResult {
-    let findings = mutants::run(HANDED_OUT, if fast { SAMPLE_STEP } else { 1 })?;
+pub(super) fn mutants(
+    authoring: &'static Authoring,
+    fast: bool,
+    record: RecordArgs,
+) -> CommandResult {
+    let findings = mutants::run(authoring, if fast { SAMPLE_STEP } else { 1 })?;
     if fast {
         println!("selected: one in {SAMPLE_STEP}, in the order of their names");
     } else {
@@ -85,10 +92,11 @@ pub(super) fn mutants(fast: bool, record: RecordArgs) -> CommandResult {
 }
 
 /// Grades the variants with the exams of all seeds, and the mistakes with those of the first few.
-pub(super) fn prove(args: ProveArgs) -> CommandResult {
+pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandResult {
+    let all = solutions(authoring)?;
     let selected = match &args.variant {
-        Some(id) => solutions()?.only_variant(id)?,
-        None => solutions()?,
+        Some(id) => all.only_variant(id)?,
+        None => all,
     };
     let seeds = written(&args.seeds);
     let summary = proof::prove::prove(&selected, args.seeds, args.mistakes)?;
@@ -100,27 +108,31 @@ pub(super) fn prove(args: ProveArgs) -> CommandResult {
 }
 
 /// Measures the margins of all thresholds, and writes or checks their table.
-pub(super) fn calibrate(root: &Path, args: CalibrateArgs) -> CommandResult {
+pub(super) fn calibrate(
+    root: &Path,
+    authoring: &'static Authoring,
+    args: CalibrateArgs,
+) -> CommandResult {
     if args.check {
-        table::check(root)?;
+        table::check(root, authoring.handed_out)?;
     }
     let default = if args.check { FEW_SEEDS } else { MANY_SEEDS };
     let seeds = args.seeds.unwrap_or(default);
     let written = written(&seeds);
-    let calibration = proof::calibrate::calibrate(&solutions()?, seeds, args.mistakes)?;
+    let calibration = proof::calibrate::calibrate(&solutions(authoring)?, seeds, args.mistakes)?;
     let line = calibration.summary_line();
     record_result(args.record, "calibrate", &written, &line)?;
     if !args.check {
-        let table = table::generated_file(&calibration);
+        let table = table::generated_file(authoring.handed_out, &calibration);
         generate(&[table], Mode::Write, "calibrate")?;
     }
     report(&calibration.margins.problems(), &line)
 }
 
 /// Measures how mistakes are recognised, prints the result, and records it if asked to.
-pub(super) fn hints(root: &Path, args: HintsArgs) -> CommandResult {
-    let solutions = solutions()?;
-    let practice = exams::load_practice(root)?;
+pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs) -> CommandResult {
+    let solutions = solutions(authoring)?;
+    let practice = exams::load_practice(root, authoring)?;
     let seeds = args.seeds.as_ref().map(written);
     let (run, recognition) = if let Some(seeds) = args.seeds {
         ("hints", recognise_with_seeds(&solutions, seeds)?)

@@ -26,26 +26,36 @@ const HISTORY: [Cell; 3] = [
     "history: tenth call",
     "history: thousandth call",
 ];
+const IN_FRONT: Cell = "start: in front";
+const BEHIND: Cell = "start: behind";
 const OUTSIDE: Cell = "start: outside";
 const INSIDE: Cell = "start: inside";
 const ON_SURFACE: Cell = "start: on the surface";
 const SIZES: [Cell; 4] = ["size: none", "size: one", "size: few", "size: many"];
 
-/// Returns the cells that are distinguished in a task, in the order of the table.
-pub(super) fn of_task(task: &str) -> Vec<Cell> {
+/// Returns the cells that are distinguished in a task whose first question is this one, in the order
+/// of the table.
+pub(super) fn of_task(first: &Question) -> Vec<Cell> {
     let of_rays = |start: &[Cell], more: &[Cell]| {
         [&SCALES[..], &PLACES, &[OCTANTS], start, more, &HISTORY].concat()
     };
-    match task {
-        "camera" => {
+    match first {
+        Question::SampleRay(_) => {
             let films = ["film: wide", "film: high", "film: large", QUADRANTS];
             [&films[..], &HISTORY].concat()
         }
-        "triangle" => of_rays(&["start: in front", "start: behind", ON_SURFACE], &[]),
-        "sphere" => of_rays(&[OUTSIDE, INSIDE, ON_SURFACE], &[]),
-        "bbox" => of_rays(&[OUTSIDE, INSIDE], &[]),
-        "build" => [&SCALES[..], &PLACES, &SIZES].concat(),
-        _ => of_rays(&[OUTSIDE, INSIDE], &SIZES),
+        Question::Hit(table) => match &table.subject {
+            Geometry::List { shapes } => match shapes.first() {
+                Some(Shape::Sphere { .. }) => of_rays(&[OUTSIDE, INSIDE, ON_SURFACE], &[]),
+                _ => of_rays(&[IN_FRONT, BEHIND, ON_SURFACE], &[]),
+            },
+            Geometry::Tree { .. } | Geometry::BuiltTree { .. } => {
+                of_rays(&[OUTSIDE, INSIDE], &SIZES)
+            }
+        },
+        Question::BBoxHit(_) => of_rays(&[OUTSIDE, INSIDE], &[]),
+        Question::Build { .. } => [&SCALES[..], &PLACES, &SIZES].concat(),
+        Question::Radiance { .. } => HISTORY.into(),
     }
 }
 
@@ -159,8 +169,8 @@ fn side([p0, p1, p2]: [DVec3; 3], point: DVec3) -> Cell {
     let normal = (p1 - p0).cross(p2 - p0).normalize_or_zero();
     let height = (point - p0).dot(normal) / (p1 - p0).length().max(f64::MIN_POSITIVE);
     match height {
-        0.01.. => "start: in front",
-        ..-0.01 => "start: behind",
+        0.01.. => IN_FRONT,
+        ..-0.01 => BEHIND,
         _ => ON_SURFACE,
     }
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use grader::files::{self, PathError};
-use judging::assignment::RAYS;
+use judging::assignment::Assignment;
 use judging::exam::Exam;
 use judging::section::CHAPTERS;
 
@@ -47,7 +47,11 @@ pub struct SourceFile {
 
 /// Returns all problems with the handout of the workspace at `root`: broken links, missing sections
 /// that the exam refers to, and unknown names and commands.
-pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
+pub fn problems(
+    root: &Path,
+    assignment: &Assignment,
+    exam: &Exam,
+) -> Result<Vec<String>, PathError> {
     let pages = pages(&root.join(CHAPTERS))?;
     let (files, mut sources) = (files(root)?, sources(root)?);
     let config = SourceFile {
@@ -63,7 +67,7 @@ pub fn problems(root: &Path, exam: &Exam) -> Result<Vec<String>, PathError> {
     };
 
     let mut all = links::broken_links(&pages, &figures(&files));
-    all.extend(links::missing_sections(&pages, exam, RAYS.challenge));
+    all.extend(links::missing_sections(&pages, exam, assignment.challenge));
     all.extend(pages.iter().flat_map(|page: &Page| {
         let mut problems = names::unknown_names(page, &known);
         problems.extend(commands::unknown_commands(page, &sources, &aliases));

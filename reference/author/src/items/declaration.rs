@@ -1,6 +1,6 @@
 //! The declaration of an item: everything about it, in one place.
 
-use judging::exam::{ExamQuestion, Item};
+use judging::exam::{ExamQuestion, Item, Key};
 use judging::section::Section;
 
 use super::place::in_a_room;
@@ -8,7 +8,7 @@ use crate::seed::{Rng, Seed};
 
 /// An item whose numbers are not drawn yet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Declaration {
+pub struct Declaration {
     /// The task's id, a dot, and a name, such as `sphere.near_side`.
     pub id: &'static str,
     /// The points for correct answers to all questions. Most items have one.
@@ -32,20 +32,7 @@ pub(super) struct Declaration {
 /// An item needs only groups whose mistakes could make it fail even if its own task is solved
 /// correctly. A student who fails an item and one that it needs is advised to fix the latter first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Group {
-    /// The rays of a picture.
-    CameraRays,
-    /// The distance and the misses of triangles.
-    TriangleHits,
-    /// The other quantities of a triangle's hit.
-    TriangleSurface,
-    /// The distance and the misses of spheres.
-    SphereHits,
-    /// Boxes, which decide which nodes are entered and in which order.
-    Boxes,
-    /// Building a tree that can be traversed, whatever its cost.
-    Trees,
-}
+pub struct Group(pub &'static str);
 
 /// An item whose dependencies are groups, and not yet the ids of items.
 #[derive(Clone, Debug)]
@@ -66,8 +53,13 @@ impl DeclaredItem {
         &mut self.item.questions
     }
 
-    /// Asks the item's first table again about things in a room, if it has a table of rays.
+    /// Asks the item's first table again about things in a room, if it has a table of rays. A
+    /// path-traced picture is of a room already.
     pub(super) fn with_a_room(mut self, seed: Seed) -> Self {
+        let mut asked = self.item.questions.iter();
+        if asked.any(|asked| matches!(asked.key, Key::Radiance { .. })) {
+            return self;
+        }
         let mut rng = seed.rng(&format!("{}.room", self.item.id));
         let mut asked = self.item.questions.iter();
         let in_a_room = asked.find_map(|asked| in_a_room(&mut rng, asked));
@@ -136,6 +128,7 @@ mod tests {
     use judging::assignment::Task;
 
     use super::*;
+    use crate::items::groups;
 
     fn declared(id: &'static str, group: Option<Group>, needs: &'static [Group]) -> DeclaredItem {
         let declaration = Declaration {
@@ -151,11 +144,15 @@ mod tests {
     #[test]
     fn an_item_needs_all_items_of_its_groups_group_by_group() {
         let items = resolve(vec![
-            declared("triangle.inside", Some(Group::TriangleHits), &[]),
+            declared("triangle.inside", Some(groups::TRIANGLE_HITS), &[]),
             declared("triangle.tiny", None, &[]),
-            declared("triangle.outside", Some(Group::TriangleHits), &[]),
-            declared("bbox.through", Some(Group::Boxes), &[]),
-            declared("traverse.deep", None, &[Group::Boxes, Group::TriangleHits]),
+            declared("triangle.outside", Some(groups::TRIANGLE_HITS), &[]),
+            declared("bbox.through", Some(groups::BOXES), &[]),
+            declared(
+                "traverse.deep",
+                None,
+                &[groups::BOXES, groups::TRIANGLE_HITS],
+            ),
         ]);
         let needs: Vec<usize> = items.iter().map(|item| item.needs.len()).collect();
         assert_eq!(needs, [0, 0, 0, 0, 3]);

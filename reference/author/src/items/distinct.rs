@@ -1,7 +1,8 @@
 //! Final exams share no question with the practice exam, whose answers everybody has. An item is
 //! drawn again as long as the practice exam's answers would earn points in it.
 
-use std::sync::LazyLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge};
@@ -10,26 +11,18 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// The items of the practice exam.
-static PRACTICE: LazyLock<Vec<DeclaredItem>> =
-    LazyLock::new(|| super::declared_items(Seed::PRACTICE).collect());
-
 /// Draws items. Those of a final exam differ from those of the practice exam in every question.
-pub(super) fn draw_items(seed: Seed, items: &[Declaration]) -> Vec<DeclaredItem> {
-    let items = items.iter().map(|item| match seed {
-        Seed::PRACTICE => item.draw(seed),
-        seed => draw_distinct(seed, item),
-    });
-    items.collect()
+pub fn draw_items(seed: Seed, items: &[Declaration]) -> Vec<DeclaredItem> {
+    items.iter().map(|item| draw_distinct(seed, item)).collect()
 }
 
 fn draw_distinct(seed: Seed, item: &Declaration) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
-    let is_distinct = |drawn: &DeclaredItem| {
-        let practice = PRACTICE.iter().map(DeclaredItem::item);
-        let mut same = practice.filter(|other| other.id == drawn.item().id);
-        !same.any(|other| shares_a_question(drawn.item(), other))
-    };
+    if seed == Seed::PRACTICE {
+        return item.draw(seed);
+    }
+    let practice = practice_item(item);
+    let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), &practice);
     std::iter::successors(Some(seed), |seed| Some(seed.next()))
         .take(MAX_ATTEMPTS)
         .map(|seed| item.draw(seed))
@@ -37,17 +30,28 @@ fn draw_distinct(seed: Seed, item: &Declaration) -> DeclaredItem {
         .expect("some numbers differ from those of the practice exam")
 }
 
+/// Returns an item of the practice exam. It is drawn once, however many exams are generated.
+fn practice_item(item: &Declaration) -> Arc<Item> {
+    static DRAWN: Mutex<BTreeMap<&str, Arc<Item>>> = Mutex::new(BTreeMap::new());
+    let mut drawn = DRAWN.lock().expect("no item panics while it is drawn");
+    let known = drawn.entry(item.id);
+    let practice = known.or_insert_with(|| Arc::new(item.draw(Seed::PRACTICE).item().clone()));
+    Arc::clone(practice)
+}
+
 /// Returns whether the correct answer to a question of the one item earns points for a question of
 /// the other.
 ///
 /// Some questions are left out. If no ray hits anything, there is only one answer. A tree is an
-/// answer to its own primitives only, and these are drawn by the seed.
+/// answer to its own primitives only, and these are drawn by the seed. So is the number that a
+/// picture to be recorded depends on.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
     let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();
     let is_drawn = |question: &&ExamQuestion| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
-        Key::FirstHits { .. } | Key::Radiance { .. } => true,
+        Key::FirstHits { .. } => true,
+        Key::Radiance { pixels, .. } => !pixels.is_empty(),
         Key::Tree { .. } => false,
     };
     let mut drawn = item.questions.iter().filter(is_drawn);

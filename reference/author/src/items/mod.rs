@@ -9,6 +9,7 @@ pub mod build;
 pub mod camera;
 mod declaration;
 mod distinct;
+mod groups;
 pub mod meshes;
 pub mod picture;
 mod place;
@@ -20,34 +21,19 @@ use glam::DVec3;
 use judging::exam::{ExamQuestion, ExpectedRows, Item, Key};
 use protocol::{Geometry, Question, Ray, Shape};
 
-use crate::items::traverse::RecordedPicture;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Seed;
 
-use declaration::{Declaration, Group};
-pub use declaration::{DeclaredItem, resolve};
-use distinct::draw_items;
-pub use distinct::shares_a_question;
+pub use declaration::{Declaration, DeclaredItem, Group, resolve};
+pub use distinct::{draw_items, shares_a_question};
 
-/// Returns the items of an exam, each after the items that it needs. `recorded` is the picture of
-/// the radiance item.
-pub fn items(seed: Seed, recorded: RecordedPicture) -> Vec<Item> {
-    let all = declared_items(seed).chain([traverse::radiance_item(seed, recorded)]);
-    resolve(all.collect())
-}
+/// Draws the items of one task.
+pub type TaskItems = fn(Seed) -> Vec<DeclaredItem>;
 
-/// Returns all items except the one about a path-traced picture.
-fn declared_items(seed: Seed) -> impl Iterator<Item = DeclaredItem> {
-    let tasks: [fn(Seed) -> Vec<DeclaredItem>; 6] = [
-        camera::items,
-        triangle::items,
-        sphere::items,
-        bbox::items,
-        build::items,
-        traverse::items,
-    ];
-    let all = tasks.into_iter().flat_map(move |items| items(seed));
-    all.map(move |item| item.with_a_room(seed))
+/// Returns the items of an exam, each after the items that it needs.
+pub fn items(tasks: &[TaskItems], seed: Seed) -> Vec<Item> {
+    let all = tasks.iter().flat_map(|items| items(seed));
+    resolve(all.map(|item| item.with_a_room(seed)).collect())
 }
 
 /// Returns an exam of the items about boxes, for tests.
@@ -58,7 +44,7 @@ pub(crate) fn exam_of_boxes() -> judging::exam::Exam {
 }
 
 /// Returns the ray from one point toward another, in single precision.
-fn ray(from: DVec3, toward: DVec3) -> Ray {
+pub fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
@@ -84,7 +70,11 @@ fn shape_question(
 }
 
 /// Returns the key for a list of rays, where `answer` computes the correct answer for each ray.
-fn hits_key(judged: &[&str], rays: &[Ray], answer: impl Fn(&Ray64) -> Option<Intersection>) -> Key {
+pub fn hits_key(
+    judged: &[&str],
+    rays: &[Ray],
+    answer: impl Fn(&Ray64) -> Option<Intersection>,
+) -> Key {
     let hit = |ray: &Ray| Some(answer(&Ray64::from(ray))?.to_trace(ray));
     Key::table(judged, ExpectedRows::Hits(rays.iter().map(hit).collect()))
 }

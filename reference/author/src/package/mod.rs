@@ -17,6 +17,7 @@ use grader::files;
 use grader::handed_out::HandedOut;
 use grader::policy::{self, Policy};
 
+use crate::authoring::Authoring;
 use crate::bundle::{Bundle, archive};
 
 /// A platform that grades submissions.
@@ -43,15 +44,15 @@ impl Course {
     /// Generates the exam from a seed or reads its file, if either is given. Reads the policy file,
     /// or uses the default policy.
     pub fn new(
-        handed_out: &HandedOut,
+        authoring: &'static Authoring,
         seed: Option<u64>,
         exam: Option<&Path>,
         policy: Option<&Path>,
     ) -> Result<Self> {
         let exam = match (seed, exam) {
-            (Some(seed), _) => Some(crate::exams::final_exam_text(seed)?),
+            (Some(seed), _) => Some(crate::exams::final_exam_text(authoring, seed)?),
             (None, Some(path)) => {
-                ExamSource::File(path.to_owned()).load(handed_out)?;
+                ExamSource::File(path.to_owned()).load(authoring.handed_out)?;
                 Some(files::read_to_string(path)?)
             }
             (None, None) => None,

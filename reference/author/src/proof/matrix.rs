@@ -14,8 +14,8 @@ use crate::proof::run::run;
 use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 
-/// The path of the table, relative to the workspace's root.
-const PATH: &str = "reference/mistakes/matrix.md";
+/// The path of the table, relative to the folder of an assignment's solutions.
+const FILE: &str = "mistakes/matrix.md";
 
 /// Builds the table for the practice exam. Returns an error if a mistake does not lose the
 /// points that it must lose.
@@ -27,16 +27,18 @@ pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFil
     let problems: Vec<String> = graded.iter().flat_map(Graded::problems).collect();
     if !problems.is_empty() {
         bail!(
-            "the practice exam and reference/mistakes do not agree; fix the items or the mistakes:\n{}",
+            "the practice exam and the mistakes do not agree; fix the items or the mistakes:\n{}",
             problems.join("\n")
         );
     }
-    let assignment = solutions.workbench.handed_out().assignment;
-    Ok(table(assignment, exam, &graded))
+    let handed_out = solutions.workbench.handed_out();
+    let path = format!("{}/{FILE}", handed_out.solutions());
+    let table = table(handed_out.assignment, exam, &graded);
+    Ok(GeneratedFile::new(path, table))
 }
 
 /// Builds the table for one exam.
-fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> GeneratedFile {
+fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> String {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
@@ -54,7 +56,7 @@ fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> GeneratedFi
         task_table(&mut text, assignment.info(task), &items, graded)
             .expect("writing to a String cannot fail");
     }
-    GeneratedFile::new(PATH, text)
+    text
 }
 
 fn task_table<'a>(

@@ -64,7 +64,7 @@ pub(super) fn for_seeds<R: Send>(
 
 /// Generates the exam of a seed without hints.
 pub(super) fn exam_of(solutions: &Solutions, seed: u64) -> Result<Exam> {
-    exams::generate("proof", Seed(seed), &solutions.recorder)
+    exams::generate("proof", Seed(seed), solutions)
 }
 
 /// Returns a progress bar for this many units, such as "seeds".

@@ -52,7 +52,7 @@ impl Solutions {
         let catalogue = mistakes(root, handed_out)?;
         let applied = catalogue.iter();
         let applied = applied.map(|mistake| mistake.solution(recorder.reference()));
-        let variants = variants(root)?.into_iter();
+        let variants = variants(root, handed_out)?.into_iter();
         let variants = variants.map(|variant| variant.solution(recorder.reference(), root));
         let failed = FailedItems::load(root, handed_out)?;
         let mut solutions = Solutions {
@@ -114,7 +114,8 @@ impl Solutions {
         self.mistakes.clear();
         self.variants.retain(|variant| variant.id == id);
         if self.variants.is_empty() {
-            bail!("there is no variant {id}: see reference/variants/variants.toml for a list");
+            let folder = self.workbench.handed_out().solutions();
+            bail!("there is no variant {id}: see {folder}/variants/variants.toml for a list");
         }
         Ok(self)
     }

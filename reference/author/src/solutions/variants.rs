@@ -1,9 +1,11 @@
 //! Variants: known correct solutions that differ from the reference. With the given code of the
-//! reference's `STEM.rs`, a variant's files in `reference/variants/STEM` replace that file.
+//! reference's `STEM.rs`, a variant's files in the folder `variants/STEM` of an assignment's solutions
+//! replace that file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
+use grader::handed_out::HandedOut;
 use judging::assignment::{Assignment, Task};
 use projection::replacements;
 use serde::Deserialize;
@@ -11,9 +13,6 @@ use serde::Deserialize;
 use crate::solutions::read_toml;
 use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
-
-/// The folder of the variants.
-const FOLDER: &str = "reference/variants";
 
 /// A known correct solution.
 #[derive(Clone, Debug, Deserialize)]
@@ -40,15 +39,20 @@ pub struct Variant {
     pub crates: Vec<String>,
 }
 
-/// Reads the list of all variants of the workspace at `root`.
-pub fn variants(root: &Path) -> Result<Vec<Variant>> {
+/// Returns the folder of an assignment's variants in the workspace at `root`.
+pub fn folder(root: &Path, handed_out: &HandedOut) -> PathBuf {
+    root.join(handed_out.solutions()).join("variants")
+}
+
+/// Reads the list of all variants of an assignment in the workspace at `root`.
+pub fn variants(root: &Path, handed_out: &HandedOut) -> Result<Vec<Variant>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
         variant: Vec<Variant>,
     }
 
-    let file: File = read_toml(&root.join(FOLDER).join("variants.toml"))?;
+    let file: File = read_toml(&folder(root, handed_out).join("variants.toml"))?;
     Ok(file.variant)
 }
 
@@ -67,7 +71,8 @@ impl Variant {
     /// Returns the reference with the task files replaced by this variant and its given code.
     pub fn solution(&self, reference: &Sources, root: &Path) -> Result<Solution> {
         let mut sources = reference.clone();
-        for replacement in replacements(&root.join(FOLDER), &self.id, &self.parts)? {
+        let folder = folder(root, reference.handed_out());
+        for replacement in replacements(&folder, &self.id, &self.parts)? {
             let file = format!("{}.rs", replacement.stem);
             let text = replacement
                 .complete(reference.text(&file).unwrap_or_default())

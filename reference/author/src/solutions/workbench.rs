@@ -17,6 +17,7 @@ use judging::exam::{Exam, Item};
 use judging::exam_file::ExamName;
 use protocol::Answer;
 
+use crate::authoring::Authoring;
 use crate::solutions::sources::Sources;
 
 /// The time limits of an item. A correct solution takes milliseconds; the limit is for mistakes that
@@ -31,7 +32,7 @@ pub type Answers = Result<Vec<Answer>, Fault>;
 /// Builds solutions of an assignment in a workspace.
 #[derive(Debug)]
 pub struct Workbench {
-    handed_out: &'static HandedOut,
+    authoring: &'static Authoring,
     workspace: Workspace,
     builder: Builder,
 }
@@ -49,7 +50,8 @@ pub struct NotCompiledError {
 impl Workbench {
     /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
     /// reference, its parts substitute for wrong ones.
-    pub fn open(handed_out: &'static HandedOut) -> Result<Self> {
+    pub fn open(authoring: &'static Authoring) -> Result<Self> {
+        let handed_out = authoring.handed_out;
         let workspace = Workspace::find()?;
         let builder =
             Builder::prepare(&workspace)?.with_cache(&workspace.output_folder().join("kept"))?;
@@ -58,15 +60,20 @@ impl Workbench {
             None => builder,
         };
         Ok(Workbench {
-            handed_out,
+            authoring,
             workspace,
             builder,
         })
     }
 
     /// Returns the assignment.
+    pub fn authoring(&self) -> &'static Authoring {
+        self.authoring
+    }
+
+    /// Returns the assignment as it is handed out.
     pub fn handed_out(&self) -> &'static HandedOut {
-        self.handed_out
+        self.authoring.handed_out
     }
 
     /// Returns the workspace's folder.
@@ -97,7 +104,7 @@ impl Workbench {
         let program = program.ok_or_else(|| error("the build has no program".to_owned()))?;
         Ok(BuiltSolution {
             id: id.to_owned(),
-            handed_out: self.handed_out,
+            handed_out: self.handed_out(),
             launcher: build.launcher(&program),
             build,
         })

@@ -7,6 +7,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 
+use author::authoring;
 use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
@@ -17,7 +18,7 @@ use tempfile::TempDir;
 use crate::harness::{BUNDLE, author_fails, author_succeeds, root, text};
 
 fn secrets() -> Secrets {
-    Secrets::gather(&root(), &RAYS, &BUNDLE).unwrap()
+    Secrets::gather(&root(), &authoring::RAYS, &BUNDLE).unwrap()
 }
 
 /// Returns the arguments of `cargo author bundle --out OUT`, with further ones.
@@ -74,7 +75,7 @@ fn line_with(path: &str, part: &str) -> String {
 
 #[test]
 fn finds_a_final_exam_under_any_file_name() {
-    let mut exam = exams::load_practice(&root()).unwrap();
+    let mut exam = exams::load_practice(&root(), &authoring::RAYS).unwrap();
     exam.id = "final".to_owned();
     let mut bundle = BUNDLE.clone();
     let found = "grader/exams/practice.json".to_owned();

@@ -3,6 +3,7 @@
 use std::ffi::OsStr;
 use std::sync::LazyLock;
 
+use author::authoring;
 use author::bundle::archive;
 use author::bundle::secrets::Secrets;
 use author::package::{Course, Platform, collect};
@@ -22,7 +23,7 @@ static FINAL: LazyLock<Course> = LazyLock::new(|| {
 });
 
 fn without_exam() -> Course {
-    Course::new(&RAYS, None, None, None).unwrap()
+    Course::new(&authoring::RAYS, None, None, None).unwrap()
 }
 
 #[test]
@@ -51,7 +52,7 @@ fn packages_that_students_can_read_hold_no_solution_and_no_final_exam() {
     }
     let package = collect(&root(), &RAYS, Platform::Classroom50, without_exam()).unwrap();
     let unpacked = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
-    let secrets = Secrets::gather(&root(), &RAYS, &BUNDLE).unwrap();
+    let secrets = Secrets::gather(&root(), &authoring::RAYS, &BUNDLE).unwrap();
     assert_eq!(secrets.search(&unpacked), []);
     let size: usize = package.files.values().map(Vec::len).sum();
     assert!(size < 10 << 20, "classroom50 takes 10 MiB: {size}");

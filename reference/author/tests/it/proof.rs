@@ -6,6 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
+use author::authoring::RAYS;
 use author::exams::load_practice;
 use author::proof::grade::{Graded, variant_losses};
 use author::proof::recognition::{
@@ -15,7 +16,6 @@ use author::solutions::Solutions;
 use author::solutions::catalogue::{Change, Mistake, independent_mistakes};
 use author::solutions::variants::variants;
 use author::solutions::workbench::Workbench;
-use grader::handed_out::RAYS;
 use judging::exam::Exam;
 use projection::replacements;
 
@@ -27,7 +27,7 @@ static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
 });
 
 fn practice_exam() -> Exam {
-    load_practice(&root()).expect("the practice exam is committed")
+    load_practice(&root(), &RAYS).expect("the practice exam is committed")
 }
 
 #[test]
@@ -113,7 +113,10 @@ fn reports_an_independent_mistake_that_does_not_apply() {
 #[test]
 fn every_variant_file_is_used() {
     let folder = root().join("reference/variants");
-    let stems = RAYS.file_names().map(|file| file.trim_end_matches(".rs"));
+    let stems = RAYS
+        .handed_out
+        .file_names()
+        .map(|file| file.trim_end_matches(".rs"));
     let mut folders: Vec<PathBuf> = stems.map(PathBuf::from).collect();
     let mut files = BTreeSet::new();
     while let Some(subfolder) = folders.pop() {
@@ -126,7 +129,7 @@ fn every_variant_file_is_used() {
             }
         }
     }
-    let variants = variants(&root()).unwrap().into_iter();
+    let variants = variants(&root(), RAYS.handed_out).unwrap().into_iter();
     let used: BTreeSet<PathBuf> = variants
         .flat_map(|variant| replacements(&folder, &variant.id, &variant.parts).unwrap())
         .flat_map(|replacement| replacement.files.into_iter().map(|(path, _)| path))
@@ -139,7 +142,7 @@ fn reports_a_mistake_that_changes_nothing() {
     let mut mistake = SOLUTIONS.catalogue[0].clone();
     let file = root()
         .join("reference/src")
-        .join(RAYS.assignment.info(mistake.task()).file);
+        .join(RAYS.handed_out.assignment.info(mistake.task()).file);
     let line = "//! Task 1: rays from the camera.";
     assert!(fs::read_to_string(file).unwrap().contains(line));
     mistake.changes = vec![Change {

@@ -1,104 +1,39 @@
-//! A second assignment fits in without a changed line: a table with two files, three tasks and one
-//! substitution goes through the starter, the bundle, a package, grading and a class.
+//! A second assignment fits in without a changed line: the toy goes through the starter, the exam,
+//! its coverage, mistakes and proof, grading, a replay, a class, the bundle and a package.
+//!
+//! `INSTA_UPDATE=always cargo test -p author --test it toy` writes the toy's generated files.
 
-use std::fs;
 use std::path::Path;
+use std::{env, fs};
 
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, archive};
+use author::cli::{CheckArgs, Command, MistakesArgs, ProveArgs, RecordArgs};
+use author::commands;
+use author::exams::{final_exam_text, load_practice};
+use author::items::shares_a_question;
 use author::package::{self, Course, Platform};
 use author::starter;
 use class::cli::{ClassArguments, GradingArguments, Lists};
 use class::grade::{Completion, grade_class};
 use grader::doctor::package::problems;
+use grader::exam_source::ExamSource;
 use grader::grade::grade;
-use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
 use grader::options::{Dependents, GradeOptions};
+use grader::replay::replay;
 use grader::sandbox::Isolation;
 use grader::score::Score;
 use grader::select_isolation::IsolationRequest;
-use judging::assignment::{Assignment, TaskClues, TaskInfo};
+use judging::exam::Exam;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::harness::{self, root};
+use crate::harness::{self, lock_builds, root};
 
-static TASKS: Assignment = Assignment {
-    id: "toy",
-    title: "A toy",
-    folders: &["", "work"],
-    other_folders: &[],
-    tasks: &[
-        TaskInfo {
-            id: "ball",
-            title: "Task 1: a ball",
-            file: "ball.rs",
-            method: "hit",
-            points: 40,
-            clues: TaskClues::NONE,
-        },
-        TaskInfo {
-            id: "slab",
-            title: "Task 2: a slab",
-            file: "slab.rs",
-            method: "hit",
-            points: 20,
-            clues: TaskClues::NONE,
-        },
-        TaskInfo {
-            id: "nearest",
-            title: "Task 3: the nearest ball",
-            file: "slab.rs",
-            method: "nearest",
-            points: 40,
-            clues: TaskClues::NONE,
-        },
-    ],
-    render: None,
-    challenge: None,
-};
+#[path = "../toy/assignment.rs"]
+mod assignment;
 
-/// Creates a given file of the toy, which is the same in the starter and in the solution.
-macro_rules! given {
-    ($name:literal) => {
-        GivenFile {
-            name: $name,
-            text: include_str!(concat!("../toy/solved/src/", $name)),
-        }
-    };
-}
-
-static TOY: HandedOut = HandedOut {
-    assignment: &TASKS,
-    practice_exam: include_str!("../toy/practice.json"),
-    files: &[
-        TaskFile {
-            name: "ball.rs",
-            starter: include_str!("../toy/starter/ball.rs"),
-            required_declarations: &["struct Ball", "fn hit"],
-        },
-        TaskFile {
-            name: "slab.rs",
-            starter: include_str!("../toy/starter/slab.rs"),
-            required_declarations: &["struct Slab", "fn hit", "fn nearest"],
-        },
-    ],
-    given: &[given!("lib.rs"), given!("world.rs")],
-    main: given!("main.rs"),
-    entry: "
-fn main() -> std::process::ExitCode {
-    framework::harness::probe::main(&world::Student)
-}
-",
-    student: "student",
-    starter: "grader/starter",
-    reference: concat!(env!("CARGO_MANIFEST_DIR"), "/tests/toy/solved/src"),
-    substitutions: &[SubstitutedFile {
-        file: "slab.rs",
-        parts: &["ball.rs"],
-        given: &["world.rs"],
-    }],
-};
+use assignment::TOY;
 
 /// Returns the text of a file of the toy.
 fn text(path: &str) -> String {
@@ -115,7 +50,7 @@ fn write_submission(class: &Path, name: &str, ball: &str, slab: &str) {
 
 fn options() -> GradeOptions {
     GradeOptions {
-        handed_out: &TOY,
+        handed_out: TOY.handed_out,
         isolation: IsolationRequest::Level(Isolation::None),
         ..GradeOptions::default()
     }
@@ -172,6 +107,67 @@ fn the_toy_is_graded_like_any_assignment() {
 }
 
 #[test]
+fn a_report_and_a_replay_show_a_known_mistake() {
+    let folder = TempDir::new().unwrap();
+    let far_side = text("solved/src/ball.rs").replace("middle - half", "middle + half");
+    write_submission(folder.path(), "any", &far_side, &text("starter/slab.rs"));
+    let options = GradeOptions {
+        submission: Some(folder.path().join("any")),
+        out: Some(folder.path().join("out")),
+        ..options()
+    };
+    grade(&options).unwrap();
+    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(page.contains("Task 3: the nearest ball"), "{page}");
+    let nudge = "Which of the two do you return?";
+    assert!(page.contains(nudge), "{page}");
+    let replayed = replay(&options, &"ball.near_side".parse().unwrap()).unwrap();
+    assert!(replayed.contains("distance"), "{replayed}");
+}
+
+/// The toy's exam, mistakes, coverage and proof come from the same commands as those of any
+/// assignment.
+#[test]
+fn the_generated_files_of_the_toy_are_in_sync_and_its_exam_is_proven() {
+    let _lock = lock_builds();
+    let is_update = env::var("INSTA_UPDATE").is_ok_and(|value| value == "always");
+    let check = CheckArgs { check: !is_update };
+    let record = RecordArgs { record: false };
+    let mistakes = MistakesArgs {
+        seeds: None,
+        table: false,
+        check,
+        record,
+    };
+    let prove = ProveArgs {
+        seeds: 1..4,
+        mistakes: 3,
+        variant: None,
+        record,
+    };
+    for command in [
+        Command::Exams(check),
+        Command::Mistakes(mistakes),
+        Command::Coverage(check),
+        Command::Prove(prove),
+    ] {
+        commands::run(command, &TOY).unwrap();
+    }
+}
+
+#[test]
+fn a_seed_gives_a_final_exam_of_the_toy_with_other_questions() {
+    let _lock = lock_builds();
+    let exam: Exam = serde_json::from_str(&final_exam_text(&TOY, 7).unwrap()).unwrap();
+    let practice = load_practice(&root(), &TOY).unwrap();
+    assert_eq!((&*exam.assignment, &*exam.id), ("toy", "final"));
+    for (item, other) in exam.items.iter().zip(&practice.items) {
+        assert_eq!(item.id, other.id);
+        assert!(!shares_a_question(item, other), "{}", item.id);
+    }
+}
+
+#[test]
 fn a_class_of_toys_is_graded() {
     let folder = TempDir::new().unwrap();
     let class = folder.path().join("class");
@@ -205,9 +201,9 @@ fn a_class_of_toys_is_graded() {
 fn an_exam_of_another_assignment_is_refused() {
     let folder = TempDir::new().unwrap();
     let exam = folder.path().join("toy.json");
-    fs::write(&exam, TOY.practice_exam).unwrap();
+    fs::write(&exam, TOY.handed_out.practice_exam).unwrap();
     let rays = GradeOptions {
-        exam: grader::exam_source::ExamSource::File(exam),
+        exam: ExamSource::File(exam),
         ..GradeOptions::default()
     };
     let error = grade(&rays).unwrap_err().to_string();
@@ -224,17 +220,17 @@ fn toy_leaks(secrets: &Secrets, bundle: &Bundle) -> usize {
 
 #[test]
 fn the_starter_of_the_toy_is_a_projection_of_its_solution() {
-    for file in starter::generated_files(&root(), &TOY).unwrap() {
+    for file in starter::generated_files(&root(), TOY.handed_out).unwrap() {
         let name = file.path.rsplit('/').next().unwrap();
-        let task_file = TOY.task_file(name).map(|file| file.starter);
-        let given_file = TOY.given_file(name).map(|file| file.text);
+        let task_file = TOY.handed_out.task_file(name).map(|file| file.starter);
+        let given_file = TOY.handed_out.given_file(name).map(|file| file.text);
         assert_eq!(Some(&*file.contents), task_file.or(given_file), "{name}");
     }
 }
 
 #[test]
 fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
-    let bundle = Bundle::collect(&root(), &TOY, None).unwrap();
+    let bundle = Bundle::collect(&root(), TOY.handed_out, None).unwrap();
     let secrets = Secrets::gather(&root(), &TOY, &bundle).unwrap();
     assert_eq!(toy_leaks(&secrets, &bundle), 0);
     assert_eq!(
@@ -248,7 +244,7 @@ fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
     assert!(toy_leaks(&secrets, &leaking) > 3);
 
     let course = Course::new(&TOY, None, None, None).unwrap();
-    let package = package::collect(&root(), &TOY, Platform::Classroom50, course).unwrap();
+    let package = package::collect(&root(), TOY.handed_out, Platform::Classroom50, course).unwrap();
     let archive = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
     assert_eq!(
         archive.text("student/src/ball.rs"),
@@ -262,7 +258,7 @@ fn a_template_of_the_toy_needs_its_own_files() {
     let workflow = folder.path().join(".github/workflows");
     fs::create_dir_all(&workflow).unwrap();
     fs::write(workflow.join("grade.yml"), "").unwrap();
-    let found = problems(folder.path(), &TOY).unwrap().join("\n");
+    let found = problems(folder.path(), TOY.handed_out).unwrap().join("\n");
     assert!(found.contains("student/src/ball.rs"), "{found}");
     assert!(!found.contains("camera.rs"), "{found}");
 }

@@ -9,7 +9,7 @@ use super::{
     random_box_question, ray_from_around,
 };
 use crate::items::place::{Place, dust};
-use crate::items::{Declaration, Group, ray};
+use crate::items::{Declaration, groups, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -35,7 +35,7 @@ pub(super) const THROUGH: Declaration = Declaration {
         let far = bbox_question(room.bounds(&far.0), queries);
         vec![bbox_question(near.0, near.1), far]
     },
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
@@ -58,7 +58,7 @@ pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
         let mut question = || random_box_question(rng, query);
         vec![question(), dust(question())]
     },
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 pub(super) const OCTANTS: Declaration = Declaration {
@@ -67,7 +67,7 @@ pub(super) const OCTANTS: Declaration = Declaration {
     look: "On an axis where the direction is negative, the ray reaches the larger plane first.",
     section: "boxes.md#a-negative-direction-swaps-the-planes",
     questions: octants,
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 fn octants(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -112,7 +112,7 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
         });
         vec![question, almost_parallel::question(rng)]
     },
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 pub(super) const FLAT: Declaration = Declaration {
@@ -122,7 +122,7 @@ pub(super) const FLAT: Declaration = Declaration {
            time, and that is a hit.",
     section: "boxes.md#flat-boxes-can-be-hit",
     questions: flat,
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 fn flat(rng: &mut Rng) -> Vec<ExamQuestion> {

@@ -6,7 +6,7 @@ use protocol::{Interval, Ray};
 
 use super::{Query, random_box_question, ray_from_around};
 use crate::items::place::dust;
-use crate::items::{Declaration, Group, ray};
+use crate::items::{Declaration, groups, ray};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -34,7 +34,7 @@ pub(super) const BEHIND: Declaration = Declaration {
             (ray, Interval::AHEAD)
         })]
     },
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 pub(super) const FROM_INSIDE: Declaration = Declaration {
@@ -55,7 +55,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
             (ray, Interval::new(min, f32::INFINITY))
         })]
     },
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 fn random_query(rng: &mut Rng, bounds: &Bounds) -> Query {
@@ -86,7 +86,7 @@ pub(super) const CLIPPED: Declaration = Declaration {
            only if the box is entered after times.max or left before times.min.",
     section: "boxes.md#clip-the-result-to-times",
     questions: clipped,
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 fn clipped(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -115,7 +115,7 @@ pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
            times.max.",
     section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
     questions: wholly_inside,
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };
 
 fn wholly_inside(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -155,5 +155,5 @@ pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
             (ray.within(range.min, range.max), times)
         })]
     },
-    ..Declaration::in_group(Group::Boxes)
+    ..Declaration::in_group(groups::BOXES)
 };

@@ -5,7 +5,7 @@ use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight
 
 use super::build_question;
 use crate::items::place::{Place, dust};
-use crate::items::{Declaration, Group, meshes};
+use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
@@ -49,7 +49,7 @@ pub(super) const PARTITION: Declaration = Declaration {
            return, and together the leaves hold each primitive once.",
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     questions: |rng| soup_questions(rng, &[Partition], &[(37, 1), (90, 2), (200, 4), (120, 8)]),
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const CONTAINS: Declaration = Declaration {
@@ -61,7 +61,7 @@ pub(super) const CONTAINS: Declaration = Declaration {
            the boxes of the nodes above with those of their children.",
     section: "building.md#the-contract",
     questions: |rng| soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]),
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const TIGHT: Declaration = Declaration {
@@ -76,7 +76,7 @@ pub(super) const TIGHT: Declaration = Declaration {
         questions.extend(tiny.into_iter().map(dust));
         questions
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const LEAF_SIZE: Declaration = Declaration {
@@ -98,7 +98,7 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         questions.push(crowd);
         questions
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const STOPS: Declaration = Declaration {
@@ -118,5 +118,5 @@ pub(super) const STOPS: Declaration = Declaration {
         questions.extend(roots);
         questions
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };

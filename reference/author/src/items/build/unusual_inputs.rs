@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{Contains, Partition, Split, Tight};
 
 use super::build_question;
-use crate::items::{Declaration, Group, meshes};
+use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
 
 pub(super) const NEGATIVE: Declaration = Declaration {
@@ -22,7 +22,7 @@ pub(super) const NEGATIVE: Declaration = Declaration {
         });
         vec![build_question(&[Partition, Contains, Tight], triangles, 2)]
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const COINCIDENT: Declaration = Declaration {
@@ -45,7 +45,7 @@ pub(super) const COINCIDENT: Declaration = Declaration {
             build_question(&[Partition, Split], rng.shuffled(some), 2),
         ]
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const CONCENTRIC: Declaration = Declaration {
@@ -60,7 +60,7 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
         let shells = (1..=13).map(|i| meshes::sphere(center, (step * i as f32).into()));
         vec![build_question(&[Partition, Split, Contains], shells, 2)]
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const COPLANAR: Declaration = Declaration {
@@ -83,7 +83,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
         };
         [0, 1, 2].map(question).to_vec()
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const COLLINEAR: Declaration = Declaration {
@@ -102,7 +102,7 @@ pub(super) const COLLINEAR: Declaration = Declaration {
         };
         [0, 1, 2].map(question).to_vec()
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 pub(super) const OUTLIER: Declaration = Declaration {
@@ -112,7 +112,7 @@ pub(super) const OUTLIER: Declaration = Declaration {
            node, which gets buckets of its own.",
     section: "building.md#one-primitive-far-from-the-others",
     questions: outlier,
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };
 
 fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -153,5 +153,5 @@ pub(super) const ONE_OR_NONE: Declaration = Declaration {
             build_question(&checks, two, 4),
         ]
     },
-    ..Declaration::in_group(Group::Trees)
+    ..Declaration::in_group(groups::TREES)
 };

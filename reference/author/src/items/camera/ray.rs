@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 use protocol::{Rows, Sample};
 
 use super::{camera, camera_question, direction_question, middle_of, random_below};
-use crate::items::{Declaration, Group};
+use crate::items::{Declaration, groups};
 use crate::seed::Rng;
 
 fn random_offset(rng: &mut Rng) -> f32 {
@@ -31,7 +31,7 @@ pub(super) const OFFSET: Declaration = Declaration {
         };
         [1, 3, 4].map(question).to_vec()
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const OFFSET_AXES: Declaration = Declaration {
@@ -54,7 +54,7 @@ pub(super) const OFFSET_AXES: Declaration = Declaration {
         });
         vec![direction_question(camera(90.0, 1.0, UVec2::ONE), samples)]
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const LARGE_FILM: Declaration = Declaration {
@@ -73,7 +73,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         let camera = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
         vec![direction_question(camera, samples)]
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 /// Creates a question with very different directions, so that no constant answer passes an item
@@ -92,7 +92,7 @@ pub(super) const UNIT_LENGTH: Declaration = Declaration {
            direction; filling in the fields yourself does not.",
     section: "camera.md#the-direction-has-length-one",
     questions: |rng| vec![spread_question(&["direction", "unit_direction"], rng)],
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
@@ -104,7 +104,7 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
         let judged = ["direction", "origin", "range"];
         vec![spread_question(&judged, rng)]
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const PICTURE: Declaration = Declaration {

@@ -4,7 +4,7 @@ use glam::{UVec2, uvec2};
 use judging::exam::ExamQuestion;
 
 use super::{camera, direction_question, middle_of, middle_row};
-use crate::items::{Declaration, Group};
+use crate::items::{Declaration, groups};
 use crate::seed::Rng;
 
 /// Returns an odd size of a film, which has a row in its middle.
@@ -24,7 +24,7 @@ pub(in crate::items) const CORNERS: Declaration = Declaration {
            offset) / film runs from 0 to 1.",
     section: "camera.md#from-pixel-to-sensor",
     questions: corners,
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 fn corners(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -58,7 +58,7 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
             .map(question)
             .to_vec()
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const ASPECT_RATIO: Declaration = Declaration {
@@ -80,7 +80,7 @@ pub(super) const ASPECT_RATIO: Declaration = Declaration {
         };
         films.map(question).to_vec()
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const OTHER_ASPECT: Declaration = Declaration {
@@ -101,7 +101,7 @@ pub(super) const OTHER_ASPECT: Declaration = Declaration {
         .map(question)
         .to_vec()
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const FILM: Declaration = Declaration {
@@ -123,7 +123,7 @@ pub(super) const FILM: Declaration = Declaration {
         };
         films.map(question).to_vec()
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
 pub(super) const BOTTOM_LEFT: Declaration = Declaration {
@@ -141,5 +141,5 @@ pub(super) const BOTTOM_LEFT: Declaration = Declaration {
         };
         sizes.map(question).to_vec()
     },
-    ..Declaration::in_group(Group::CameraRays)
+    ..Declaration::in_group(groups::CAMERA_RAYS)
 };

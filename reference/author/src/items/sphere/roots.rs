@@ -8,7 +8,7 @@ use super::{
     sphere_question, table_questions, unambiguous_ray,
 };
 use crate::items::place::dust;
-use crate::items::{Declaration, Group, reversed_if};
+use crate::items::{Declaration, groups, reversed_if};
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 
@@ -20,7 +20,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
            distance; a negative discriminant is a miss.",
     section: "sphere.md#the-quadratic-equation",
     questions: |rng| table_questions(rng, &["distance"], &[1.0, 1.0, 1.0], hitting_ray),
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const BESIDE: Declaration = Declaration {
@@ -46,7 +46,7 @@ pub(super) const BESIDE: Declaration = Declaration {
         };
         vec![table(1.0), table(0.6), table(2.0)]
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const RADIUS: Declaration = Declaration {
@@ -65,7 +65,7 @@ pub(super) const RADIUS: Declaration = Declaration {
         questions.extend(tiny.into_iter().map(dust));
         questions
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const BEHIND: Declaration = Declaration {
@@ -82,7 +82,7 @@ pub(super) const BEHIND: Declaration = Declaration {
         };
         vec![table(1.0), table(1.5)]
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const FROM_INSIDE: Declaration = Declaration {
@@ -97,7 +97,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
         let near = table_questions(rng, &judged, &[1.0, 2.0], ray_from_inside);
         [near, placed_questions(placed, &judged, ray_from_inside)].concat()
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 /// Creates questions with rays through a sphere, where `range` computes each ray's range from its
@@ -160,7 +160,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
         questions.push(rays_from_the_surface(from_the_surface));
         questions
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const RANGE_MAX: Declaration = Declaration {
@@ -182,7 +182,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
         };
         range_questions(rng, range)
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const RANGE_WITHIN: Declaration = Declaration {
@@ -204,5 +204,5 @@ pub(super) const RANGE_WITHIN: Declaration = Declaration {
         };
         range_questions(rng, range)
     },
-    ..Declaration::in_group(Group::SphereHits)
+    ..Declaration::in_group(groups::SPHERE_HITS)
 };

@@ -1,6 +1,6 @@
 //! Items that combine traversal with the other tasks.
 
-use glam::{DVec3, UVec2, Vec3};
+use glam::{DVec3, UVec2};
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Geometry, Question, Rows, Table};
 
@@ -8,9 +8,9 @@ use super::{
     FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, ray_from_around, soup_tree,
     unambiguous_rays,
 };
-use crate::items::{Declaration, DeclaredItem, Group, hits_key, meshes, picture};
+use crate::items::{Declaration, groups, hits_key, meshes, picture};
 use crate::oracle::{Ray64, scan};
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
 pub(super) const OWN_TREE: Declaration = Declaration {
     id: "traverse.own_tree",
@@ -32,7 +32,7 @@ pub(super) const OWN_TREE: Declaration = Declaration {
         let question = Question::hits(built, rays);
         vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
     },
-    needs: &[Group::TriangleHits, Group::Boxes, Group::Trees],
+    needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::TREES],
     ..TRAVERSAL
 };
 
@@ -45,7 +45,11 @@ pub(super) const PICTURE: Declaration = Declaration {
            or loses it to a farther hit.",
     section: "grading.md#reading-a-wrong-picture",
     questions: picture,
-    needs: &[Group::TriangleHits, Group::Boxes, Group::TriangleSurface],
+    needs: &[
+        groups::TRIANGLE_HITS,
+        groups::BOXES,
+        groups::TRIANGLE_SURFACE,
+    ],
     ..TRAVERSAL
 };
 
@@ -70,59 +74,45 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 
-/// Returns the question of the radiance item. Its key is the reference's answer to the same
-/// question.
-pub fn radiance_question(seed: Seed, scene: String) -> Question {
-    let mut rng = seed.rng("traverse.radiance.seed");
-    Question::Radiance {
-        scene,
-        film: UVec2::splat(32),
-        samples: 16,
-        bounces: 3,
-        seed: rng.index(1 << 30) as u64,
-    }
-}
-
-/// A question about a path-traced picture, and the picture that the reference draws for it.
-#[derive(Clone, Debug)]
-pub struct RecordedPicture {
-    /// The question.
-    pub question: Question,
-    /// Linear red, green and blue of each pixel, row by row from the bottom.
-    pub pixels: Vec<Vec3>,
-}
-
-/// The item that compares a path-traced picture with the reference's, without its first question, which
-/// is recorded.
-const RADIANCE: Declaration = Declaration {
+/// The item that compares a path-traced picture with the reference's.
+pub(super) const RADIANCE: Declaration = Declaration {
     id: "traverse.radiance",
     points: 2,
     title: "all tasks together render the Cornell box",
     look: "The framework draws every random number, so the picture must be the same except for a few \
            pixels. If only this item fails, look at the output of cargo render.",
     section: "grading.md#reading-a-wrong-picture",
-    questions: |rng| vec![linear_scan_control(rng)],
+    questions: |rng| vec![path_traced_picture(rng), linear_scan_control(rng)],
     needs: &[
-        Group::TriangleHits,
-        Group::Boxes,
-        Group::CameraRays,
-        Group::TriangleSurface,
-        Group::Trees,
+        groups::TRIANGLE_HITS,
+        groups::BOXES,
+        groups::CAMERA_RAYS,
+        groups::TRIANGLE_SURFACE,
+        groups::TREES,
     ],
     ..TRAVERSAL
 };
 
-/// Returns the item with the picture that the reference draws.
-pub fn radiance_item(seed: Seed, recorded: RecordedPicture) -> DeclaredItem {
+/// Creates the question about a path-traced picture. The key has no pixels until the reference has
+/// drawn them.
+fn path_traced_picture(rng: &Rng) -> ExamQuestion {
+    const SCENE: &str = include_str!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../scenes/cornell-box.json"
+    ));
     /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
     /// formulas changed none, and cracks of 1e-4 between triangles changed 13.
     const MAX_WRONG_PIXELS: u32 = 7;
+    let question = Question::Radiance {
+        scene: SCENE.to_owned(),
+        film: UVec2::splat(32),
+        samples: 16,
+        bounces: 3,
+        seed: rng.sequence("traverse.radiance.seed").index(1 << 30) as u64,
+    };
     let key = Key::Radiance {
-        pixels: recorded.pixels,
+        pixels: Vec::new(),
         max_wrong_pixels: MAX_WRONG_PIXELS,
     };
-    let mut item = RADIANCE.draw(seed);
-    let picture = ExamQuestion::new(recorded.question, key);
-    item.questions().insert(0, picture);
-    item
+    ExamQuestion::new(question, key)
 }

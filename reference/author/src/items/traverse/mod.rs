@@ -16,14 +16,12 @@ use judging::exam::ExamQuestion;
 use protocol::{Question, Ray};
 
 use super::meshes;
-use crate::items::{Declaration, DeclaredItem, Group, draw_items};
+use crate::items::{Declaration, DeclaredItem, draw_items, groups};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
 
-pub use end_to_end::{RecordedPicture, radiance_item, radiance_question};
-
-/// Returns the items of the task `traverse`, except [`radiance_item`].
+/// Returns the items of the task `traverse`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     let all = [
         without_decoys::CLOSEST_HIT,
@@ -41,13 +39,14 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         with_decoys::BOTH_SIDES,
         end_to_end::OWN_TREE,
         end_to_end::PICTURE,
+        end_to_end::RADIANCE,
     ];
     draw_items(seed, &all)
 }
 
 /// The fields of an item about traversal that is wrong if triangles or boxes are. The others are empty.
 const TRAVERSAL: Declaration = Declaration {
-    needs: &[Group::TriangleHits, Group::Boxes],
+    needs: &[groups::TRIANGLE_HITS, groups::BOXES],
     ..Declaration::ALONE
 };
 

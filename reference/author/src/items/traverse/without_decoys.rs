@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 
 use super::{TRAVERSAL, question_without_decoys, ray_from_around, soup_tree};
 use crate::items::place::dust;
-use crate::items::{Declaration, Group, meshes, ray};
+use crate::items::{Declaration, groups, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
@@ -212,6 +212,6 @@ pub(super) const MIXED: Declaration = Declaration {
         let tree = construction::median_split(meshes::number_shapes(shapes), 1);
         vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
     },
-    needs: &[Group::TriangleHits, Group::Boxes, Group::SphereHits],
+    needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::SPHERE_HITS],
     ..TRAVERSAL
 };

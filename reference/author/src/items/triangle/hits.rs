@@ -10,7 +10,7 @@ use super::aim::{
 };
 use super::{distance_question, table_questions};
 use crate::items::place::{Place, dust};
-use crate::items::{Declaration, Group, ray, reversed_if, shape_question};
+use crate::items::{Declaration, groups, ray, reversed_if, shape_question};
 use crate::oracle::{Ray64, triangle};
 use crate::seed::Rng;
 
@@ -23,7 +23,7 @@ pub(super) const INSIDE: Declaration = Declaration {
            then t is the distance.",
     section: "triangle.md#three-equations-for-three-unknowns",
     questions: |rng| table_questions(rng, &["distance"], Side::Front),
-    ..Declaration::in_group(Group::TriangleHits)
+    ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 
 pub(super) const OUTSIDE: Declaration = Declaration {
@@ -34,7 +34,7 @@ pub(super) const OUTSIDE: Declaration = Declaration {
            weight of the opposite corner is negative.",
     section: "triangle.md#test-the-third-weight-too",
     questions: outside,
-    ..Declaration::in_group(Group::TriangleHits)
+    ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 
 fn outside(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -64,7 +64,7 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
     look: "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
     questions: |rng| table_questions(rng, &["distance"], Side::Back),
-    ..Declaration::in_group(Group::TriangleHits)
+    ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 
 /// Returns the distance of a triangle along a ray that is aimed at it.
@@ -101,7 +101,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
         let range = |rng: &mut Rng, t: f64| (0.0, t + rng.sign() * rng.uniform(0.03, 0.6));
         range_questions(rng, range)
     },
-    ..Declaration::in_group(Group::TriangleHits)
+    ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 
 /// Creates a question with rays that start on the triangle, as after a bounce, and with some that
@@ -134,7 +134,7 @@ pub(super) const RANGE_MIN: Declaration = Declaration {
         questions.push(rays_from_the_surface(from_the_surface));
         questions
     },
-    ..Declaration::in_group(Group::TriangleHits)
+    ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 
 pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
@@ -152,7 +152,7 @@ pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
         };
         vec![table(), table()]
     },
-    ..Declaration::in_group(Group::TriangleHits)
+    ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 
 pub(super) const TINY: Declaration = Declaration {

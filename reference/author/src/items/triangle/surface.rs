@@ -6,7 +6,7 @@ use super::aim::{
     Side, hitting_ray, missing_ray, random_triangle, ray_through, shape, weights_inside,
 };
 use super::table_questions;
-use crate::items::{Declaration, Group, shape_question};
+use crate::items::{Declaration, groups, shape_question};
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "triangle.position",
@@ -14,7 +14,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
     section: "triangle.md#what-to-return",
     questions: |rng| table_questions(rng, &["position"], Side::Front),
-    ..Declaration::in_group(Group::TriangleSurface)
+    ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
 pub(super) const NORMAL: Declaration = Declaration {
@@ -24,7 +24,7 @@ pub(super) const NORMAL: Declaration = Declaration {
            p2, and w = 1 − u − v. The normal of the flat face is not used.",
     section: "triangle.md#interpolate-the-given-normals",
     questions: |rng| table_questions(rng, &["normal"], Side::Front),
-    ..Declaration::in_group(Group::TriangleSurface)
+    ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
 pub(super) const UV: Declaration = Declaration {
@@ -34,7 +34,7 @@ pub(super) const UV: Declaration = Declaration {
            and w = 1 − u − v. The barycentric u and v are only its weights.",
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
     questions: |rng| table_questions(rng, &["uv"], Side::Front),
-    ..Declaration::in_group(Group::TriangleSurface)
+    ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
 pub(super) const UV_CORNERS: Declaration = Declaration {
@@ -59,7 +59,7 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
         };
         vec![table(), table()]
     },
-    ..Declaration::in_group(Group::TriangleSurface)
+    ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
 pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
@@ -69,7 +69,7 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
            ray.",
     section: "triangle.md#do-not-flip-the-normal",
     questions: |rng| table_questions(rng, &["normal"], Side::Either),
-    ..Declaration::in_group(Group::TriangleSurface)
+    ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
@@ -89,5 +89,5 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
         };
         vec![table(0), table(7), table(42)]
     },
-    ..Declaration::in_group(Group::TriangleSurface)
+    ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };

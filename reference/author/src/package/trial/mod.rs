@@ -12,8 +12,8 @@ use std::time::Duration;
 use anyhow::Result;
 use grader::doctor::package;
 use grader::files::{self, AtPath};
-use grader::handed_out::HandedOut;
 
+use crate::authoring::Authoring;
 use crate::bundle::{Bundle, archive};
 use crate::package::Platform;
 use crate::package::trial::machine::{JobResult, Machine};
@@ -32,12 +32,13 @@ const SCORE_FILE: &str = "/opt/pathtracing/target/graded/score.json";
 /// Runs the trial of a package, which was written to `path`, and returns the problems found. If this
 /// system cannot imitate a platform's machine, only checks that the package is complete.
 pub fn check(
-    handed_out: &HandedOut,
+    authoring: &Authoring,
     workspace: &Path,
     platform: Platform,
     package: &Bundle,
     path: &Path,
 ) -> Result<Vec<String>> {
+    let handed_out = authoring.handed_out;
     let mut problems = package::problems(path, handed_out)?;
     let workspace = &workspace.canonicalize().at("read", workspace)?;
     let name = format!("{TRIAL_FOLDER}/{platform:?}").to_lowercase();
@@ -45,7 +46,7 @@ pub fn check(
         return Ok(problems);
     };
     let setup = Setup::new(&machine, platform, package, path)?;
-    for submission in submissions(handed_out, workspace, platform)? {
+    for submission in submissions(authoring, workspace, platform)? {
         for folder in setup.run.cleared {
             let folder = machine.host_path(folder);
             machine.remove(&folder)?;
@@ -125,7 +126,7 @@ fn harmless_attack(machine: &Machine, setup: &Setup) -> Result<Option<String>> {
     Ok(is_harmless.then(|| {
         format!(
             "the attacking submission reads nothing even without isolation, so its failure proves \
-             nothing: adapt trial/submission.rs\n{}",
+             nothing: adapt the assignment's attacks\n{}",
             job.output
         )
     }))

@@ -6,22 +6,9 @@ use anyhow::{Result, ensure};
 use grader::files;
 use grader::handed_out::HandedOut;
 
+use crate::authoring::{Attack, Authoring};
 use crate::package::Platform;
 
-/// A file, a method of it, and the attack from the corpus of hostile submissions that is called
-/// there.
-const ATTACKS: [(&str, &str, &str); 2] = [
-    (
-        "camera.rs",
-        "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {",
-        "B01-includes-the-key",
-    ),
-    (
-        "sphere.rs",
-        "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
-        "D01-reads-files",
-    ),
-];
 /// The folder of the corpus of hostile submissions.
 const CORPUS: &str = "grader/tests/hostile/entries";
 /// The files that the attacks look for, by their placeholders in the corpus.
@@ -46,10 +33,11 @@ pub struct TrialSubmission {
 /// Returns the submissions of a platform's trial: the reference, the starter, one without any task
 /// file and, if the exam is secret, one that tries to steal it.
 pub fn submissions(
-    handed_out: &HandedOut,
+    authoring: &Authoring,
     workspace: &Path,
     platform: Platform,
 ) -> Result<Vec<TrialSubmission>> {
+    let handed_out = authoring.handed_out;
     let submission = |name, points, files| TrialSubmission {
         name,
         points,
@@ -74,7 +62,7 @@ pub fn submissions(
         submission("an empty submission", None, Vec::new()),
     ];
     if platform == Platform::Gradescope {
-        let files = with_attacks(starter, workspace)?;
+        let files = with_attacks(starter, authoring.attacks, workspace)?;
         submissions.push(submission("an attacking submission", Some(0), files));
     }
     Ok(submissions)
@@ -82,9 +70,15 @@ pub fn submissions(
 
 fn with_attacks(
     mut files: Vec<(&'static str, String)>,
+    attacks: &[Attack],
     workspace: &Path,
 ) -> Result<Vec<(&'static str, String)>> {
-    for (attacked, head, entry) in ATTACKS {
+    for Attack {
+        file: attacked,
+        method: head,
+        entry,
+    } in attacks
+    {
         let text = files::read_to_string(workspace.join(CORPUS).join(format!("{entry}.rs")))?;
         // The entry's description is for the corpus.
         let code = text.lines().filter(|line| !line.starts_with("//!"));
@@ -92,7 +86,7 @@ fn with_attacks(
         for (placeholder, path) in TARGETS {
             attack = attack.replace(placeholder, path);
         }
-        for (_, text) in files.iter_mut().filter(|(name, _)| *name == attacked) {
+        for (_, text) in files.iter_mut().filter(|(name, _)| name == attacked) {
             ensure!(text.contains(head), "{attacked} has no `{head}`");
             *text = text.replacen(head, &format!("{head}\n        attack();"), 1) + &attack;
         }
@@ -116,9 +110,8 @@ impl TrialSubmission {
 
 #[cfg(test)]
 mod tests {
-    use grader::handed_out::RAYS;
-
     use super::*;
+    use crate::authoring::RAYS;
 
     #[test]
     fn the_attacks_are_called_in_the_starter() {
@@ -128,6 +121,6 @@ mod tests {
         let attacks = attacking.iter().filter(|(_, text)| {
             text.contains("attack();") && text.contains("fn attack()") && !text.contains('@')
         });
-        assert_eq!(attacks.count(), ATTACKS.len());
+        assert_eq!(attacks.count(), RAYS.attacks.len());
     }
 }

@@ -1,4 +1,4 @@
-//! The table of all margins, `reference/calibration.md`.
+//! The table of all margins, `calibration.md` in the folder of an assignment's solutions.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -6,32 +6,41 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use grader::files;
+use grader::handed_out::HandedOut;
 use judging::judge::Threshold;
 
 use crate::generated_file::GeneratedFile;
 use crate::proof::calibrate::Calibration;
 use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
 
-/// The path of the table, relative to the workspace's root.
-pub const PATH: &str = "reference/calibration.md";
+/// Builds the table of an assignment.
+pub fn generated_file(handed_out: &HandedOut, calibration: &Calibration) -> GeneratedFile {
+    GeneratedFile::new(path(handed_out), table(calibration))
+}
 
-/// Builds the table.
-pub fn generated_file(calibration: &Calibration) -> GeneratedFile {
+/// Returns the path of an assignment's table, relative to the workspace's root.
+fn path(handed_out: &HandedOut) -> String {
+    format!("{}/calibration.md", handed_out.solutions())
+}
+
+fn table(calibration: &Calibration) -> String {
     let mut text = header(calibration);
     for threshold in Threshold::all() {
         let margin = calibration.margins.margin(threshold);
         writeln!(text, "{}{}", row_start(threshold), row(&margin))
             .expect("writing to a String cannot fail");
     }
-    GeneratedFile::new(PATH, text)
+    text
 }
 
-/// Checks that the table of the workspace at `root` contains the current value of every threshold.
-pub fn check(root: &Path) -> Result<()> {
-    let outdated = outdated_thresholds(&files::read_to_string(root.join(PATH))?);
+/// Checks that an assignment's table in the workspace at `root` contains the current value of every
+/// threshold.
+pub fn check(root: &Path, handed_out: &HandedOut) -> Result<()> {
+    let path = path(handed_out);
+    let outdated = outdated_thresholds(&files::read_to_string(root.join(&path))?);
     if !outdated.is_empty() {
         bail!(
-            "{PATH} is out of date for these thresholds: {}; run `cargo author calibrate`",
+            "{path} is out of date for these thresholds: {}; run `cargo author calibrate`",
             outdated.join(", ")
         );
     }
@@ -155,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_row_shows_both_margins_and_their_solutions() {
-        let table = generated_file(&calibration()).contents;
+        let table = table(&calibration());
         let row = "| uv in a picture | 2e-3 | `types/uv.rs: TOLERANCE` \
                    | 0.25: `sphere.geometric` in `sphere.uv`, seed 17 | 4.00 \
                    | 12: `sphere.u_shifted` in `sphere.uv`, seed 17 | 12 |\n";
@@ -166,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_changed_threshold_makes_a_table_outdated() {
-        let table = generated_file(&calibration()).contents;
+        let table = table(&calibration());
         assert_eq!(outdated_thresholds(&table), [""; 0]);
         let older = table.replace("| uv in a picture | 2e-3 |", "| uv in a picture | 1e-3 |");
         assert_eq!(outdated_thresholds(&older), ["uv in a picture"]);

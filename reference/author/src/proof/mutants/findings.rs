@@ -51,7 +51,7 @@ impl Findings {
             format!(
                 "`{name}` survives: add a question to the exam that catches it, or explain in {} \
                  why no answer can differ",
-                equivalent::PATH
+                equivalent::FILE
             )
         });
         let wrongly_listed =
@@ -64,7 +64,7 @@ impl Findings {
                         Some(MutantOutcome::NotCompiled) => "does not compile",
                         None => "does not exist",
                     };
-                    let path = equivalent::PATH;
+                    let path = equivalent::FILE;
                     Some(format!("`{name}` {found}: remove it from {path}"))
                 });
         survive.chain(wrongly_listed).collect()
@@ -119,10 +119,10 @@ mod tests {
         assert!(findings.summary_line().ends_with("0 equivalent, 1 survive"));
         let expected = [
             "`a` survives: add a question to the exam that catches it, or explain in \
-             reference/mutants/equivalent.toml why no answer can differ",
-            "`b` is caught: remove it from reference/mutants/equivalent.toml",
-            "`c` does not compile: remove it from reference/mutants/equivalent.toml",
-            "`e` does not exist: remove it from reference/mutants/equivalent.toml",
+             mutants/equivalent.toml why no answer can differ",
+            "`b` is caught: remove it from mutants/equivalent.toml",
+            "`c` does not compile: remove it from mutants/equivalent.toml",
+            "`e` does not exist: remove it from mutants/equivalent.toml",
         ];
         assert_eq!(findings.problems(), expected);
     }

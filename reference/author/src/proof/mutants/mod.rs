@@ -4,8 +4,8 @@
 pub mod findings;
 
 use anyhow::{Result, bail};
-use grader::handed_out::HandedOut;
 
+use crate::authoring::Authoring;
 use crate::exams;
 use crate::proof::mutants::findings::{Findings, MutantOutcome};
 use crate::proof::run::run_compiled;
@@ -18,10 +18,11 @@ use crate::solutions::workbench::Workbench;
 pub const SAMPLE_STEP: usize = 8;
 
 /// Builds all mutants, or one in `step`, and grades each with the practice exam.
-pub fn run(handed_out: &'static HandedOut, step: usize) -> Result<Findings> {
-    let workbench = Workbench::open(handed_out)?;
+pub fn run(authoring: &'static Authoring, step: usize) -> Result<Findings> {
+    let workbench = Workbench::open(authoring)?;
+    let handed_out = authoring.handed_out;
     let reference = Sources::reference(workbench.root(), handed_out)?;
-    let exam = exams::load_practice(workbench.root())?;
+    let exam = exams::load_practice(workbench.root(), authoring)?;
     let score = workbench.build(&reference, "reference")?.score(&exam)?;
     if score.points < score.max_points {
         // A mutant's loss of points would prove nothing.
@@ -43,6 +44,6 @@ pub fn run(handed_out: &'static HandedOut, step: usize) -> Result<Findings> {
     let skipped = skipped.map(|mutant| (mutant.id.clone(), MutantOutcome::Skipped));
     Ok(Findings {
         outcomes: skipped.chain(graded).collect(),
-        equivalent: equivalent_mutants(workbench.root())?,
+        equivalent: equivalent_mutants(workbench.root(), handed_out)?,
     })
 }

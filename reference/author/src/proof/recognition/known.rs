@@ -38,7 +38,7 @@ pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
 pub fn recognise_with_seeds(solutions: &Solutions, seeds: Range<u64>) -> Result<Recognition> {
     let mut all = Vec::new();
     for seed in seeds {
-        let exam = exams::generate("final", Seed(seed), &solutions.recorder)?;
+        let exam = exams::generate("final", Seed(seed), solutions)?;
         let found = known_hints(solutions, &with_hints(exam, solutions)?)?;
         eprintln!("seed {seed}: {}", summary(solutions, &found).summary_line);
         all.extend(found);

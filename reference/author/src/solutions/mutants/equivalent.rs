@@ -4,12 +4,13 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use grader::handed_out::HandedOut;
 use serde::Deserialize;
 
 use crate::solutions::read_toml;
 
-/// The path of the list, relative to the workspace's root.
-pub const PATH: &str = "reference/mutants/equivalent.toml";
+/// The path of the list, relative to the folder of an assignment's solutions.
+pub const FILE: &str = "mutants/equivalent.toml";
 
 /// A mutant that is expected to get full marks, because it is as correct as the reference.
 #[derive(Clone, Debug, Deserialize)]
@@ -21,19 +22,19 @@ pub struct EquivalentMutant {
     pub why: String,
 }
 
-/// Reads the list of the workspace at `root`.
-pub fn equivalent_mutants(root: &Path) -> Result<Vec<EquivalentMutant>> {
+/// Reads the list of an assignment in the workspace at `root`.
+pub fn equivalent_mutants(root: &Path, handed_out: &HandedOut) -> Result<Vec<EquivalentMutant>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct File {
         equivalent: Vec<EquivalentMutant>,
     }
 
-    let File { equivalent: all } = read_toml(&root.join(PATH))?;
+    let File { equivalent: all } = read_toml(&root.join(handed_out.solutions()).join(FILE))?;
     for (index, EquivalentMutant { name, why }) in all.iter().enumerate() {
         let is_duplicate = all[..index].iter().any(|other| other.name == *name);
         if is_duplicate || why.trim().is_empty() {
-            bail!("{PATH}: `{name}` must have a reason and occur only once");
+            bail!("{FILE}: `{name}` must have a reason and occur only once");
         }
     }
     Ok(all)

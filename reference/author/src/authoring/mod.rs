@@ -1,0 +1,52 @@
+//! Assignments as their authors have them. Everything here about exams, proofs and packages is
+//! derived from this data, so a new assignment changes no other module.
+
+mod rays;
+
+use grader::handed_out::HandedOut;
+
+use crate::items::TaskItems;
+
+pub use rays::RAYS;
+
+/// The assignments that `--assignment` selects from. The first is the default.
+pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
+
+/// An assignment as its authors have it. Its other solutions are files in
+/// [`HandedOut::solutions`]: mistakes, variants, equivalent mutants and the sentences of the
+/// contract.
+#[derive(Debug)]
+pub struct Authoring {
+    /// The assignment as it is handed out.
+    pub handed_out: &'static HandedOut,
+    /// The file of the practice exam, relative to the workspace's root.
+    pub practice_exam: &'static str,
+    /// Draw the items of each task, in lecture order. The reference records the pictures whose keys
+    /// only it can provide.
+    pub items: &'static [TaskItems],
+    /// The folder of the oracles, relative to the workspace's root. Their formulas are secret.
+    pub oracles: &'static str,
+    /// The attacks in the trial of a package whose exam is secret.
+    pub attacks: &'static [Attack],
+}
+
+/// An attack from the corpus of hostile submissions, called from a task's method.
+#[derive(Debug)]
+pub struct Attack {
+    /// The task file.
+    pub file: &'static str,
+    /// The first line of the method.
+    pub method: &'static str,
+    /// The entry of the corpus, without `.rs`.
+    pub entry: &'static str,
+}
+
+impl Authoring {
+    /// Returns the assignment with this id, or a message for people if there is none.
+    pub fn find(id: &str) -> Result<&'static Authoring, String> {
+        let handed_out = HandedOut::find(id)?;
+        let mut all = ASSIGNMENTS.into_iter();
+        let found = all.find(|authoring| authoring.handed_out == handed_out);
+        found.ok_or_else(|| format!("the assignment `{id}` has no entry in authoring/mod.rs"))
+    }
+}

@@ -1,0 +1,33 @@
+//! The assignment `rays` as its authors have it.
+
+use grader::handed_out;
+
+use super::{Attack, Authoring};
+use crate::items::{bbox, build, camera, sphere, traverse, triangle};
+
+/// The assignment `rays`.
+pub static RAYS: Authoring = Authoring {
+    handed_out: &handed_out::RAYS,
+    practice_exam: "grader/exams/practice.json",
+    items: &[
+        camera::items,
+        triangle::items,
+        sphere::items,
+        bbox::items,
+        build::items,
+        traverse::items,
+    ],
+    oracles: "reference/author/src/oracle",
+    attacks: &[
+        Attack {
+            file: "camera.rs",
+            method: "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {",
+            entry: "B01-includes-the-key",
+        },
+        Attack {
+            file: "sphere.rs",
+            method: "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+            entry: "D01-reads-files",
+        },
+    ],
+};

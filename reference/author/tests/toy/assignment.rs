@@ -1,0 +1,100 @@
+//! The toy: an assignment with two files, three tasks, a substitution, two mistakes and a variant.
+//! A course can copy this folder to start an assignment of its own.
+
+mod items;
+
+use author::authoring::{Attack, Authoring};
+use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
+use judging::assignment::{Assignment, TaskClues, TaskInfo};
+
+/// The tasks.
+static TASKS: Assignment = Assignment {
+    id: "toy",
+    title: "A toy",
+    folders: &["", "work"],
+    other_folders: &[],
+    tasks: &[
+        TaskInfo {
+            id: "ball",
+            title: "Task 1: a ball",
+            file: "ball.rs",
+            method: "hit",
+            points: 40,
+            clues: TaskClues::NONE,
+        },
+        TaskInfo {
+            id: "slab",
+            title: "Task 2: a slab",
+            file: "slab.rs",
+            method: "hit",
+            points: 20,
+            clues: TaskClues::NONE,
+        },
+        TaskInfo {
+            id: "nearest",
+            title: "Task 3: the nearest ball",
+            file: "slab.rs",
+            method: "nearest",
+            points: 40,
+            clues: TaskClues::NONE,
+        },
+    ],
+    render: None,
+    challenge: None,
+};
+
+/// Creates a given file of the toy, which is the same in the starter and in the solution.
+macro_rules! given {
+    ($name:literal) => {
+        GivenFile {
+            name: $name,
+            text: include_str!(concat!("solved/src/", $name)),
+        }
+    };
+}
+
+/// The files.
+static HANDED_OUT: HandedOut = HandedOut {
+    assignment: &TASKS,
+    practice_exam: include_str!("practice.json"),
+    files: &[
+        TaskFile {
+            name: "ball.rs",
+            starter: include_str!("starter/ball.rs"),
+            required_declarations: &["struct Ball", "fn hit"],
+        },
+        TaskFile {
+            name: "slab.rs",
+            starter: include_str!("starter/slab.rs"),
+            required_declarations: &["struct Slab", "fn hit", "fn nearest"],
+        },
+    ],
+    given: &[given!("lib.rs"), given!("world.rs")],
+    main: given!("main.rs"),
+    entry: "
+fn main() -> std::process::ExitCode {
+    framework::harness::probe::main(&world::Student)
+}
+",
+    student: "student",
+    starter: "grader/starter",
+    reference: "reference/author/tests/toy/solved/src",
+    substitutions: &[SubstitutedFile {
+        file: "slab.rs",
+        parts: &["ball.rs"],
+        given: &["world.rs"],
+    }],
+};
+
+/// The toy as its authors have it.
+pub static TOY: Authoring = Authoring {
+    handed_out: &HANDED_OUT,
+    practice_exam: "reference/author/tests/toy/practice.json",
+    items: &[items::ball, items::slab, items::nearest],
+    oracles: "reference/author/tests/toy/items.rs",
+    attacks: &[Attack {
+        file: "ball.rs",
+        method: "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",
+        entry: "D01-reads-files",
+    }],
+};

@@ -78,11 +78,17 @@ fn unknown_command(
         other => other,
     });
     let line: Vec<&str> = [*command].into_iter().chain(arguments).collect();
-    let error = match *command {
-        "grade" => Arguments::try_parse_from(&line).err(),
-        "handin" => HandInArguments::try_parse_from(&line).err(),
-        "author" => Cli::try_parse_from(&line).err(),
-        "class" => ClassCli::try_parse_from(&line).err(),
+    let message = |error: clap::Error| error.use_stderr().then(|| error.to_string());
+    let message = match *command {
+        "grade" => Arguments::try_parse_from(&line).map_or_else(message, |arguments| {
+            let error = arguments.resolve().err()?;
+            Some(format!("error: {error}"))
+        }),
+        "handin" => HandInArguments::try_parse_from(&line)
+            .err()
+            .and_then(message),
+        "author" => Cli::try_parse_from(&line).err().and_then(message),
+        "class" => ClassCli::try_parse_from(&line).err().and_then(message),
         "render" | "render-reference" | "view" => {
             let mut flags = line.iter().filter(|word| word.starts_with("--"));
             return flags.find_map(|flag| unknown_flag(flag, sources));
@@ -90,9 +96,8 @@ fn unknown_command(
         "examples" => return unknown_example(&line[1..], sources),
         _ => None,
     }?;
-    let message = error.to_string();
     let first = message.lines().next().unwrap_or_default();
-    (error.use_stderr()).then(|| format!("`{text}`: {first}"))
+    Some(format!("`{text}`: {first}"))
 }
 
 /// Returns the problem with a flag, or `None` if some command has it.
@@ -160,7 +165,7 @@ mod tests {
         let problems = problems(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
-            "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres'",
+            "a.md:3: `cargo grade --task spheres`: error: unknown task (did you mean sphere?)",
             "a.md:4: cargo has no command gradee",
             "a.md:5: no command has the flag --views",
             "a.md:6: there is no file tree.rs with examples",

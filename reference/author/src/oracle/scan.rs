@@ -78,8 +78,8 @@ pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
     let bounds = bounds(shape);
     let margin = END_MARGIN * (bounds.max - bounds.min).max_element();
     let is_away_from_ends = |t: f64| (t - ray.min).abs() >= margin && (t - ray.max).abs() >= margin;
-    if let Shape::Sphere { center, radius, .. } = *shape {
-        let line = sphere(center, radius).intersect_line(ray);
+    if let Shape::Sphere { center, radius, .. } = shape {
+        let line = sphere(*center, *radius).intersect_line(ray);
         return (line.closest_approach - 1.0).abs() >= TANGENT_MARGIN
             && (line.closest_approach > 1.0 || line.roots.into_iter().all(is_away_from_ends));
     }

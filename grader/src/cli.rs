@@ -22,7 +22,7 @@ use crate::terminal::PrintOptions;
 /// The heading of the options that students do not need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
 /// The arguments that go with `--reset`. The others are about grading.
-const WITH_RESET: [&str; 3] = ["submission", "reset", "help_staff"];
+const WITH_RESET: [&str; 4] = ["submission", "reset", "assignment", "help_staff"];
 /// The last line of the help for students.
 const MORE_HELP: &str =
     "`cargo grade --help-staff` also shows the options for course staff and CI.";

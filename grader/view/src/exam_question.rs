@@ -6,7 +6,7 @@ use std::sync::Arc;
 use framework::scene::{Camera, Material, Scene};
 use glam::{UVec2, Vec3};
 use grader::exam_source::ExamSource;
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use grader::nearest_name::suggestion;
 use grader::question_ref::QuestionRef;
 use judging::describe;
@@ -26,11 +26,12 @@ const FOV: f32 = 35.0;
 
 /// Returns the subject that shows a question of the practice exam.
 pub fn subject_of_question(
+    handed_out: &HandedOut,
     reference: &QuestionRef,
     settings: PathSettings,
 ) -> Result<Subject, ViewError> {
     let exam = ExamSource::Practice
-        .load(&RAYS)
+        .load(handed_out)
         .map_err(ViewError::machine)?
         .exam;
     let item = exam.items.iter().find(|item| item.id == reference.item);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use grader::build::{Build, Builder, NotCompiled};
-use grader::handed_out::{GivenFile, HandedOut, RAYS};
+use grader::handed_out::{GivenFile, HandedOut};
 use grader::sandbox::Sandbox;
 use grader::select_isolation::{IsolationRequest, with_requested_level};
 use grader::submission::{Submission, SubmissionError};
@@ -69,6 +69,7 @@ impl Programs {
     /// Prepares the compiler, in a sandbox if `isolation` requires one.
     pub fn prepare(
         workspace: &Workspace,
+        handed_out: &'static HandedOut,
         folder: PathBuf,
         is_package: bool,
         isolation: IsolationRequest,
@@ -79,11 +80,16 @@ impl Programs {
         let builder = builder.map_err(ViewError::machine)?;
         Ok(Programs {
             builder: with_requested_level(builder, isolation).map_err(ViewError::machine)?,
-            drawing: handed_out(|file| *file),
-            recording: handed_out(with_recording),
+            drawing: with_probe(handed_out, |file| *file),
+            recording: with_probe(handed_out, with_recording),
             folder,
             is_package,
         })
+    }
+
+    /// Returns the assignment.
+    pub fn handed_out(&self) -> &'static HandedOut {
+        self.drawing
     }
 
     /// Returns the folder or archive of the submission.
@@ -165,13 +171,16 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
 
 /// Returns the assignment with the viewer's `main` function, and with changed given files. It exists
 /// as long as the process.
-fn handed_out(given: impl Fn(&GivenFile) -> GivenFile) -> &'static HandedOut {
-    let given: Vec<GivenFile> = RAYS.given.iter().map(given).collect();
+fn with_probe(
+    handed_out: &HandedOut,
+    given: impl Fn(&GivenFile) -> GivenFile,
+) -> &'static HandedOut {
+    let given: Vec<GivenFile> = handed_out.given.iter().map(given).collect();
     Box::leak(Box::new(HandedOut {
         given: given.leak(),
         entry: ENTRY,
         substitutions: &[],
-        ..RAYS
+        ..*handed_out
     }))
 }
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 use std::{fs, io, thread};
 
 use grader::files::{AtPath, PathError};
-use grader::handed_out::RAYS;
+use grader::handed_out::HandedOut;
 use grader::printing::print_line;
 use grader::select_isolation::IsolationRequest;
 use grader::submission::Submission;
@@ -41,9 +41,10 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         bounces: arguments.bounces,
         seed: arguments.seed,
     };
+    let handed_out = <&HandedOut>::default();
     let mut scenes = SceneList::find(&workspace);
     let subject = match &arguments.item {
-        Some(question) => subject_of_question(question, settings)?,
+        Some(question) => subject_of_question(handed_out, question, settings)?,
         None => {
             let name = scenes.name_of(&arguments.scene)?;
             Subject::of_scene(&name, &scenes.load(&name)?, settings)
@@ -51,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     };
     let listener = listen(arguments.port)?;
     let port = listener.local_addr().map_err(cannot_listen)?.port();
-    let programs = programs(arguments, &workspace)?;
+    let programs = programs(arguments, &workspace, handed_out)?;
     // A missing submission is reported before the server starts.
     let submission = programs.collect().map_err(ViewError::usage)?;
 
@@ -147,7 +148,11 @@ fn listen(port: Option<u16>) -> Result<TcpListener, ViewError> {
     }
 }
 
-fn programs(arguments: &Arguments, workspace: &Workspace) -> Result<Programs, ViewError> {
+fn programs(
+    arguments: &Arguments,
+    workspace: &Workspace,
+    handed_out: &'static HandedOut,
+) -> Result<Programs, ViewError> {
     let isolation = if arguments.untrusted {
         IsolationRequest::Untrusted
     } else {
@@ -155,13 +160,13 @@ fn programs(arguments: &Arguments, workspace: &Workspace) -> Result<Programs, Vi
     };
     let (folder, is_package): (PathBuf, bool) = match &arguments.submission {
         Some(path) => (workspace.resolve(path), false),
-        None if arguments.reference => match workspace.reference(&RAYS) {
+        None if arguments.reference => match workspace.reference(handed_out) {
             Some(reference) => (reference, false),
             None => return Err(ViewError::usage(NO_REFERENCE)),
         },
-        None => (workspace.root().join(RAYS.student), true),
+        None => (workspace.root().join(handed_out.student), true),
     };
-    Programs::prepare(workspace, folder, is_package, isolation)
+    Programs::prepare(workspace, handed_out, folder, is_package, isolation)
 }
 
 fn available_cores() -> usize {

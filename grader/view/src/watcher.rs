@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
-use grader::handed_out::RAYS;
 use grader::submission::Submission;
 use grader::watch::save_watcher::SaveWatcher;
 
@@ -47,7 +46,10 @@ impl<'a> Stamps<'a> {
         let all = USUAL_FOLDERS
             .iter()
             .map(|folder| self.programs.folder().join(folder));
-        let has_file = |folder: &PathBuf| RAYS.file_names().any(|file| folder.join(file).is_file());
+        let has_file = |folder: &PathBuf| {
+            let mut names = self.programs.handed_out().file_names();
+            names.any(|file| folder.join(file).is_file())
+        };
         self.folders = all.filter(has_file).collect();
         self.last = self.read();
         self.at = Instant::now();
@@ -67,10 +69,10 @@ impl<'a> Stamps<'a> {
             let metadata = fs::metadata(path).ok()?;
             Some((metadata.modified().ok()?, metadata.len()))
         };
-        let files = self
-            .folders
-            .iter()
-            .flat_map(|folder| RAYS.file_names().map(|file| folder.join(file)));
+        let handed_out = self.programs.handed_out();
+        let folders = self.folders.iter();
+        let files =
+            folders.flat_map(|folder| handed_out.file_names().map(|file| folder.join(file)));
         files.map(stamp).collect()
     }
 }

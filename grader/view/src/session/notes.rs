@@ -1,7 +1,8 @@
 //! Remarks about the submission: tasks that are not written yet, panics, and faults.
 
 use glam::UVec2;
-use grader::handed_out::{RAYS, TaskMethod};
+use grader::handed_out::TaskMethod;
+use grader::submission::Submission;
 use judging::assignment::TaskInfo;
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
@@ -47,9 +48,10 @@ impl Session {
         };
         let texts = [self.fault.clone(), self.loading_error.clone(), recording];
         let mut notes: Vec<Note> = texts.into_iter().flatten().map(without_location).collect();
-        let Some(opened) = &self.opened else {
+        let (Some(opened), Some(submission)) = (&self.opened, &self.submission) else {
             return notes;
         };
+        let task = |id| task(submission, id);
         let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
             let (id, effect) = match part {
@@ -67,7 +69,9 @@ impl Session {
                 format!("{}: panicked: {}", build.title, panic.message),
                 Some(panic.location.clone()),
             ),
-            ElementOutcome::Value(size) => self.add_notes_about_tree(*size, &mut add),
+            ElementOutcome::Value(size) => {
+                self.add_notes_about_tree(*size, [build, task("traverse")], &mut add)
+            }
             ElementOutcome::Skipped => {}
         }
         if let Some(why) = &self.tree_fault {
@@ -85,13 +89,17 @@ impl Session {
         notes
     }
 
-    fn add_notes_about_tree(&self, size: TreeSize, mut add: impl FnMut(String, Option<String>)) {
+    fn add_notes_about_tree(
+        &self,
+        size: TreeSize,
+        [build, traverse]: [&TaskInfo; 2],
+        mut add: impl FnMut(String, Option<String>),
+    ) {
         let effect = match size.primitives {
             0 => String::new(),
             count => format!(", so each ray tests all {count} primitives"),
         };
         let not_written = |task: &TaskInfo| format!("{}: not written yet{effect}.", task.title);
-        let (build, traverse) = (task("build"), task("traverse"));
         if size.nodes == 0 && self.is_from_starter(build) {
             add(not_written(build), self.line_of(build));
         } else if size.nodes == 0 && size.primitives > 0 {
@@ -114,13 +122,11 @@ impl Session {
 
     /// Returns a task's method in the submission, if it is found.
     fn method(&self, task: &TaskInfo) -> Option<TaskMethod> {
-        RAYS.task_method(task.task(), self.text(task.file)?).ok()
-    }
-
-    fn text(&self, file: &str) -> Option<&str> {
-        let mut files = self.submission.as_ref()?.files.iter();
-        let (_, text) = files.find(|(known, _)| known.name == file)?;
-        text.as_deref().ok()
+        let submission = self.submission.as_ref()?;
+        let mut files = submission.files.iter();
+        let (_, text) = files.find(|(file, _)| file.name == task.file)?;
+        let text = text.as_deref().ok()?;
+        submission.handed_out.task_method(task.task(), text).ok()
     }
 
     /// Returns the file and line in which a task's method is declared.
@@ -162,6 +168,7 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
 }
 
 /// Returns the task with this id.
-fn task(id: &str) -> &'static TaskInfo {
-    RAYS.assignment.find(id).expect("the viewer's tasks exist")
+fn task(submission: &Submission, id: &str) -> &'static TaskInfo {
+    let task = submission.handed_out.assignment.find(id);
+    task.expect("the viewer's tasks exist")
 }

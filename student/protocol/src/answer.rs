@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::function::{Output, Words};
+use crate::function::{LocalDirection, Output, Words};
 use crate::interval::Interval;
 use crate::ray::Ray;
 use crate::trace::Trace;
@@ -20,6 +20,8 @@ pub enum Answer {
     /// The answer to `BBoxHit`: for each query, the part of its `times` interval in which the ray is
     /// inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
+    /// The answer to `Reflect`: a direction for each direction.
+    Directions(Vec<ElementOutcome<LocalDirection>>),
     /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),
     /// The answer to `Radiance`: the pixels in linear red, green and blue, row by row from the
@@ -37,6 +39,7 @@ impl Answer {
             Answer::Rays(rows) => Some(returned(rows)),
             Answer::Hits(rows) => Some(returned(rows)),
             Answer::Spans(rows) => Some(returned(rows)),
+            Answer::Directions(rows) => Some(returned(rows)),
             Answer::Tree(_) | Answer::Picture(_) => None,
         }
     }
@@ -47,6 +50,7 @@ impl Answer {
             Answer::Rays(_) => Some(<Ray as Output>::NAMES),
             Answer::Hits(_) => Some(<Option<Trace> as Output>::NAMES),
             Answer::Spans(_) => Some(<Option<Interval> as Output>::NAMES),
+            Answer::Directions(_) => Some(<LocalDirection as Output>::NAMES),
             Answer::Tree(_) | Answer::Picture(_) => None,
         }
     }
@@ -57,6 +61,7 @@ impl Answer {
             Answer::Rays(_) => Some(<Ray as Output>::WORDS),
             Answer::Hits(_) => Some(<Option<Trace> as Output>::WORDS),
             Answer::Spans(_) => Some(<Option<Interval> as Output>::WORDS),
+            Answer::Directions(_) => Some(<LocalDirection as Output>::WORDS),
             Answer::Tree(_) | Answer::Picture(_) => None,
         }
     }
@@ -68,6 +73,7 @@ impl Answer {
             Answer::Rays(rows) => Answer::Rays(vec![rows.get(row)?.clone()]),
             Answer::Hits(rows) => Answer::Hits(vec![rows.get(row)?.clone()]),
             Answer::Spans(rows) => Answer::Spans(vec![rows.get(row)?.clone()]),
+            Answer::Directions(rows) => Answer::Directions(vec![rows.get(row)?.clone()]),
             Answer::Tree(_) | Answer::Picture(_) => self.clone(),
         })
     }

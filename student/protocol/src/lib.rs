@@ -20,8 +20,8 @@ pub mod wire;
 
 pub use answer::{Answer, ElementOutcome, Panic, Returned};
 pub use function::{
-    AnyTable, BBoxHit, Corners, Function, Geometry, Hit, Output, Query, Rows, SampleRay, Table,
-    Words,
+    AnyTable, BBoxHit, Corners, Function, Geometry, Hit, LocalDirection, Output, Query, Reflect,
+    Rows, SampleRay, Table, Words,
 };
 pub use interval::Interval;
 pub use question::Question;

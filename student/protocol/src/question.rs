@@ -3,7 +3,9 @@
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::function::{AnyTable, BBoxHit, Corners, Geometry, Hit, Query, SampleRay, Table};
+use crate::function::{
+    AnyTable, BBoxHit, Corners, Geometry, Hit, Query, Reflect, SampleRay, Table,
+};
 use crate::packed;
 use crate::ray::Ray;
 use crate::shape::Shape;
@@ -20,6 +22,8 @@ pub enum Question {
     /// Calls `BBox::hit` once per row.
     #[serde(rename = "bbox_hit")]
     BBoxHit(Table<BBoxHit>),
+    /// Calls `reflect` once per row.
+    Reflect(Table<Reflect>),
     /// Calls `Bvh::build` once. The answer is the whole tree.
     Build {
         /// The primitives, each with a different number.
@@ -60,6 +64,7 @@ impl Question {
             Question::SampleRay(table) => Some(table),
             Question::Hit(table) => Some(table),
             Question::BBoxHit(table) => Some(table),
+            Question::Reflect(table) => Some(table),
             Question::Build { .. } | Question::Radiance { .. } => None,
         }
     }

@@ -80,6 +80,19 @@ impl dyn Record + '_ {
     }
 }
 
+/// The subject of a function that is called on nothing.
+impl Record for () {
+    fn names(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    fn value(&self, index: usize) -> Value<'_> {
+        panic!("there is no field {index}")
+    }
+
+    fn set(&mut self, _: usize, _: Value<'_>) {}
+}
+
 /// A record whose fields do not depend on its value.
 pub trait Fields: Record {
     /// The names of the fields, in order.

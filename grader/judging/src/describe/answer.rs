@@ -20,7 +20,7 @@ pub fn got(answer: &Answer, element: usize) -> String {
             Some(pixel) => point(*pixel),
             None => format!("{} pixels", pixels.len()),
         }),
-        Answer::Rays(_) | Answer::Hits(_) | Answer::Spans(_) => {
+        Answer::Rays(_) | Answer::Hits(_) | Answer::Spans(_) | Answer::Directions(_) => {
             let rows = answer.rows().unwrap_or_default();
             outcome(rows.get(element), |record| {
                 returned(answer.words(), *record)

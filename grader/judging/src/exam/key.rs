@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use protocol::{
-    Answer, ElementOutcome, Fields, Interval, Output, Ray, Record, Trace, Value, packed,
+    Answer, ElementOutcome, Fields, Interval, LocalDirection, Output, Ray, Record, Trace, Value,
+    packed,
 };
 use serde::{Deserialize, Serialize};
 
@@ -124,6 +125,8 @@ pub enum ExpectedRows {
     Hits(#[serde(with = "packed")] Vec<Option<Trace>>),
     /// The intervals in which rays are inside a box.
     Spans(#[serde(with = "packed")] Vec<Option<Interval>>),
+    /// Directions at a point of a surface.
+    Directions(#[serde(with = "packed")] Vec<LocalDirection>),
 }
 
 impl ExpectedRows {
@@ -133,6 +136,7 @@ impl ExpectedRows {
             ExpectedRows::Rays(rows) => rows.len(),
             ExpectedRows::Hits(rows) => rows.len(),
             ExpectedRows::Spans(rows) => rows.len(),
+            ExpectedRows::Directions(rows) => rows.len(),
         }
     }
 
@@ -142,6 +146,7 @@ impl ExpectedRows {
             ExpectedRows::Rays(_) => <Ray as Output>::NAMES,
             ExpectedRows::Hits(_) => <Option<Trace> as Output>::NAMES,
             ExpectedRows::Spans(_) => <Option<Interval> as Output>::NAMES,
+            ExpectedRows::Directions(_) => <LocalDirection as Output>::NAMES,
         }
     }
 
@@ -151,6 +156,7 @@ impl ExpectedRows {
             ExpectedRows::Rays(rows) => row < rows.len(),
             ExpectedRows::Hits(rows) => rows.get(row).is_some_and(Option::is_some),
             ExpectedRows::Spans(rows) => rows.get(row).is_some_and(Option::is_some),
+            ExpectedRows::Directions(rows) => row < rows.len(),
         }
     }
 
@@ -161,6 +167,7 @@ impl ExpectedRows {
             ExpectedRows::Rays(rows) => Box::new(camera_ray(*rows.get(row)?)),
             ExpectedRows::Hits(rows) => Box::new((*rows.get(row)?)?),
             ExpectedRows::Spans(rows) => Box::new((*rows.get(row)?)?),
+            ExpectedRows::Directions(rows) => Box::new(*rows.get(row)?),
         })
     }
 
@@ -172,6 +179,7 @@ impl ExpectedRows {
             }
             ExpectedRows::Hits(rows) => Answer::Hits(values(rows.iter().copied())),
             ExpectedRows::Spans(rows) => Answer::Spans(values(rows.iter().copied())),
+            ExpectedRows::Directions(rows) => Answer::Directions(values(rows.iter().copied())),
         }
     }
 
@@ -181,6 +189,7 @@ impl ExpectedRows {
             ExpectedRows::Rays(rows) => ExpectedRows::Rays(vec![rows[row]]),
             ExpectedRows::Hits(rows) => ExpectedRows::Hits(vec![rows[row]]),
             ExpectedRows::Spans(rows) => ExpectedRows::Spans(vec![rows[row]]),
+            ExpectedRows::Directions(rows) => ExpectedRows::Directions(vec![rows[row]]),
         }
     }
 
@@ -196,7 +205,7 @@ impl ExpectedRows {
         }
         let change = |record: &mut dyn Record| record.change(change);
         match self {
-            ExpectedRows::Rays(_) => self.clone(),
+            ExpectedRows::Rays(_) | ExpectedRows::Directions(_) => self.clone(),
             ExpectedRows::Hits(rows) => ExpectedRows::Hits(each(rows, change)),
             ExpectedRows::Spans(rows) => ExpectedRows::Spans(each(rows, change)),
         }

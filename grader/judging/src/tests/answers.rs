@@ -74,6 +74,9 @@ impl Error {
                 Some(times) => times.max = self.number(times.max),
                 None => *span = Some(Interval::new(0.0, 1.0)),
             }),
+            Answer::Directions(all) => self.spoil(&mut all[index], |local| {
+                local.direction = self.vector(local.direction);
+            }),
             Answer::Picture(outcome) => self.spoil(outcome, |pixels| {
                 pixels[index] = self.vector(pixels[index] + 1.0) - 1.0;
             }),
@@ -87,6 +90,7 @@ pub fn count(answer: &Answer) -> usize {
         Answer::Rays(rays) => rays.len(),
         Answer::Hits(hits) => hits.len(),
         Answer::Spans(spans) => spans.len(),
+        Answer::Directions(all) => all.len(),
         Answer::Picture(ElementOutcome::Value(pixels)) => pixels.len(),
         Answer::Picture(_) | Answer::Tree(_) => {
             unreachable!("this is not the key's answer to anything")

@@ -26,7 +26,10 @@ fn missed(item: &Item) -> Vec<Answer> {
         match question.question {
             Question::BBoxHit(_) => Answer::Spans(vec![ElementOutcome::Value(None); count]),
             Question::Hit(_) => Answer::Hits(vec![ElementOutcome::Value(None); count]),
-            Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => right,
+            Question::SampleRay(_)
+            | Question::Reflect(_)
+            | Question::Build { .. }
+            | Question::Radiance { .. } => right,
         }
     };
     item.questions.iter().zip(right(item)).map(miss).collect()

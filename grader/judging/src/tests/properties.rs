@@ -123,7 +123,9 @@ fn each_end_of_an_interval_and_each_component_of_a_direction_counts_alone() {
     for (question, own) in QUESTIONS.iter() {
         let checks_directions = match &question.key {
             Key::Table { judged, rows, .. } => match rows {
-                ExpectedRows::Rays(_) => judged.iter().any(|name| name == "direction"),
+                ExpectedRows::Rays(_) | ExpectedRows::Directions(_) => {
+                    judged.iter().any(|name| name == "direction")
+                }
                 ExpectedRows::Spans(_) => true,
                 ExpectedRows::Hits(_) => false,
             },
@@ -231,6 +233,7 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
         match &mut short {
             Answer::Rays(rays) => drop(rays.pop()),
             Answer::Hits(hits) => drop(hits.pop()),
+            Answer::Directions(all) => drop(all.pop()),
             Answer::Picture(ElementOutcome::Value(pixels)) => drop(pixels.pop()),
             Answer::Picture(_) | Answer::Spans(_) | Answer::Tree(_) => {}
         }
@@ -259,6 +262,7 @@ fn kind(answer: &Answer) -> &'static str {
         Answer::Rays(_) => "rays",
         Answer::Hits(_) => "hits",
         Answer::Spans(_) => "spans",
+        Answer::Directions(_) => "directions",
         Answer::Picture(_) => "picture",
         Answer::Tree(_) => "tree",
     }

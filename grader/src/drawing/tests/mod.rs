@@ -118,6 +118,7 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
                 Question::SampleRay(_) => Answer::Rays(vec![ray; count]),
                 Question::Hit(_) => Answer::Hits(vec![hit; count]),
                 Question::BBoxHit(_) => Answer::Spans(vec![span; count]),
+                Question::Reflect(_) => Answer::Directions(Vec::new()),
                 Question::Build { .. } => Answer::Tree(tree),
                 Question::Radiance { .. } => NO_PICTURE,
             };
@@ -175,7 +176,7 @@ fn draws_the_expected_result_without_an_answer() {
         drawing.iter().for_each(assert_well_formed);
         let is_expected = match question.question {
             Question::SampleRay(_) | Question::Hit(_) | Question::BBoxHit(_) => true,
-            Question::Build { .. } | Question::Radiance { .. } => false,
+            Question::Reflect(_) | Question::Build { .. } | Question::Radiance { .. } => false,
         };
         assert_eq!(drawing.is_some(), is_expected, "{:?}", question.key);
     }

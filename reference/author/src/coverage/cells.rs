@@ -55,7 +55,7 @@ pub(super) fn of_task(first: &Question) -> Vec<Cell> {
         },
         Question::BBoxHit(_) => of_rays(&[OUTSIDE, INSIDE], &[]),
         Question::Build { .. } => [&SCALES[..], &PLACES, &SIZES].concat(),
-        Question::Radiance { .. } => HISTORY.into(),
+        Question::Reflect(_) | Question::Radiance { .. } => HISTORY.into(),
     }
 }
 
@@ -105,7 +105,7 @@ pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
             place(&bounds(shapes), 1, &mut add);
             add(size(shapes.len()), 1);
         }
-        Question::Radiance { .. } => {}
+        Question::Reflect(_) | Question::Radiance { .. } => {}
     }
     add(HISTORY[0], 1);
     add(HISTORY[1], calls.saturating_sub(9));

@@ -15,7 +15,10 @@ fn rays(question: &Question) -> Vec<Ray> {
     match question {
         Question::Hit(table) => table.rows.to_vec().into_owned(),
         Question::BBoxHit(table) => table.rows.to_vec().iter().map(|query| query.ray).collect(),
-        Question::SampleRay(_) | Question::Build { .. } | Question::Radiance { .. } => Vec::new(),
+        Question::SampleRay(_)
+        | Question::Reflect(_)
+        | Question::Build { .. }
+        | Question::Radiance { .. } => Vec::new(),
     }
 }
 
@@ -93,7 +96,7 @@ fn has_opposites(item: &Item) -> bool {
                     let is_other = |dir: &Vec3| dir.distance(directions[0]) > 0.1;
                     directions.iter().map(is_other).collect()
                 }
-                ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => {
+                ExpectedRows::Hits(_) | ExpectedRows::Spans(_) | ExpectedRows::Directions(_) => {
                     (0..rows.count()).map(|row| rows.is_present(row)).collect()
                 }
             },
@@ -144,7 +147,10 @@ fn materials_are_distinct_in_trees() {
                     Geometry::Tree { shapes, .. } | Geometry::BuiltTree { shapes, .. } => shapes,
                     Geometry::List { .. } => continue,
                 },
-                Question::SampleRay(_) | Question::BBoxHit(_) | Question::Radiance { .. } => {
+                Question::SampleRay(_)
+                | Question::BBoxHit(_)
+                | Question::Reflect(_)
+                | Question::Radiance { .. } => {
                     continue;
                 }
             };

@@ -41,11 +41,11 @@ fn text(path: &str) -> String {
 }
 
 /// Writes a submission with these texts in the folder `NAME/work`.
-fn write_submission(class: &Path, name: &str, ball: &str, slab: &str) {
+fn write_submission(class: &Path, name: &str, ball: &str, mirror: &str) {
     let work = class.join(name).join("work");
     fs::create_dir_all(&work).unwrap();
     fs::write(work.join("ball.rs"), ball).unwrap();
-    fs::write(work.join("slab.rs"), slab).unwrap();
+    fs::write(work.join("mirror.rs"), mirror).unwrap();
 }
 
 fn options() -> GradeOptions {
@@ -57,9 +57,9 @@ fn options() -> GradeOptions {
 }
 
 /// Grades the submission with these texts.
-fn grade_texts(ball: &str, slab: &str, dependents: Dependents) -> Score {
+fn grade_texts(ball: &str, mirror: &str, dependents: Dependents) -> Score {
     let folder = TempDir::new().unwrap();
-    write_submission(folder.path(), "any", ball, slab);
+    write_submission(folder.path(), "any", ball, mirror);
     let graded = grade(&GradeOptions {
         submission: Some(folder.path().join("any")),
         out: Some(folder.path().join("out")),
@@ -75,16 +75,16 @@ fn points(score: &Score) -> Vec<u32> {
 
 #[test]
 fn the_toy_is_graded_like_any_assignment() {
-    let (solved_ball, solved_slab) = (text("solved/src/ball.rs"), text("solved/src/slab.rs"));
+    let (solved_ball, solved_mirror) = (text("solved/src/ball.rs"), text("solved/src/mirror.rs"));
     let with_reference = Dependents::SubstituteReference;
 
-    let solved = grade_texts(&solved_ball, &solved_slab, with_reference);
+    let solved = grade_texts(&solved_ball, &solved_mirror, with_reference);
     assert_eq!(points(&solved), [40, 20, 40]);
     assert_eq!((solved.points, solved.max_points), (100, 100));
 
     let starter = grade_texts(
         &text("starter/ball.rs"),
-        &text("starter/slab.rs"),
+        &text("starter/mirror.rs"),
         with_reference,
     );
     assert_eq!(starter.points, 0);
@@ -92,17 +92,17 @@ fn the_toy_is_graded_like_any_assignment() {
     // A file that does not compile costs its own tasks only.
     let broken = grade_texts(
         &solved_ball,
-        "struct Slab; fn hit() { fn nearest }",
+        "struct Mirror; fn reflect() { fn nearest }",
         with_reference,
     );
     assert_eq!(points(&broken), [40, 0, 0]);
-    assert_eq!(broken.build.not_compiled[0].file, "slab.rs");
+    assert_eq!(broken.build.not_compiled[0].file, "mirror.rs");
 
     // A wrong ball costs the first task only, thanks to the reference's ball.
     let far_side = solved_ball.replace("middle - half", "middle + half");
-    let wrong_ball = grade_texts(&far_side, &solved_slab, with_reference);
+    let wrong_ball = grade_texts(&far_side, &solved_mirror, with_reference);
     assert_eq!(points(&wrong_ball), [0, 20, 40]);
-    let blocked = grade_texts(&far_side, &solved_slab, Dependents::Block);
+    let blocked = grade_texts(&far_side, &solved_mirror, Dependents::Block);
     assert_eq!(points(&blocked), [0, 20, 0]);
 }
 
@@ -110,7 +110,7 @@ fn the_toy_is_graded_like_any_assignment() {
 fn a_report_and_a_replay_show_a_known_mistake() {
     let folder = TempDir::new().unwrap();
     let far_side = text("solved/src/ball.rs").replace("middle - half", "middle + half");
-    write_submission(folder.path(), "any", &far_side, &text("starter/slab.rs"));
+    write_submission(folder.path(), "any", &far_side, &text("starter/mirror.rs"));
     let options = GradeOptions {
         submission: Some(folder.path().join("any")),
         out: Some(folder.path().join("out")),
@@ -171,9 +171,9 @@ fn a_seed_gives_a_final_exam_of_the_toy_with_other_questions() {
 fn a_class_of_toys_is_graded() {
     let folder = TempDir::new().unwrap();
     let class = folder.path().join("class");
-    let (solved_ball, solved_slab) = (text("solved/src/ball.rs"), text("solved/src/slab.rs"));
-    write_submission(&class, "ann", &solved_ball, &solved_slab);
-    write_submission(&class, "bob", &solved_ball, &text("starter/slab.rs"));
+    let (solved_ball, solved_mirror) = (text("solved/src/ball.rs"), text("solved/src/mirror.rs"));
+    write_submission(&class, "ann", &solved_ball, &solved_mirror);
+    write_submission(&class, "bob", &solved_ball, &text("starter/mirror.rs"));
     let out = folder.path().join("out");
     let arguments = ClassArguments {
         input: Some(class),
@@ -234,14 +234,14 @@ fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
     let secrets = Secrets::gather(&root(), &TOY, &bundle).unwrap();
     assert_eq!(toy_leaks(&secrets, &bundle), 0);
     assert_eq!(
-        bundle.text("student/src/slab.rs"),
-        Some(&*text("starter/slab.rs"))
+        bundle.text("student/src/mirror.rs"),
+        Some(&*text("starter/mirror.rs"))
     );
     assert_eq!(bundle.text("student/src/camera.rs"), None);
 
     let mut leaking = bundle.clone();
-    leaking.insert("handout/src/notes.md", text("solved/src/slab.rs"));
-    assert!(toy_leaks(&secrets, &leaking) > 3);
+    leaking.insert("handout/src/notes.md", text("solved/src/mirror.rs"));
+    assert!(toy_leaks(&secrets, &leaking) > 1);
 
     let course = Course::new(&TOY, None, None, None).unwrap();
     let package = package::collect(&root(), TOY.handed_out, Platform::Classroom50, course).unwrap();

@@ -23,17 +23,17 @@ static TASKS: Assignment = Assignment {
             clues: TaskClues::NONE,
         },
         TaskInfo {
-            id: "slab",
-            title: "Task 2: a slab",
-            file: "slab.rs",
-            method: "hit",
+            id: "mirror",
+            title: "Task 2: a mirror",
+            file: "mirror.rs",
+            method: "reflect",
             points: 20,
             clues: TaskClues::NONE,
         },
         TaskInfo {
             id: "nearest",
             title: "Task 3: the nearest ball",
-            file: "slab.rs",
+            file: "mirror.rs",
             method: "nearest",
             points: 40,
             clues: TaskClues::NONE,
@@ -64,9 +64,9 @@ static HANDED_OUT: HandedOut = HandedOut {
             required_declarations: &["struct Ball", "fn hit"],
         },
         TaskFile {
-            name: "slab.rs",
-            starter: include_str!("starter/slab.rs"),
-            required_declarations: &["struct Slab", "fn hit", "fn nearest"],
+            name: "mirror.rs",
+            starter: include_str!("starter/mirror.rs"),
+            required_declarations: &["struct Mirror", "fn reflect", "fn nearest"],
         },
     ],
     given: &[given!("lib.rs"), given!("world.rs")],
@@ -80,7 +80,7 @@ fn main() -> std::process::ExitCode {
     starter: "grader/starter",
     reference: "reference/author/tests/toy/solved/src",
     substitutions: &[SubstitutedFile {
-        file: "slab.rs",
+        file: "mirror.rs",
         parts: &["ball.rs"],
         given: &["world.rs"],
     }],
@@ -90,7 +90,7 @@ fn main() -> std::process::ExitCode {
 pub static TOY: Authoring = Authoring {
     handed_out: &HANDED_OUT,
     practice_exam: "reference/author/tests/toy/practice.json",
-    items: &[items::ball, items::slab, items::nearest],
+    items: &[items::ball, items::mirror, items::nearest],
     oracles: "reference/author/tests/toy/items.rs",
     attacks: &[Attack {
         file: "ball.rs",

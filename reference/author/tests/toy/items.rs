@@ -5,8 +5,8 @@ use author::oracle::{Ray64, scan};
 use author::seed::{Rng, Seed};
 use author::tree::{Tree, construction, decoy};
 use glam::DVec3;
-use judging::exam::{ExamQuestion, Key};
-use protocol::{Corners, Geometry, Interval, Query, Question, Ray, Shape};
+use judging::exam::{ExamQuestion, ExpectedRows, Key};
+use protocol::{Geometry, LocalDirection, Question, Ray, Shape, Table};
 
 /// The items about a ball, which is hit as often in a list of balls.
 const BALLS: Group = Group("balls");
@@ -19,9 +19,9 @@ pub fn ball(seed: Seed) -> Vec<DeclaredItem> {
     draw_items(seed, &[NEAR_SIDE])
 }
 
-/// Draws the items of the task `slab`.
-pub fn slab(seed: Seed) -> Vec<DeclaredItem> {
-    draw_items(seed, &[CLIPPED])
+/// Draws the items of the task `mirror`.
+pub fn mirror(seed: Seed) -> Vec<DeclaredItem> {
+    draw_items(seed, &[REFLECTS])
 }
 
 /// Draws the items of the task `nearest`.
@@ -47,27 +47,31 @@ const NEAR_SIDE: Declaration = Declaration {
     ..Declaration::in_group(BALLS)
 };
 
-const CLIPPED: Declaration = Declaration {
-    id: "slab.clipped",
+const REFLECTS: Declaration = Declaration {
+    id: "mirror.reflects",
     points: 20,
-    title: "the time in a slab is clipped to the times asked about",
-    look: "When does the ray enter the slab, and when does it leave? Which of it is in `times`?",
-    section: "boxes.md#clip-the-result-to-times",
+    title: "a mirror turns a direction around its normal",
+    look: "Which components of the direction change, and which one stays?",
+    section: "sphere.md#the-figure",
     questions: |rng| {
-        let min = rng.point(3.0).as_vec3();
-        let max = min + rng.vector(1.0, 4.0).as_vec3();
-        let queries: Vec<Query> = (0..2 * OF_EACH)
-            .map(|number| random_query(rng, [min.x, max.x], number < OF_EACH))
-            .collect();
-        let spans = queries.iter().map(|query| span(query, [min.x, max.x]));
-        let key = Key::spans(spans.collect());
-        vec![ExamQuestion::new(
-            Question::boxes(Corners { min, max }, queries),
-            key,
-        )]
+        let above = |dir: DVec3| DVec3::new(dir.x, dir.y, dir.z.abs());
+        let directions: Vec<DVec3> = (0..2 * OF_EACH).map(|_| above(rng.direction())).collect();
+        let reflected = directions.iter().map(|dir| 2.0 * dir.z * DVec3::Z - dir);
+        let rows = ExpectedRows::Directions(reflected.map(local).collect());
+        let key = Key::table(&["direction", "unit_direction"], rows);
+        let rows = directions.into_iter().map(local).collect();
+        let question = Question::Reflect(Table::of_list((), rows));
+        vec![ExamQuestion::new(question, key)]
     },
     ..Declaration::ALONE
 };
+
+/// Returns a direction in single precision.
+fn local(direction: DVec3) -> LocalDirection {
+    LocalDirection {
+        direction: direction.as_vec3(),
+    }
+}
 
 const OF_TWO: Declaration = Declaration {
     id: "nearest.of_two",
@@ -120,31 +124,4 @@ fn rays_and_key(rng: &mut Rng, tree: &Tree) -> (Vec<Ray>, Key) {
         tree.expected_hit(ray64)
     });
     (rays, key)
-}
-
-/// Returns a ray that crosses the slab, with times in which it is clearly there, or is clearly not.
-fn random_query(rng: &mut Rng, planes: [f32; 2], is_hit: bool) -> Query {
-    rng.retry(|rng| {
-        let dir = rng.direction();
-        let ray = Ray::new(rng.point(8.0).as_vec3(), dir.as_vec3());
-        let start = rng.uniform(-9.0, 9.0);
-        let times = Interval::new(start as f32, (start + rng.uniform(1.0, 9.0)) as f32);
-        let query = Query { ray, times };
-        let grown = |by: f32| Query {
-            times: Interval::new(times.min - by, times.max + by),
-            ..query
-        };
-        let mut all = [-0.1, 0.0, 0.1].into_iter();
-        let is_clear = all.all(|by| span(&grown(by), planes).is_some() == is_hit);
-        (is_clear && dir.x.abs() > 0.2).then_some(query)
-    })
-}
-
-/// Returns when a ray is between the planes with these x coordinates.
-fn span(Query { ray, times }: &Query, planes: [f32; 2]) -> Option<Interval> {
-    let at = |plane: f32| (f64::from(plane) - f64::from(ray.origin.x)) / f64::from(ray.dir.x);
-    let [one, other] = planes.map(at);
-    let enter = one.min(other).max(times.min.into());
-    let leave = one.max(other).min(times.max.into());
-    (enter <= leave).then(|| Interval::new(enter as f32, leave as f32))
 }

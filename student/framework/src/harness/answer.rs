@@ -1,7 +1,9 @@
 //! Answers the grader's questions element by element, so that a panic affects only its own element.
 
 use protocol::function::Input;
-use protocol::{Answer, Corners, ElementOutcome, Geometry, Output, Query, Question, Rows, Table};
+use protocol::{
+    Answer, Corners, ElementOutcome, Geometry, LocalDirection, Output, Query, Question, Rows, Table,
+};
 
 use crate::harness::attempt::{attempt, attempt_each};
 use crate::render::integrator::{RenderSettings, render};
@@ -45,6 +47,13 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
             || *subject,
             |Corners { min, max }, Query { ray, times }| {
                 submission.intersect_box(*min, *max, ray, *times)
+            },
+        ),
+        Question::Reflect(Table { subject: (), rows }) => call_each(
+            rows,
+            || (),
+            |(), LocalDirection { direction }| LocalDirection {
+                direction: submission.reflect(*direction),
             },
         ),
         Question::Build {

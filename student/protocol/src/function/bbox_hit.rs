@@ -4,13 +4,12 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Table, View, Words};
+use super::{Function, Input, Output, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::interval::Interval;
 use crate::question::Question;
 use crate::ray::Ray;
 use crate::value::{Fields, Record, Value, fields};
-use crate::view::Sample;
 
 /// Calls `BBox::hit` for rays, each with its times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,18 +70,6 @@ fields! {
 
 impl Input for Query {
     type View = NoView;
-}
-
-impl View for NoView {
-    type Input = Query;
-
-    fn film(&self) -> glam::UVec2 {
-        match *self {}
-    }
-
-    fn input(&self, _: Sample) -> Query {
-        match *self {}
-    }
 }
 
 impl Fields for Interval {

@@ -134,9 +134,7 @@ impl Input for Ray {
     type View = ExamCamera;
 }
 
-impl View for ExamCamera {
-    type Input = Ray;
-
+impl View<Ray> for ExamCamera {
     fn film(&self) -> UVec2 {
         self.film
     }

@@ -2,6 +2,7 @@
 
 mod bbox_hit;
 mod hit;
+mod reflect;
 mod rows;
 mod sample_ray;
 mod table;
@@ -17,6 +18,7 @@ use crate::value::Record;
 
 pub use bbox_hit::{BBoxHit, Corners, Query};
 pub use hit::{Geometry, Hit};
+pub use reflect::{LocalDirection, Reflect};
 pub use rows::{Input, NoView, Rows, View};
 pub use sample_ray::SampleRay;
 pub use table::{AnyTable, Table};

@@ -14,25 +14,32 @@ use crate::view::{PIXEL_OFFSETS, Sample};
 /// The arguments of one call of a function.
 pub trait Input: Record + Data {
     /// A picture each of whose positions is a row.
-    type View: View<Input = Self>;
+    type View: View<Self>;
 }
 
 /// A picture, with one row for each of the five [`PIXEL_OFFSETS`] in every pixel, row by row from the
 /// bottom.
-pub trait View: Data {
-    /// The row at one position.
-    type Input;
-
+pub trait View<I>: Data {
     /// Returns the number of pixels, across and up.
     fn film(&self) -> UVec2;
 
     /// Returns the row at a position.
-    fn input(&self, sample: Sample) -> Self::Input;
+    fn input(&self, sample: Sample) -> I;
 }
 
 /// The picture of a function that has none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum NoView {}
+
+impl<I> View<I> for NoView {
+    fn film(&self) -> UVec2 {
+        match *self {}
+    }
+
+    fn input(&self, _: Sample) -> I {
+        match *self {}
+    }
+}
 
 /// The rows of a table, each with the arguments of one call.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -60,9 +60,7 @@ impl Input for Sample {
 }
 
 /// All positions on a film of this size.
-impl View for UVec2 {
-    type Input = Sample;
-
+impl View<Sample> for UVec2 {
     fn film(&self) -> UVec2 {
         *self
     }

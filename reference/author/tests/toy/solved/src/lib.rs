@@ -1,5 +1,5 @@
 //! A toy assignment: two files, three tasks.
 
 pub mod ball;
-pub mod slab;
+pub mod mirror;
 pub mod world;

@@ -1,8 +1,8 @@
-//! The probe for a submission's `slab.rs` that is graded with the reference's `ball.rs`.
+//! The probe for a submission's `mirror.rs` that is graded with the reference's `ball.rs`.
 
 use parts::ball;
 
-mod slab;
+mod mirror;
 mod world;
 
 fn main() -> std::process::ExitCode {

@@ -1,0 +1,3 @@
+//! The submission's `mirror.rs`.
+
+pub use submission::mirror::{Mirror, nearest};

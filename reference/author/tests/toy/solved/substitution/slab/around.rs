@@ -1,5 +1,0 @@
-//! The crate in which a submission's `slab.rs` is compiled with the reference's `ball.rs`.
-
-pub use parts::ball;
-
-pub mod slab;

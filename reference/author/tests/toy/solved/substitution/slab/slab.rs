@@ -1,3 +1,0 @@
-//! The submission's `slab.rs`.
-
-pub use submission::slab::{Slab, nearest};

@@ -1,0 +1,68 @@
+//! `reflect`: from the direction toward the viewer to the one that a mirror reflects into it.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::rows::NoView;
+use super::{Function, Input, Output, Table, Words};
+use crate::answer::{Answer, ElementOutcome};
+use crate::question::Question;
+use crate::value::{Fields, Record, fields};
+
+/// Calls `reflect` for directions. It is called on nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reflect;
+
+/// A direction at a point of a surface, in the frame in which +z is the normal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct LocalDirection {
+    /// The direction, of length one.
+    pub direction: Vec3,
+}
+
+impl Function for Reflect {
+    type Subject = ();
+    type Input = LocalDirection;
+    type Output = LocalDirection;
+
+    fn name((): &()) -> &'static str {
+        "reflect"
+    }
+
+    fn sentence((): &()) -> &'static str {
+        "direction {direction} toward the viewer, where +z is the normal"
+    }
+
+    fn question(table: Table<Self>) -> Question {
+        Question::Reflect(table)
+    }
+}
+
+fields! {
+    LocalDirection {
+        "direction": Direction = direction,
+    }
+}
+
+impl Input for LocalDirection {
+    type View = NoView;
+}
+
+impl Output for LocalDirection {
+    const NAMES: &'static [&'static str] = <LocalDirection as Fields>::NAMES;
+    const WORDS: Words = Words {
+        record: "{direction}",
+        present: "{direction}",
+        absent: "no direction",
+    };
+    const MAX_BYTES: usize = 3 * size_of::<f32>();
+
+    fn record(&self) -> Option<&dyn Record> {
+        Some(self)
+    }
+
+    fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer {
+        Answer::Directions(rows)
+    }
+}

@@ -201,10 +201,11 @@ impl Arguments {
     pub fn resolve(self) -> Result<Command, Error> {
         let handed_out = self.assignment.unwrap_or_default();
         let assignment = handed_out.assignment;
-        let tasks = self
-            .task
-            .map(|text| TaskSelection::parse(&text, assignment));
-        let tasks = tasks.transpose().map_err(Error::User)?;
+        let tasks = self.task.map(|text| {
+            let tasks = TaskSelection::parse(&text, assignment);
+            tasks.map_err(|why| invalid_value("--task <TASK>", &text, &why))
+        });
+        let tasks = tasks.transpose()?;
         let isolation = match (self.isolation, self.untrusted) {
             (Some(level), _) => IsolationRequest::Level(level),
             (None, true) => IsolationRequest::Untrusted,
@@ -237,10 +238,12 @@ impl Arguments {
             require: self.require.unwrap_or(0),
         };
         if let Some(text) = self.reset {
+            let names = NamedTasks::parse_list(&text, assignment)
+                .map_err(|why| invalid_value("--reset <TASK>", &text, &why))?;
             return Ok(Command::Reset {
                 handed_out,
                 folder: options.submission,
-                names: NamedTasks::parse_list(&text, assignment).map_err(Error::User)?,
+                names,
             });
         }
         Ok(match self.replay {
@@ -266,4 +269,12 @@ fn format_help() -> String {
          to =PATH if given, else where the platform expects it, else to the --out folder.\n\
          Formats: {known}"
     )
+}
+
+/// Returns the error of a value that can only be checked once the assignment is known, in the words of
+/// clap.
+fn invalid_value(option: &str, value: &str, why: &str) -> Error {
+    Error::User(format!(
+        "invalid value '{value}' for '{option}': {why}\n\nFor more information, try '--help'."
+    ))
 }

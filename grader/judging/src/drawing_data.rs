@@ -15,7 +15,7 @@ pub enum DrawingData {
     /// No data.
     #[default]
     None,
-    /// Data for tables of `BBox::hit`: for each query, the interval in which the ray is between the two
+    /// Data for tables of `BBox::hit`: for each query, the interval that the ray spends between the two
     /// planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
     /// parallel to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),

@@ -36,7 +36,7 @@ pub(super) struct Search {
     pub(super) archives: Vec<(String, PathBuf)>,
 }
 
-/// The files of a folder, of which some have been read.
+/// The files of a folder. Some have been read.
 #[derive(Default)]
 pub(super) struct FoundFolder {
     /// The path of the folder below the submission, with `/`. Empty for its top level.

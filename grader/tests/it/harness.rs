@@ -85,7 +85,7 @@ impl Submission {
         self.with(file, text.replace(from, to))
     }
 
-    /// Writes a file beside the task files, and returns the option that names it.
+    /// Writes a file beside the task files and returns the option that names it.
     pub fn file_option(&self, option: &str, file: &str, text: impl AsRef<[u8]>) -> [String; 2] {
         let path = self.path().join(file);
         fs::write(&path, text).unwrap();

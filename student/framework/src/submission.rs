@@ -23,7 +23,7 @@ pub trait Submission: Sync {
     /// Calls `BBox::hit` of the box between these corners.
     fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
 
-    /// Calls `reflect`, in the frame in which +z is the normal.
+    /// Calls `reflect`, in a frame whose +z is the normal.
     fn reflect(&self, _toward_viewer: Vec3) -> Vec3 {
         unimplemented!("this assignment has no mirrors")
     }

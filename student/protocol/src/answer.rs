@@ -17,7 +17,7 @@ pub enum Answer {
     Rays(Vec<ElementOutcome<Ray>>),
     /// The answer to `Hit`: the closest hit of each ray.
     Hits(Vec<ElementOutcome<Option<Trace>>>),
-    /// The answer to `BBoxHit`: for each query, the part of its `times` interval in which the ray is
+    /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray spends
     /// inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
     /// The answer to `Reflect`: a direction for each direction.

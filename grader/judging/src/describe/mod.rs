@@ -48,8 +48,8 @@ fn row(table: &dyn AnyTable, row: usize) -> String {
     }
 }
 
-/// Returns a sentence in which each `{name}` is replaced by the field of this name, and `{ray}` by the
-/// fields of a ray. A field that there is not is left out.
+/// Replaces each `{name}` of a sentence by the field of this name, and `{ray}` by the fields of a ray.
+/// Fields that do not exist are left out.
 fn fill(sentence: &str, records: &[&dyn Record]) -> String {
     let field = |name: &str| {
         records.iter().find_map(|record| {

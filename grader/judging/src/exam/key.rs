@@ -54,7 +54,7 @@ pub enum Key {
 }
 
 impl Key {
-    /// Returns the key of a table in which these quantities are judged, and every row must be right.
+    /// Returns the key of a table that judges these quantities and wants every row right.
     pub fn table(judged: &[&str], rows: ExpectedRows) -> Key {
         Key::Table {
             judged: judged.iter().map(|name| (*name).to_owned()).collect(),
@@ -63,7 +63,7 @@ impl Key {
         }
     }
 
-    /// Returns the key of a table in which the share of right rows decides on the credit.
+    /// Returns the key of a table whose credit depends on the share of right rows.
     pub fn share_of_rows(judged: &[&str], rows: ExpectedRows) -> Key {
         let mut key = Key::table(judged, rows);
         if let Key::Table { aggregate, .. } = &mut key {
@@ -72,7 +72,7 @@ impl Key {
         key
     }
 
-    /// Returns the key of intervals in which rays are inside a box.
+    /// Returns the key of the intervals that rays spend inside a box.
     pub fn spans(spans: Vec<Option<Interval>>) -> Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
     }
@@ -123,7 +123,7 @@ pub enum ExpectedRows {
     Rays(#[serde(with = "packed")] Vec<Vec3>),
     /// The hits of rays.
     Hits(#[serde(with = "packed")] Vec<Option<Trace>>),
-    /// The intervals in which rays are inside a box.
+    /// The intervals that rays spend inside a box.
     Spans(#[serde(with = "packed")] Vec<Option<Interval>>),
     /// Directions at a point of a surface.
     Directions(#[serde(with = "packed")] Vec<LocalDirection>),
@@ -193,7 +193,7 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns the rows in which `change` replaces every field.
+    /// Returns the rows with every field replaced by `change`.
     pub fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> ExpectedRows {
         fn each<R: Record + Copy>(
             rows: &[Option<R>],

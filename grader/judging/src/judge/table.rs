@@ -81,7 +81,7 @@ impl<'a> TableAnswer<'a> {
         &self.rows
     }
 
-    /// Returns a row in which the function returned `got`.
+    /// Returns a row whose call returned `got`.
     pub(crate) fn row<'b>(&self, index: usize, got: Option<&'b dyn Record>) -> Row<'b> {
         let wanted = self.expected.record(index);
         Row {
@@ -289,8 +289,8 @@ mod tests {
         ExamQuestion::new(question, Key::share_of_rows(&judged, directions))
     }
 
-    /// Returns the answer in which all rays have an error in their origin, their direction and their
-    /// range, of these multiples of their tolerances.
+    /// Returns an answer whose rays all have errors in origin, direction and range, as multiples of
+    /// the tolerances.
     fn rays(origin: f32, direction: f32, range: f32) -> Answer {
         let ray = Ray {
             origin: Vec3::X * (origin * length::TOLERANCE),

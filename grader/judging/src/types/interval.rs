@@ -1,4 +1,4 @@
-//! Intervals: parts of a ray, of which both ends are compared as lengths.
+//! Intervals: parts of a ray. Both ends are compared as lengths.
 
 use protocol::{Interval, Value};
 

@@ -29,8 +29,8 @@ pub(crate) trait FieldType {
     /// Returns the value as text.
     fn text(&self) -> String;
 
-    /// Returns the largest coordinate, if the value is a position in space. The largest one in a
-    /// question is the scale to which lengths are compared.
+    /// Returns the largest coordinate, if the value is a position in space. Lengths are
+    /// compared relative to the largest one in a question.
     fn largest_coordinate(&self) -> Option<f32> {
         None
     }

@@ -6,7 +6,7 @@ use protocol::Value;
 use super::multiple::in_units_of;
 use super::{FieldType, Tolerance, direction, number};
 
-/// A direction of which only the length is looked at.
+/// A direction, compared by its length only.
 pub(crate) struct UnitLength(pub(crate) Vec3);
 
 impl FieldType for UnitLength {

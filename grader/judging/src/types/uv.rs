@@ -1,4 +1,4 @@
-//! Texture coordinates, in which u is periodic.
+//! Texture coordinates. Their u is periodic.
 
 use glam::Vec2;
 use protocol::Value;

@@ -19,8 +19,8 @@ use judging::judge::tree::{self, TreeCriteria};
 
 const TITLE: &str = "The tree by levels, each node as wide as its share of the primitives";
 
-/// Draws the submitted tree. The criteria are those by which it is judged, and `sweep` is the exact
-/// sweep's tree, if the exam has it.
+/// Draws the submitted tree. It is judged by `criteria`. `sweep` is the exact sweep's tree, if the
+/// exam has it.
 pub(super) fn draw(
     criteria: &TreeCriteria,
     sweep: Option<&Sweep>,

@@ -46,7 +46,7 @@ pub enum Reload {
 /// The content of a page.
 struct Page<'a> {
     score: &'a Score,
-    /// The exam, of which readers may see the items that it has.
+    /// The exam, with only the items that readers may see.
     exam: &'a Exam,
     /// The submitted answers.
     answers: &'a ReportAnswers,

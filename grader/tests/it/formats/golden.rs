@@ -16,7 +16,7 @@ fn assert_valid(written: &FormatTexts) {
     }
 }
 
-/// Grades a submission, checks the outputs, and returns them.
+/// Grades a submission, checks the outputs and returns them.
 fn valid_outputs(submission: &Submission, arguments: &[String]) -> FormatTexts {
     let written = grade_in_all_formats(submission, &small_exam("practice"), arguments);
     assert_valid(&written);

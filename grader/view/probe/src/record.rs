@@ -48,7 +48,7 @@ pub fn box_test<B>(
     inside
 }
 
-/// Records a call of `Primitive::hit`, and returns its result. `shape` is the index of the shape.
+/// Records a call of `Primitive::hit` and returns its result. `shape` is the index of the shape.
 pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
     record(
         |counts| &mut counts.primitives,

@@ -10,7 +10,7 @@ pub(super) const TRIANGLE_HITS: Group = Group("triangle hits");
 pub(super) const TRIANGLE_SURFACE: Group = Group("triangle surface");
 /// The distance and the misses of spheres.
 pub(super) const SPHERE_HITS: Group = Group("sphere hits");
-/// Boxes, which decide which nodes are entered and in which order.
+/// Boxes, which decide the nodes that are entered and their order.
 pub(super) const BOXES: Group = Group("boxes");
 /// Building a tree that can be traversed, whatever its cost.
 pub(super) const TREES: Group = Group("trees");

@@ -42,7 +42,7 @@ fn author(arguments: &[impl AsRef<OsStr>]) -> Output {
     author.args(arguments).output().unwrap()
 }
 
-/// Runs `cargo author`, which must succeed, and returns what it prints.
+/// Runs `cargo author`, which must succeed, and returns its output.
 #[track_caller]
 pub fn author_succeeds(arguments: &[impl AsRef<OsStr>]) -> String {
     let output = author(arguments);

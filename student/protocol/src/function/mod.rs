@@ -35,7 +35,7 @@ pub trait Function: Copy + Debug + PartialEq + 'static {
     /// Returns the method's name, such as `BBox::hit`.
     fn name(subject: &Self::Subject) -> &'static str;
 
-    /// Returns a sentence about one call, in which `{name}` stands for the field of this name.
+    /// Returns a sentence about one call. `{name}` stands for the field of this name.
     fn sentence(subject: &Self::Subject) -> &'static str;
 
     /// Returns the question that asks for the calls of a table.

@@ -13,7 +13,7 @@ use crate::value::{Fields, Record, fields};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reflect;
 
-/// A direction at a point of a surface, in the frame in which +z is the normal.
+/// A direction at a point of a surface, in a frame whose +z is the normal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct LocalDirection {

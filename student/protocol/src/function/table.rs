@@ -34,7 +34,7 @@ pub trait AnyTable {
     /// Returns the function's name, such as `BBox::hit`.
     fn name(&self) -> &'static str;
 
-    /// Returns a sentence about one row, in which `{name}` stands for the field of this name.
+    /// Returns a sentence about one row. `{name}` stands for the field of this name.
     fn sentence(&self) -> &'static str;
 
     /// Returns the value that the function is called on.
@@ -65,7 +65,7 @@ pub trait AnyTable {
     /// If there are fewer rows.
     fn subset(&self, rows: Range<usize>) -> Question;
 
-    /// Returns the question in which `change` replaces every field of the subject and of the rows.
+    /// Returns the question with every field of the subject and of the rows replaced by `change`.
     /// Returns `None` if the rows are those of a picture.
     fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question>;
 }

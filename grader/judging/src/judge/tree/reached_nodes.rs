@@ -52,7 +52,7 @@ pub fn reached_nodes<'a>(
         let primitives = shapes.len();
         return Err(TreeDefect::NoNodes { primitives });
     }
-    // Each primitive has its own number, by which it is identified. Unknown numbers have no
+    // Each primitive is identified by its own number. Unknown numbers have no
     // index.
     let index_of: BTreeMap<u32, usize> = shapes.iter().map(Shape::number).zip(0..).collect();
     let order: Vec<Option<usize>> = tree

@@ -1,4 +1,4 @@
-//! The crate in which a submission's `mirror.rs` is compiled with the reference's `ball.rs`.
+//! The crate that compiles a submission's `mirror.rs` with the reference's `ball.rs`.
 
 pub use parts::ball;
 

@@ -165,7 +165,7 @@ mod tests {
         let problems = problems(text);
         let starts = [
             "a.md:2: `cargo grade --taks sphere`: error: unexpected argument '--taks' found",
-            "a.md:3: `cargo grade --task spheres`: error: unknown task (did you mean sphere?)",
+            "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres' for '--task <TASK>'",
             "a.md:4: cargo has no command gradee",
             "a.md:5: no command has the flag --views",
             "a.md:6: there is no file tree.rs with examples",

@@ -13,7 +13,7 @@
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
 //! | types of fields | `types` |
-//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`section`]; [`content_hash`], [`sanitize`] |
+//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`scene`], [`section`]; [`content_hash`], [`sanitize`] |
 
 pub mod assignment;
 pub mod content_hash;
@@ -26,6 +26,7 @@ pub mod observe;
 pub mod picture;
 pub mod recognise;
 pub mod sanitize;
+pub mod scene;
 pub mod section;
 pub mod signatures;
 mod types;

@@ -112,6 +112,7 @@ fn sanitized_evidence(evidence: &Evidence) -> Evidence {
         asked: sanitize(&evidence.asked, usize::MAX),
         got: sanitize(&evidence.got, usize::MAX),
         wanted: sanitize(&evidence.wanted, usize::MAX),
+        can_be_shown: evidence.can_be_shown,
     }
 }
 

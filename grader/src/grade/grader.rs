@@ -182,6 +182,7 @@ impl<'a> Grader<'a> {
             self.options.handed_out,
         );
         score.rerun_command = RerunCommand {
+            assignment: self.options.assignment_option(),
             submission: self.options.submission.clone(),
             exam: self.options.exam.option().map(Path::to_owned),
             is_untrusted: !matches!(

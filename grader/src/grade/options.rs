@@ -42,6 +42,16 @@ pub struct GradeOptions {
     pub formats: Vec<OutputSpec>,
 }
 
+impl GradeOptions {
+    /// Returns the value of `--assignment` in a command that repeats the grading, or `None` if the
+    /// exam file decides or it is the default.
+    pub fn assignment_option(&self) -> Option<&'static str> {
+        let is_default = self.handed_out == <&HandedOut>::default();
+        let is_chosen = self.exam == ExamSource::Practice && !is_default;
+        is_chosen.then_some(self.handed_out.assignment.id)
+    }
+}
+
 impl Default for GradeOptions {
     fn default() -> Self {
         GradeOptions {

@@ -177,6 +177,9 @@ pub struct Evidence {
     pub got: String,
     /// The expected answer.
     pub wanted: String,
+    /// Whether the viewer has something to show for the question. Not stored in the file.
+    #[serde(skip)]
+    pub can_be_shown: bool,
 }
 
 /// Result of one item.
@@ -369,7 +372,9 @@ impl ItemScore {
 
     /// Returns the command that shows the question of the evidence in the viewer, if there is one.
     pub fn view_command(&self, command: &RerunCommand) -> Option<String> {
-        command.view(&self.id, self.evidence.as_ref()?.number)
+        let evidence = self.evidence.as_ref()?;
+        let number = evidence.can_be_shown.then_some(evidence.number)?;
+        command.view(&self.id, number)
     }
 }
 

@@ -7,6 +7,8 @@ use maud::html;
 /// The options that every printed command must repeat to refer to the same submission and exam.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RerunCommand {
+    /// The id of the assignment, or `None` if it is the default one.
+    pub assignment: Option<&'static str>,
     /// The path of the submission, or `None` for the default one.
     pub submission: Option<PathBuf>,
     /// The path of the exam file, or `None` for the practice exam.
@@ -27,13 +29,13 @@ impl RerunCommand {
     }
 
     /// Returns the command that shows the tree or the shapes of one question in the viewer, which
-    /// accepts only the practice exam. Questions about the camera have neither.
+    /// accepts only the practice exam.
     pub fn view(&self, item: &str, number: usize) -> Option<String> {
-        let has_scene = self.exam.is_none() && !item.starts_with("camera.");
+        let is_practice = self.exam.is_none();
         let submission = self.submission.iter();
         let words = submission.flat_map(|path| ["--submission".to_owned(), shell_word(path)]);
         let question = format!("--item {item}#{number}");
-        has_scene.then(|| self.join("cargo view", words, question))
+        is_practice.then(|| self.join("cargo view", words, question))
     }
 
     fn command(&self, what: &str) -> String {
@@ -45,11 +47,13 @@ impl RerunCommand {
         self.join("cargo grade", submission.chain(exam), what.to_owned())
     }
 
-    /// Returns a command that treats the submission as before.
+    /// Returns a command that treats the submission as before. `words` name it.
     fn join(&self, start: &str, words: impl Iterator<Item = String>, end: String) -> String {
+        let assignment = self.assignment.map(|id| format!("--assignment {id}"));
         let untrusted = self.is_untrusted.then(|| "--untrusted".to_owned());
         let all = [start.to_owned()].into_iter().chain(words);
-        let words: Vec<String> = all.chain(untrusted).chain([end]).collect();
+        let options = assignment.into_iter().chain(untrusted);
+        let words: Vec<String> = all.chain(options).chain([end]).collect();
         words.join(" ")
     }
 }
@@ -76,19 +80,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn command_names_a_given_submission_and_exam() {
+    fn command_names_a_given_submission_exam_and_assignment() {
         let own = RerunCommand::default();
         let final_exam = RerunCommand {
+            assignment: None,
             submission: Some("handed in/O'Hara".into()),
             exam: Some("final.json".into()),
             is_untrusted: false,
         };
         let untrusted = RerunCommand {
+            assignment: None,
             submission: Some("alice.zip".into()),
             exam: None,
             is_untrusted: true,
         };
+        let other = RerunCommand {
+            assignment: Some("light"),
+            ..RerunCommand::default()
+        };
         for (command, again, view) in [
+            (
+                other,
+                "cargo grade --assignment light ",
+                Some("cargo view --assignment light "),
+            ),
             (own, "cargo grade ", Some("cargo view ")),
             (
                 final_exam,
@@ -106,7 +121,6 @@ mod tests {
             assert_eq!(command.replay("sphere.uv", 7), replay);
             let view = view.map(|view| format!("{view}--item sphere.uv#7"));
             assert_eq!(command.view("sphere.uv", 7), view);
-            assert_eq!(command.view("camera.corners", 1), None);
         }
     }
 

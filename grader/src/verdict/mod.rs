@@ -10,6 +10,7 @@ use judging::exam::{Exam, Item};
 use judging::exam_file::ExamName;
 use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use judging::sanitize::sanitize;
+use judging::scene;
 use judging::section::Section;
 use judging::signatures::KnownMistake;
 
@@ -91,11 +92,8 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
             score.message = fault.to_string();
             score.clue = Some(clue::of_fault(fault, handed_out.assignment.info(item.task)));
             score.section = item.section.clone();
-            score.evidence = culprit.map(|(question, element)| Evidence {
-                number: item.number(question, element),
-                asked: describe::element(&item.questions[question].question, element),
-                got: "no answer".to_owned(),
-                wanted: "an answer".to_owned(),
+            score.evidence = culprit.map(|culprit| {
+                evidence(item, culprit, ["no answer", "an answer"].map(str::to_owned))
             });
         }
         ItemOutcome::NotRun(why) => {
@@ -232,12 +230,20 @@ fn score_answers(
         }
     };
     score.verdict = verdict;
-    score.evidence = Some(Evidence {
-        number: item.number(question, failure.element),
-        asked: describe::element(&item.questions[question].question, failure.element),
+    score.evidence = Some(evidence(item, (question, failure.element), [got, wanted]));
+}
+
+/// Returns the evidence for an element of a question, with the answer and the expected one.
+fn evidence(item: &Item, (question, element): (usize, usize), answers: [String; 2]) -> Evidence {
+    let asked = &item.questions[question].question;
+    let [got, wanted] = answers;
+    Evidence {
+        number: item.number(question, element),
+        asked: describe::element(asked, element),
         got,
         wanted,
-    });
+        can_be_shown: scene::can_be_shown(asked),
+    }
 }
 
 /// Returns how many answers are wrong, and `what` is wrong in the one that is shown.

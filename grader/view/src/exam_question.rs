@@ -12,7 +12,8 @@ use grader::question_ref::QuestionRef;
 use judging::describe;
 use judging::exam::ExamQuestion;
 use judging::judge::tree::bounds::Bounds;
-use protocol::{Corners, Geometry, PinholeCamera, Query, Question, Ray, Shape, Tree};
+use judging::scene::{self, QuestionScene};
+use protocol::{PinholeCamera, Question, Ray, Shape, Tree};
 use view_probe::scene_data::{PathSettings, TreeSource};
 
 use crate::error::ViewError;
@@ -63,43 +64,6 @@ pub fn subject_of_question(
     )
 }
 
-/// Returns the shapes of a question, the tree over them, and the maximum number in a leaf. Returns `None`
-/// for a function that is not about things in space.
-fn shapes_of(question: &Question) -> Option<(&[Shape], TreeSource, u32)> {
-    if let Question::Build {
-        shapes,
-        max_leaf_size,
-    } = question
-    {
-        return Some((shapes, TreeSource::Build, *max_leaf_size));
-    }
-    if let Question::BBoxHit(_) = question {
-        return Some((&[], TreeSource::List, 1));
-    }
-    let Question::Hit(table) = question else {
-        return None;
-    };
-    Some(match &table.subject {
-        Geometry::List { shapes } => (shapes, TreeSource::List, 1),
-        Geometry::Tree {
-            shapes,
-            nodes,
-            root,
-        } => {
-            let tree = Tree {
-                nodes: nodes.clone(),
-                root: *root,
-                order: Vec::new(),
-            };
-            (shapes, TreeSource::Prebuilt(tree), 1)
-        }
-        Geometry::BuiltTree {
-            shapes,
-            max_leaf_size,
-        } => (shapes, TreeSource::Build, *max_leaf_size),
-    })
-}
-
 fn subject(
     name: &str,
     title: &str,
@@ -111,23 +75,29 @@ fn subject(
         let scene = Scene::from_text(scene).map_err(ViewError::usage)?;
         return Ok(Subject::of_scene(name, &scene, settings));
     }
-    let Some((shapes, tree, leaf)) = shapes_of(&question.question) else {
+    let Some(QuestionScene {
+        shapes,
+        corners,
+        tree,
+        max_leaf_size,
+    }) = QuestionScene::of(&question.question)
+    else {
         return Err(ViewError::Usage(format!(
-            "{name} is about the camera alone, so there is no scene to show: \
+            "{name} is about neither shapes nor a box, so there is no scene to show: \
              run `cargo grade --replay {name}`"
         )));
     };
-    let mut boxes = Vec::new();
-    let ray = if let Question::BBoxHit(table) = &question.question {
-        let Corners { min, max } = table.subject;
-        boxes.push([min, max]);
-        let query = table.rows.get(element);
-        query.map(|Query { ray, times }| ray.within(times.min, times.max))
-    } else if let Question::Hit(table) = &question.question {
-        table.rows.get(element)
-    } else {
-        None
+    let tree = match tree {
+        Some((nodes, root)) => TreeSource::Prebuilt(Tree {
+            nodes: nodes.into_owned(),
+            root,
+            order: Vec::new(),
+        }),
+        None if max_leaf_size.is_some() => TreeSource::Build,
+        None => TreeSource::List,
     };
+    let boxes: Vec<[Vec3; 2]> = corners.into_iter().collect();
+    let ray = scene::ray(&question.question, element);
     // The ray is left out, since it may begin far away.
     let boxes_seen = boxes.iter().map(|[min, max]| Bounds {
         min: min.as_dvec3(),
@@ -157,8 +127,8 @@ fn subject(
             albedo: Vec3::splat(0.7),
         }],
         shape_materials: vec![0; shapes.len()],
-        shapes: numbered(shapes.to_vec()),
-        max_leaf_size: leaf as usize,
+        shapes: numbered(shapes.into_owned()),
+        max_leaf_size: max_leaf_size.unwrap_or(1) as usize,
     };
     let mut subject = Subject::of_scene(name, &scene, settings);
     Arc::make_mut(&mut subject.data).tree = tree;

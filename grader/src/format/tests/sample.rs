@@ -102,6 +102,7 @@ fn add_details(item: &mut ItemScore) {
             asked,
             got,
             wanted,
+            can_be_shown: !item.id.starts_with("camera."),
         })
     };
     let hint = |nudge: &str, hint: &str| Hint {

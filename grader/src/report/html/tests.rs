@@ -90,6 +90,7 @@ fn escapes_everything_that_a_submission_can_write() {
                 asked,
                 got,
                 wanted,
+                can_be_shown: true,
             });
             let item = exam.items.iter().find(|item| item.id == line.id).unwrap();
             let panics = item.questions.iter();

@@ -64,10 +64,15 @@ fn an_item_is_run_again_by_its_question_or_with_its_task() {
         asked,
         got,
         wanted,
+        can_be_shown: true,
     });
     let (rerun, view) = (item.rerun_command(&command), item.view_command(&command));
     assert_eq!(rerun, "cargo grade --replay sphere.uv#7");
     assert_eq!(view.as_deref(), Some("cargo view --item sphere.uv#7"));
+    if let Some(evidence) = &mut item.evidence {
+        evidence.can_be_shown = false;
+    }
+    assert_eq!(item.view_command(&command), None);
 }
 
 #[test]

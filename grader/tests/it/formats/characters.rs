@@ -28,6 +28,7 @@ pub fn score_with(text: &str) -> (Exam, Score) {
     score.rerun_command = RerunCommand {
         submission: Some(text.into()),
         exam: Some(text.into()),
+        assignment: None,
         is_untrusted: false,
     };
     score.build.notes.push(text.to_owned());
@@ -47,6 +48,7 @@ pub fn score_with(text: &str) -> (Exam, Score) {
                 asked: text.to_owned(),
                 got: text.to_owned(),
                 wanted: text.to_owned(),
+                can_be_shown: true,
             });
         }
     }

@@ -109,7 +109,7 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
-    /// The assignment; default: rays
+    /// The assignment; default: that of the exam file, or rays
     #[arg(long, value_name = "ID", value_parser = HandedOut::find, help_heading = STAFF_OPTIONS)]
     pub assignment: Option<&'static HandedOut>,
 
@@ -199,7 +199,8 @@ impl Arguments {
     /// Returns the command that these arguments select. Fails if the assignment has no task with a name
     /// that they contain.
     pub fn resolve(self) -> Result<Command, Error> {
-        let handed_out = self.assignment.unwrap_or_default();
+        let exam = ExamSource::from_option(self.exam);
+        let handed_out = exam.assignment(self.assignment);
         let assignment = handed_out.assignment;
         let tasks = self.task.map(|text| {
             let tasks = TaskSelection::parse(&text, assignment);
@@ -214,7 +215,7 @@ impl Arguments {
         let options = GradeOptions {
             handed_out,
             submission: self.submission,
-            exam: ExamSource::from_option(self.exam),
+            exam,
             tasks: tasks.unwrap_or_default(),
             policy: self.policy,
             gradescope_metadata: self.gradescope_metadata,

@@ -91,7 +91,7 @@ pub struct ClassArguments {
 /// Options for grading each submission, with the meaning that they have in `cargo grade`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct GradingArguments {
-    /// The assignment; default: rays
+    /// The assignment; default: that of the exam file, or rays
     #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
     pub assignment: Option<&'static HandedOut>,
 
@@ -207,9 +207,10 @@ impl Lists {
 impl GradingArguments {
     /// Returns the options for grading each submission.
     pub fn resolve(&self) -> GradeOptions {
+        let exam = ExamSource::from_option(self.exam.clone());
         GradeOptions {
-            handed_out: self.assignment.unwrap_or_default(),
-            exam: ExamSource::from_option(self.exam.clone()),
+            handed_out: exam.assignment(self.assignment),
+            exam,
             policy: self.policy.clone(),
             dependents: Dependents::new(self.no_reference),
             isolation: self

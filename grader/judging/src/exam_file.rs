@@ -103,6 +103,19 @@ struct Format {
     schema: u32,
 }
 
+/// The assignment of an exam file.
+#[derive(Deserialize)]
+struct ForAssignment {
+    assignment: String,
+}
+
+/// Returns the id of the assignment that an exam file is for, or `None` if it names none. The exam need
+/// not be valid.
+pub fn assignment_id(bytes: &[u8]) -> Option<String> {
+    let exam: Option<ForAssignment> = serde_json::from_slice(bytes).ok();
+    exam.map(|exam| exam.assignment)
+}
+
 /// Returns the problem if this is not the version of the format that this grader reads.
 fn format_problem(schema: u32) -> Option<String> {
     (schema != Exam::SCHEMA).then(|| {

@@ -54,6 +54,19 @@ impl ExamSource {
         }
     }
 
+    /// Returns the assignment of the command line, or else the one that an exam file is for. Without
+    /// either, or if the file has none that is known, returns the default one.
+    pub fn assignment(&self, option: Option<&'static HandedOut>) -> &'static HandedOut {
+        let of_file = || {
+            let ExamSource::File(path) = self else {
+                return None;
+            };
+            let bytes = read(path, files::open(path).ok()?).ok()?;
+            HandedOut::find(&exam_file::assignment_id(&bytes)?).ok()
+        };
+        option.or_else(of_file).unwrap_or_default()
+    }
+
     /// Reads the exam, and validates it as one for this assignment.
     pub fn load(&self, handed_out: &HandedOut) -> Result<ExamFile, Error> {
         let name = self.option().unwrap_or(Path::new(PRACTICE_FILE));

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, value_parser};
 use glam::UVec2;
+use grader::handed_out::HandedOut;
 use grader::question_ref::QuestionRef;
 
 /// The port that is used if it is free.
@@ -25,6 +26,10 @@ pub struct Arguments {
     /// Show a question of the practice exam, such as traverse.prunes#3, or an item's first question
     #[arg(long, value_name = "ITEM#N")]
     pub item: Option<QuestionRef>,
+
+    /// The assignment (course staff) [default: rays]
+    #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
+    pub assignment: Option<&'static HandedOut>,
 
     /// Number of pixels across and up [default: as in the scene]
     #[arg(long, value_name = "WxH", value_parser = size)]

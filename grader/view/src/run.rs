@@ -41,7 +41,7 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         bounces: arguments.bounces,
         seed: arguments.seed,
     };
-    let handed_out = <&HandedOut>::default();
+    let handed_out = arguments.assignment.unwrap_or_default();
     let mut scenes = SceneList::find(&workspace);
     let subject = match &arguments.item {
         Some(question) => subject_of_question(handed_out, question, settings)?,

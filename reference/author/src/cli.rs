@@ -69,6 +69,10 @@ pub enum Command {
         /// Grade only a fixed sample of the mutants
         #[arg(long)]
         fast: bool,
+        /// Grade only the mutants of one task, such as sphere, or of all tasks of a file, such as
+        /// bvh
+        #[arg(long, value_name = "TASK", conflicts_with = "record")]
+        task: Option<String>,
         /// Whether to record the result.
         #[command(flatten)]
         record: RecordArgs,

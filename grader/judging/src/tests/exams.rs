@@ -290,3 +290,12 @@ fn a_failure_counts_all_wrong_elements_and_names_the_first() {
     };
     assert_eq!((element, count), (1, Some((2, question.question.count()))));
 }
+
+#[test]
+fn an_exam_file_names_its_assignment_even_if_it_is_not_valid() {
+    let id = |text: &str| exam_file::assignment_id(text.as_bytes());
+    let other = r#"{"schema": 1, "assignment": "light", "pages": []}"#;
+    assert_eq!(id(other).as_deref(), Some("light"));
+    assert_eq!(id(r#"{"schema": 2}"#), None);
+    assert_eq!(id("[]"), None);
+}

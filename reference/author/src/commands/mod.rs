@@ -55,7 +55,9 @@ pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
         Command::Bundle(args) => archives::bundle(root, authoring, &args),
         Command::Package(args) => archives::package(root, authoring, &args),
         Command::Mistakes(args) => proofs::mistakes(root, authoring, &args),
-        Command::Mutants { fast, record } => proofs::mutants(authoring, fast, record),
+        Command::Mutants { fast, task, record } => {
+            proofs::mutants(authoring, fast, task.as_deref(), record)
+        }
         Command::Coverage(check) => {
             let practice = exams::load_practice(root, authoring)?;
             let coverage = coverage(root, authoring.handed_out, &practice)?;

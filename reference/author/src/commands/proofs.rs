@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use anyhow::Error;
 use grader::printing::print_error_line;
+use grader::task_selection::TaskSelection;
 use judging::exam::Exam;
 
 use super::{CommandResult, PRACTICE, generate, record_result, report, solutions, written};
@@ -74,17 +76,21 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
     generate(&[table], mode, "mistakes")
 }
 
-/// Makes mutants of the reference, and grades them.
+/// Makes mutants of the reference, and grades them, or only those of some tasks.
 pub(super) fn mutants(
     authoring: &'static Authoring,
     fast: bool,
+    task: Option<&str>,
     record: RecordArgs,
 ) -> CommandResult {
-    let findings = mutants::run(authoring, if fast { SAMPLE_STEP } else { 1 })?;
+    let tasks = task.map(|task| TaskSelection::parse(task, authoring.handed_out.assignment));
+    let tasks = tasks.transpose().map_err(Error::msg)?.unwrap_or_default();
+    let findings = mutants::run(authoring, &tasks, if fast { SAMPLE_STEP } else { 1 })?;
+    let of_task = task.map_or(String::new(), |task| format!(" of {task}"));
     if fast {
-        println!("selected: one in {SAMPLE_STEP}, in the order of their names");
+        println!("selected: one in {SAMPLE_STEP}{of_task}, in the order of their names");
     } else {
-        println!("selected: all");
+        println!("selected: all{of_task}");
     }
     let line = format!("mutants: {}", findings.summary_line());
     record_result(record, "mutants of the reference", PRACTICE, &line)?;

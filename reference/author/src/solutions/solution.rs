@@ -38,7 +38,7 @@ impl Solution {
     ///
     /// # Panics
     ///
-    /// Panics if the solution is a mutant, which is about no task in particular.
+    /// Panics if the solution is about no task, such as the reference.
     pub fn task(&self) -> Task {
         self.expected.tasks[0]
     }

@@ -4,6 +4,7 @@
 pub mod findings;
 
 use anyhow::{Result, bail};
+use grader::task_selection::TaskSelection;
 
 use crate::authoring::Authoring;
 use crate::exams;
@@ -17,8 +18,8 @@ use crate::solutions::workbench::Workbench;
 /// The step of a sample: it contains one in this many mutants, in the order of their names.
 pub const SAMPLE_STEP: usize = 8;
 
-/// Builds all mutants, or one in `step`, and grades each with the practice exam.
-pub fn run(authoring: &'static Authoring, step: usize) -> Result<Findings> {
+/// Builds all mutants of some tasks, or one in `step` of them, and grades each with the practice exam.
+pub fn run(authoring: &'static Authoring, tasks: &TaskSelection, step: usize) -> Result<Findings> {
     let workbench = Workbench::open(authoring)?;
     let handed_out = authoring.handed_out;
     let reference = Sources::reference(workbench.root(), handed_out)?;
@@ -30,7 +31,11 @@ pub fn run(authoring: &'static Authoring, step: usize) -> Result<Findings> {
     }
 
     let all = mutants(&reference)?;
-    let sample = all.iter().step_by(step);
+    let of_tasks = all.iter().filter(|mutant| {
+        let mut own = mutant.expected.tasks.iter();
+        own.any(|&task| tasks.includes(task))
+    });
+    let sample = of_tasks.step_by(step);
     let graded = run_compiled(&workbench, sample, "mutants", |mutant, built| {
         let score = built.map(|built| built.score(&exam)).transpose()?;
         let outcome = match score {

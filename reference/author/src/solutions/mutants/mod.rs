@@ -9,6 +9,7 @@ mod visit;
 use std::collections::BTreeMap;
 
 use anyhow::{Context, Result};
+use judging::assignment::{Assignment, Task, TaskInfo};
 
 use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
@@ -17,6 +18,7 @@ use crate::solutions::sources::Sources;
 /// function; changes that are alike are numbered.
 pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     let mut found = Vec::new();
+    let assignment = reference.handed_out().assignment;
     for file in reference.handed_out().files {
         let text = reference.text(file.name).unwrap_or_default();
         let mut numbers: BTreeMap<String, u32> = BTreeMap::new();
@@ -36,12 +38,25 @@ pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
                 id: name,
                 title: String::new(),
                 sources: reference.clone().with_file(file.name, text),
-                expected: Expected::default(),
+                expected: Expected {
+                    tasks: tasks_of(assignment, file.name, &change.function),
+                    ..Expected::default()
+                },
             });
         }
     }
     found.sort_by(|a, b| a.id.cmp(&b.id));
     Ok(found)
+}
+
+/// Returns the task whose method a function is, or all tasks of its file if it is none of their methods.
+fn tasks_of(assignment: &Assignment, file: &str, function: &str) -> Vec<Task> {
+    let in_file = || assignment.tasks.iter().filter(|task| task.file == file);
+    let own = in_file().find(|task| task.method == function);
+    match own {
+        Some(own) => vec![own.task()],
+        None => in_file().map(TaskInfo::task).collect(),
+    }
 }
 
 #[cfg(test)]
@@ -83,5 +98,19 @@ mod tests {
             let changed: Vec<&str> = changed.map(|file| file.name).collect();
             assert_eq!(changed, [id.split(':').next().unwrap_or_default()], "{id}");
         }
+    }
+
+    #[test]
+    fn a_mutant_is_of_the_task_whose_method_it_changes_or_of_all_tasks_of_the_file() {
+        let tasks = |function| -> Vec<&str> {
+            let tasks = tasks_of(RAYS.assignment, "bvh.rs", function);
+            tasks
+                .into_iter()
+                .map(|task| RAYS.assignment.info(task).id)
+                .collect()
+        };
+        assert_eq!(tasks("hit"), ["traverse"]);
+        assert_eq!(tasks("build"), ["build"]);
+        assert_eq!(tasks("build_node"), ["build", "traverse"]);
     }
 }

@@ -1,5 +1,6 @@
 //! The test harness: builds a submission, runs the grader on it, and reads the results.
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,10 +11,15 @@ use grader::handed_out::RAYS;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// The full points of each task, in lecture order.
-pub static FULL_POINTS: LazyLock<Vec<u64>> = LazyLock::new(|| {
+/// The points of tasks, by their ids.
+pub type Points = BTreeMap<String, u64>;
+
+/// The full points of each task.
+pub static FULL_POINTS: LazyLock<Points> = LazyLock::new(|| {
     let tasks = RAYS.assignment.tasks.iter();
-    tasks.map(|task| u64::from(task.points)).collect()
+    tasks
+        .map(|task| (task.id.to_owned(), u64::from(task.points)))
+        .collect()
 });
 
 /// Returns the root folder of the workspace.
@@ -229,10 +235,13 @@ impl GradeRun {
         self.score()["tasks"].as_array().unwrap().clone()
     }
 
-    /// Returns the points of each task, in lecture order.
-    pub fn points(&self) -> Vec<u64> {
+    /// Returns the points of each task.
+    pub fn points(&self) -> Points {
+        let id = |task: &Value| task["id"].as_str().unwrap().to_owned();
         let tasks = self.tasks().into_iter();
-        tasks.map(|task| task["points"].as_u64().unwrap()).collect()
+        tasks
+            .map(|task| (id(&task), task["points"].as_u64().unwrap()))
+            .collect()
     }
 
     /// Returns the scores of a task's items.
@@ -263,21 +272,23 @@ impl GradeRun {
     }
 }
 
-/// The positions of tasks in lecture order.
-pub const TRIANGLE: usize = 1;
-pub const SPHERE: usize = 2;
-pub const BBOX: usize = 3;
-pub const BUILD: usize = 4;
-pub const TRAVERSE: usize = 5;
-
-/// Returns the full points of each task, but 0 for the tasks with these indices in lecture order.
-pub fn full_points_except(zero: &[usize]) -> Vec<u64> {
-    let mut points = FULL_POINTS.to_vec();
-    zero.iter().for_each(|&task| points[task] = 0);
+/// Returns the full points of each task, but 0 for these tasks.
+pub fn full_points_except(zero: &[&str]) -> Points {
+    let mut points = FULL_POINTS.clone();
+    for task in zero {
+        *points.get_mut(*task).unwrap() = 0;
+    }
     points
 }
 
-/// Returns the points of all tasks except the faulty one.
-pub fn points_of_other_tasks(points: &[u64], fault: usize) -> u64 {
-    points.iter().sum::<u64>() - points[fault]
+/// Returns no points for each task.
+pub fn no_points() -> Points {
+    let ids: Vec<&str> = RAYS.assignment.tasks.iter().map(|task| task.id).collect();
+    full_points_except(&ids)
+}
+
+/// Returns the points of the other tasks.
+pub fn without(mut points: Points, tasks: &[&str]) -> Points {
+    points.retain(|task, _| !tasks.contains(&task.as_str()));
+    points
 }

@@ -8,7 +8,7 @@ use clap::CommandFactory;
 use grader::cli::Arguments;
 use grader::handed_out::RAYS;
 
-use crate::harness::{BUILD, FULL_POINTS, Submission, TRAVERSE, assert_fails, grader};
+use crate::harness::{FULL_POINTS, Submission, assert_fails, grader};
 
 fn reset_at(path: &Path, arguments: &[&str]) -> Output {
     let mut command = grader();
@@ -56,8 +56,8 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     }
     let graded = submission.grade();
     let points = graded.points();
-    assert_eq!(points[BUILD], FULL_POINTS[BUILD]);
-    assert!(points[TRAVERSE] < FULL_POINTS[TRAVERSE], "{points:?}");
+    assert_eq!(points["build"], FULL_POINTS["build"]);
+    assert!(points["traverse"] < FULL_POINTS["traverse"], "{points:?}");
     // The old file is in the folder, and is named, but does not matter.
     let report = graded.report();
     let note = "note: bvh.rs.bak-1 differs from bvh.rs, and is ignored";

@@ -3,7 +3,7 @@
 
 use insta::assert_snapshot;
 
-use crate::harness::{BBOX, BUILD, FULL_POINTS, Submission, TRAVERSE, TRIANGLE};
+use crate::harness::{FULL_POINTS, GradeRun, Submission};
 
 /// An interval that begins and ends at the origin of a ray.
 const NEVER: &str = "protocol::Interval::new(0.0, 0.0)";
@@ -18,15 +18,29 @@ fn without_swap() -> Submission {
     Submission::reference("no-swap").with_replaced("bbox.rs", swapped, kept)
 }
 
+/// Asserts that two items of `traverse` are blocked, and all others pass.
+#[track_caller]
+fn assert_costs_two_blocked_items(graded: &GradeRun) {
+    let items = graded.items("traverse");
+    let blocked = items.iter().filter(|item| item["verdict"] == "blocked");
+    let points: Vec<u64> = blocked
+        .map(|item| item["max_points"].as_u64().unwrap())
+        .collect();
+    assert_eq!(points.len(), 2, "{items:?}");
+    let lost = FULL_POINTS["traverse"] - graded.points()["traverse"];
+    assert_eq!(lost, points.iter().sum::<u64>());
+    assert_eq!(graded.verdicts("traverse"), ["blocked", "pass"]);
+}
+
 #[test]
 fn a_wrong_box_test_does_not_cost_traversal_points() {
     let submission = without_swap();
     let points = submission.grade_with_reference().points();
-    assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
-    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
+    assert!(points["bbox"] < FULL_POINTS["bbox"], "{points:?}");
+    assert_eq!(points["traverse"], FULL_POINTS["traverse"]);
     // Without the reference, the traversal cannot be judged.
     let graded = submission.grade();
-    assert!(graded.points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
+    assert!(graded.points()["traverse"] < FULL_POINTS["traverse"]);
     let verdicts = graded.verdicts("traverse");
     assert!(verdicts.contains(&"blocked".to_owned()), "{verdicts:?}");
 }
@@ -37,7 +51,7 @@ fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
         .with_replaced("bvh.rs", LEFT_FIRST, "if in_l.min > in_r.min {")
         .grade_with_reference();
     let points = graded.points();
-    for task in [BBOX, TRAVERSE] {
+    for task in ["bbox", "traverse"] {
         assert!(points[task] < FULL_POINTS[task], "{points:?}");
     }
     assert_snapshot!(graded.report());
@@ -64,10 +78,10 @@ fn finds_two_mistakes_that_hide_each_other() {
             &format!("(l.bbox.hit(ray, {NEVER}), r.bbox.hit(ray, {NEVER}))"),
         );
     let points = graded.grade_with_reference().points();
-    assert!(points[BBOX] < FULL_POINTS[BBOX], "{points:?}");
-    assert_eq!(points[TRAVERSE], 0);
+    assert!(points["bbox"] < FULL_POINTS["bbox"], "{points:?}");
+    assert_eq!(points["traverse"], 0);
     // On its own, the traversal seems correct.
-    assert!(graded.grade().points()[TRAVERSE] > 15);
+    assert!(4 * graded.grade().points()["traverse"] > 3 * FULL_POINTS["traverse"]);
 }
 
 /// The tree has cycles, so that the traversal of the submission's own trees never ends.
@@ -75,11 +89,12 @@ fn finds_two_mistakes_that_hide_each_other() {
 fn a_tree_without_end_does_not_cost_traversal_points() {
     let (right, cyclic) = ("interior(bbox, l, r)", "interior(bbox, start, middle)");
     let endless = Submission::reference("endless").with_replaced("bvh.rs", right, cyclic);
-    let [points, alone] = endless.grade_impatiently().map(|graded| graded.points());
-    assert_eq!(points[BUILD], 0);
-    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
-    // Without the reference, the items that build a tree cannot be judged: two with three points.
-    assert_eq!(alone[TRAVERSE], FULL_POINTS[TRAVERSE] - 3);
+    let [graded, alone] = endless.grade_impatiently();
+    let points = graded.points();
+    assert_eq!(points["build"], 0);
+    assert_eq!(points["traverse"], FULL_POINTS["traverse"]);
+    // Without the reference, the items that build a tree cannot be judged.
+    assert_costs_two_blocked_items(&alone);
 }
 
 /// A triangle without area lets the triangles' task hang, and its last items are not run. An item of
@@ -94,11 +109,10 @@ fn what_depends_on_a_stopped_task_is_not_run() {
     );
     let [graded, alone] = hanging.grade_impatiently();
     let points = graded.points();
-    assert!(points[TRIANGLE] < FULL_POINTS[TRIANGLE], "{points:?}");
-    assert_eq!(points[TRAVERSE], FULL_POINTS[TRAVERSE]);
-    // Without the reference, the picture and the radiance cannot be judged: two items with two points.
-    assert_eq!(alone.points()[TRAVERSE], FULL_POINTS[TRAVERSE] - 4);
-    assert_eq!(alone.verdicts("traverse"), ["blocked", "pass"]);
+    assert!(points["triangle"] < FULL_POINTS["triangle"], "{points:?}");
+    assert_eq!(points["traverse"], FULL_POINTS["traverse"]);
+    // Without the reference, the picture and the radiance cannot be judged.
+    assert_costs_two_blocked_items(&alone);
 }
 
 #[test]
@@ -109,7 +123,7 @@ fn keeps_the_first_result_if_substitution_does_not_compile() {
         .with_replaced("sphere.rs", "impl Sphere {", helper)
         .with_replaced("bvh.rs", LEFT_FIRST, with_helper)
         .grade_with_reference();
-    assert!(graded.points()[TRAVERSE] < FULL_POINTS[TRAVERSE]);
+    assert!(graded.points()["traverse"] < FULL_POINTS["traverse"]);
     assert!(!graded.verdicts("traverse").contains(&"blocked".to_owned()));
     let score = graded.score().to_string();
     assert!(!score.contains("\"carried_forward\":true"), "{score}");

@@ -7,19 +7,13 @@ use author::seed::Seed;
 use glam::Vec3;
 use judging::assignment::RAYS;
 use judging::exam::{ExpectedRows, Item, Key};
-use protocol::{Geometry, Question, Ray, Shape};
+use judging::scene::{self, QuestionScene};
+use protocol::{Question, Ray, Shape};
 
 use crate::sample_exams::{SEEDS, exam_of};
 
-fn rays(question: &Question) -> Vec<Ray> {
-    match question {
-        Question::Hit(table) => table.rows.to_vec().into_owned(),
-        Question::BBoxHit(table) => table.rows.to_vec().iter().map(|query| query.ray).collect(),
-        Question::SampleRay(_)
-        | Question::Reflect(_)
-        | Question::Build { .. }
-        | Question::Radiance { .. } => Vec::new(),
-    }
+fn rays(question: &Question) -> impl Iterator<Item = Ray> {
+    (0..question.count()).filter_map(|row| scene::ray(question, row))
 }
 
 #[test]
@@ -141,21 +135,13 @@ fn pictures_show_no_pole() {
 fn materials_are_distinct_in_trees() {
     for item in &exam_of(SEEDS[0]).items {
         for question in &item.questions {
-            let shapes = match &question.question {
-                Question::Build { shapes, .. } => shapes,
-                Question::Hit(table) => match &table.subject {
-                    Geometry::Tree { shapes, .. } | Geometry::BuiltTree { shapes, .. } => shapes,
-                    Geometry::List { .. } => continue,
-                },
-                Question::SampleRay(_)
-                | Question::BBoxHit(_)
-                | Question::Reflect(_)
-                | Question::Radiance { .. } => {
-                    continue;
-                }
+            let Some(scene) = QuestionScene::of(&question.question) else {
+                continue;
             };
-            let numbers: BTreeSet<u32> = shapes.iter().map(Shape::number).collect();
-            assert_eq!(numbers.len(), shapes.len(), "{}", item.id);
+            if scene.tree.is_some() || scene.max_leaf_size.is_some() {
+                let numbers: BTreeSet<u32> = scene.shapes.iter().map(Shape::number).collect();
+                assert_eq!(numbers.len(), scene.shapes.len(), "{}", item.id);
+            }
         }
     }
 }

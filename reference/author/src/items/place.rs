@@ -3,7 +3,8 @@
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
-use protocol::{Geometry, Interval, Question, Ray, Shape, TreeNode, Value};
+use judging::scene::QuestionScene;
+use protocol::{Interval, Question, Ray, Shape, TreeNode, Value};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
@@ -189,17 +190,8 @@ pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
 /// the Cornell box, whatever their size was. Returns `None` if it is not about a list of rays, or
 /// about nothing.
 pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuestion> {
-    let bounds = if let Question::BBoxHit(table) = &asked.question {
-        Bounds::new(table.subject.min, table.subject.max)
-    } else if let Question::Hit(table) = &asked.question
-        && !matches!(table.subject, Geometry::BuiltTree { .. })
-    {
-        let boxes = table.subject.shapes().iter().map(scan::bounds);
-        boxes.reduce(|all, next| all.union(&next))?
-    } else {
-        return None;
-    };
-    if bounds.diagonal() <= 0.0 {
+    let bounds = scan::extent(asked.question.table()?.subject())?;
+    if bounds.diagonal() <= 0.0 || builds_a_tree(&asked.question) {
         return None;
     }
     // Far from the origin, rounding moves everything a little, and what was only just fair need not be.
@@ -208,6 +200,12 @@ pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuest
         let moved = moved(place, asked);
         moved.as_ref().is_none_or(is_fair).then_some(moved)
     })
+}
+
+/// Returns whether the submission builds the tree that a question is about.
+fn builds_a_tree(question: &Question) -> bool {
+    let scene = QuestionScene::of(question);
+    scene.is_some_and(|scene| scene.max_leaf_size.is_some())
 }
 
 /// Returns whether a question about a tree is fair.

@@ -1,7 +1,7 @@
 //! Linear scans: finds the closest hit of a ray by testing every shape in a list.
 
 use glam::DVec3;
-use protocol::Shape;
+use protocol::{Record, Shape, Value};
 
 use super::bbox::Bounds;
 use super::sphere::Sphere;
@@ -63,6 +63,26 @@ pub fn bounds(shape: &Shape) -> Bounds {
             Bounds::around(corners(shape).into_iter().flatten())
         }
     }
+}
+
+/// Returns the box around the shapes and points of a subject, which is larger by its lengths, such as a
+/// radius. Returns `None` if the subject has neither.
+pub fn extent(subject: &dyn Record) -> Option<Bounds> {
+    let (mut boxes, mut margin) = (Vec::new(), 0.0_f64);
+    for value in subject.values() {
+        if let Value::Shapes(shapes) = value {
+            boxes.extend(shapes.iter().map(bounds));
+        } else if let Value::Point(point) = value {
+            boxes.push(Bounds::new(point, point));
+        } else if let Value::Length(length) = value {
+            margin = margin.max(length.into());
+        }
+    }
+    let all = boxes.into_iter().reduce(|all, next| all.union(&next))?;
+    Some(Bounds {
+        min: all.min - margin,
+        max: all.max + margin,
+    })
 }
 
 /// Returns whether all correct formulas in single precision agree on whether and where the ray hits

@@ -1,10 +1,12 @@
 //! The cells of the table: what distinguishes one question from another that asks the same.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use glam::DVec3;
+use glam::{DVec3, UVec2};
 use judging::exam::ExamQuestion;
-use protocol::{Geometry, Question, Ray, Shape};
+use judging::scene::{self, QuestionScene};
+use protocol::{AnyTable, Question, Ray, Record, Shape, Value};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
@@ -36,80 +38,123 @@ const SIZES: [Cell; 4] = ["size: none", "size: one", "size: few", "size: many"];
 /// Returns the cells that are distinguished in a task whose first question is this one, in the order
 /// of the table.
 pub(super) fn of_task(first: &Question) -> Vec<Cell> {
-    let of_rays = |start: &[Cell], more: &[Cell]| {
-        [&SCALES[..], &PLACES, &[OCTANTS], start, more, &HISTORY].concat()
-    };
-    match first {
-        Question::SampleRay(_) => {
-            let films = ["film: wide", "film: high", "film: large", QUADRANTS];
-            [&films[..], &HISTORY].concat()
-        }
-        Question::Hit(table) => match &table.subject {
-            Geometry::List { shapes } => match shapes.first() {
-                Some(Shape::Sphere { .. }) => of_rays(&[OUTSIDE, INSIDE, ON_SURFACE], &[]),
-                _ => of_rays(&[IN_FRONT, BEHIND, ON_SURFACE], &[]),
-            },
-            Geometry::Tree { .. } | Geometry::BuiltTree { .. } => {
-                of_rays(&[OUTSIDE, INSIDE], &SIZES)
-            }
-        },
-        Question::BBoxHit(_) => of_rays(&[OUTSIDE, INSIDE], &[]),
-        Question::Build { .. } => [&SCALES[..], &PLACES, &SIZES].concat(),
-        Question::Reflect(_) | Question::Radiance { .. } => HISTORY.into(),
+    if let Question::Build { .. } = first {
+        return [&SCALES[..], &PLACES, &SIZES].concat();
     }
+    let Some(subject) = first.table().map(AnyTable::subject) else {
+        return HISTORY.into();
+    };
+    if film(subject).is_some() {
+        let films = ["film: wide", "film: high", "film: large", QUADRANTS];
+        return [&films[..], &HISTORY].concat();
+    }
+    let (start, more): (&[Cell], &[Cell]) = match Target::of(first) {
+        None => return HISTORY.into(),
+        Some(Target::Tree(_)) => (&[OUTSIDE, INSIDE], &SIZES),
+        Some(Target::Box(_)) => (&[OUTSIDE, INSIDE], &[]),
+        Some(Target::Shapes(shapes)) => match shapes.first() {
+            Some(Shape::Sphere { .. }) => (&[OUTSIDE, INSIDE, ON_SURFACE], &[]),
+            _ => (&[IN_FRONT, BEHIND, ON_SURFACE], &[]),
+        },
+    };
+    [&SCALES[..], &PLACES, &[OCTANTS], start, more, &HISTORY].concat()
 }
 
 /// Adds the cells of all elements of a question.
 pub(super) fn count(asked: &ExamQuestion, counts: &mut Counts) {
     let mut add = |cell: Cell, times: usize| *counts.entry(cell).or_default() += times;
-    let calls = asked.question.count();
-    match &asked.question {
-        Question::SampleRay(table) => {
-            let film = table.subject.film;
-            let is_large = film.max_element() >= 1000;
-            add("film: wide", calls * usize::from(film.x > film.y));
-            add("film: high", calls * usize::from(film.y > film.x));
-            add("film: large", calls * usize::from(is_large));
-            for sample in table.rows.to_vec().iter() {
-                let (right, up) = (2 * sample.pixel.x >= film.x, 2 * sample.pixel.y >= film.y);
-                add(QUADRANT[usize::from(right) + 2 * usize::from(up)], 1);
-            }
+    let question = &asked.question;
+    let calls = question.count();
+    let subject = question.table().map(AnyTable::subject);
+    if let Question::Build { shapes, .. } = question {
+        place(&bounds(shapes), 1, &mut add);
+        add(size(shapes.len()), 1);
+    } else if let Some(film) = subject.and_then(film) {
+        let is_large = film.max_element() >= 1000;
+        add("film: wide", calls * usize::from(film.x > film.y));
+        add("film: high", calls * usize::from(film.y > film.x));
+        add("film: large", calls * usize::from(is_large));
+        for pixel in (0..calls).filter_map(|row| pixel(question, row)) {
+            let (right, up) = (2 * pixel.x >= film.x, 2 * pixel.y >= film.y);
+            add(QUADRANT[usize::from(right) + 2 * usize::from(up)], 1);
         }
-        Question::Hit(table) => {
-            let shapes = table.subject.shapes();
-            let bounds = bounds(shapes);
-            place(&bounds, calls, &mut add);
-            let is_list = matches!(table.subject, Geometry::List { .. });
-            if !is_list {
-                add(size(shapes.len()), calls);
-            }
-            for ray in table.rows.to_vec().iter() {
-                let start = if is_list {
-                    start_at_shapes(shapes, ray)
-                } else {
-                    start_at_box(&bounds, ray)
-                };
-                add(start, 1);
-                add(octant(ray), 1);
-            }
+    } else if let Some(target) = Target::of(question) {
+        let bounds = target.bounds();
+        place(&bounds, calls, &mut add);
+        if let Target::Tree(shapes) = &target {
+            add(size(shapes.len()), calls);
         }
-        Question::BBoxHit(table) => {
-            let bounds = Bounds::new(table.subject.min, table.subject.max);
-            place(&bounds, calls, &mut add);
-            for query in table.rows.to_vec().iter() {
-                add(start_at_box(&bounds, &query.ray), 1);
-                add(octant(&query.ray), 1);
-            }
+        for ray in (0..calls).filter_map(|row| scene::ray(question, row)) {
+            let start = match &target {
+                Target::Shapes(shapes) => start_at_shapes(shapes, &ray),
+                Target::Tree(_) | Target::Box(_) => start_at_box(&bounds, &ray),
+            };
+            add(start, 1);
+            add(octant(&ray), 1);
         }
-        Question::Build { shapes, .. } => {
-            place(&bounds(shapes), 1, &mut add);
-            add(size(shapes.len()), 1);
-        }
-        Question::Reflect(_) | Question::Radiance { .. } => {}
     }
     add(HISTORY[0], 1);
     add(HISTORY[1], calls.saturating_sub(9));
     add(HISTORY[2], calls.saturating_sub(999));
+}
+
+/// The thing that the rays of a table are tested with.
+enum Target<'a> {
+    /// Shapes, one after the other.
+    Shapes(Cow<'a, [Shape]>),
+    /// A tree over shapes.
+    Tree(Cow<'a, [Shape]>),
+    /// The box around anything else in space.
+    Box(Bounds),
+}
+
+impl<'a> Target<'a> {
+    /// Returns the target of a question's rays, or `None` if its subject is nowhere in space.
+    fn of(question: &'a Question) -> Option<Self> {
+        if let Some(scene) = QuestionScene::of(question)
+            && scene.corners.is_none()
+        {
+            let is_tree = scene.tree.is_some() || scene.max_leaf_size.is_some();
+            return Some(if is_tree {
+                Target::Tree(scene.shapes)
+            } else {
+                Target::Shapes(scene.shapes)
+            });
+        }
+        let bounds = scan::extent(question.table()?.subject())?;
+        Some(Target::Box(bounds))
+    }
+
+    /// Returns the box around it.
+    fn bounds(&self) -> Bounds {
+        match self {
+            Target::Shapes(shapes) | Target::Tree(shapes) => bounds(shapes),
+            Target::Box(bounds) => *bounds,
+        }
+    }
+}
+
+/// Returns the film of a camera.
+fn film(subject: &dyn Record) -> Option<UVec2> {
+    subject.values().find_map(|value| {
+        if let Value::Film(film) = value {
+            Some(film)
+        } else {
+            None
+        }
+    })
+}
+
+/// Returns the pixel in a row of a table.
+fn pixel(question: &Question, row: usize) -> Option<UVec2> {
+    let input = question.table()?.input(row)?;
+    input.values().find_map(|value| {
+        if let Value::Pixel(pixel) = value {
+            Some(pixel)
+        } else {
+            None
+        }
+    })
 }
 
 fn bounds(shapes: &[Shape]) -> Bounds {

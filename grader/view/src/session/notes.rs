@@ -54,19 +54,24 @@ impl Session {
         let task = |id| task(submission, id);
         let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
-            let (id, effect) = match part {
-                Part::Camera => ("camera", "the viewer's own camera is used"),
-                Part::Triangle => ("triangle", "triangles are left out"),
-                Part::Sphere => ("sphere", "spheres are left out"),
-                Part::BBox => ("bbox", "boxes cannot be tested"),
+            let (id, method, effect) = match part {
+                Part::Camera => (
+                    "camera",
+                    "Camera::sample_ray",
+                    "the viewer's own camera is used",
+                ),
+                Part::Triangle => ("triangle", "Triangle::hit", "triangles are left out"),
+                Part::Sphere => ("sphere", "Sphere::hit", "spheres are left out"),
+                Part::BBox => ("bbox", "BBox::hit", "boxes cannot be tested"),
             };
-            let text = format!("{}: not written yet, so {effect}.", task(id).title);
+            let title = task(id).map_or(method, |task| task.title);
+            let text = format!("{title}: not written yet, so {effect}.");
             add(text, Some(panic.location.clone()));
         }
         let build = task("build");
         match &opened.tree {
             ElementOutcome::Panicked(panic) => add(
-                format!("{}: panicked: {}", build.title, panic.message),
+                format!("{}: panicked: {}", title_of_build(build), panic.message),
                 Some(panic.location.clone()),
             ),
             ElementOutcome::Value(size) => {
@@ -92,7 +97,7 @@ impl Session {
     fn add_notes_about_tree(
         &self,
         size: TreeSize,
-        [build, traverse]: [&TaskInfo; 2],
+        [build, traverse]: [Option<&TaskInfo>; 2],
         mut add: impl FnMut(String, Option<String>),
     ) {
         let effect = match size.primitives {
@@ -100,14 +105,16 @@ impl Session {
             count => format!(", so each ray tests all {count} primitives"),
         };
         let not_written = |task: &TaskInfo| format!("{}: not written yet{effect}.", task.title);
-        if size.nodes == 0 && self.is_from_starter(build) {
-            add(not_written(build), self.line_of(build));
+        let is_from_starter = |task: &&TaskInfo| self.is_from_starter(task);
+        let unwritten = build.filter(|task| size.nodes == 0 && is_from_starter(task));
+        if let Some(build) = unwritten {
+            add(not_written(build), self.line_of(Some(build)));
         } else if size.nodes == 0 && size.primitives > 0 {
-            let text = format!("{}: the tree has no nodes.", build.title);
+            let text = format!("{}: the tree has no nodes.", title_of_build(build));
             add(text, self.line_of(build));
         }
-        if self.is_from_starter(traverse) {
-            add(not_written(traverse), self.line_of(traverse));
+        if let Some(traverse) = traverse.filter(is_from_starter) {
+            add(not_written(traverse), self.line_of(Some(traverse)));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` of triangles or spheres first.";
@@ -130,7 +137,8 @@ impl Session {
     }
 
     /// Returns the file and line in which a task's method is declared.
-    fn line_of(&self, task: &TaskInfo) -> Option<String> {
+    fn line_of(&self, task: Option<&TaskInfo>) -> Option<String> {
+        let task = task?;
         Some(format!("{}:{}", task.file, self.method(task)?.line))
     }
 
@@ -167,8 +175,12 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the task with this id.
-fn task(submission: &Submission, id: &str) -> &'static TaskInfo {
-    let task = submission.handed_out.assignment.find(id);
-    task.expect("the viewer's tasks exist")
+/// Returns the task with this id. An assignment may have none, because the part is given.
+fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
+    submission.handed_out.assignment.find(id)
+}
+
+/// Returns the title of the task that builds the tree, or the method's name.
+fn title_of_build(task: Option<&TaskInfo>) -> &str {
+    task.map_or("Bvh::build", |task| task.title)
 }

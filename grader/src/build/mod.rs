@@ -90,7 +90,7 @@ impl Builder {
         let parts = handed_out
             .substitutions
             .iter()
-            .map(|file| ReferenceParts::prepare(file, reference, &cache, &self.rustc))
+            .map(|file| ReferenceParts::prepare(file, handed_out, reference, &cache, &self.rustc))
             .collect::<Result<_, _>>()?;
         Ok(Builder {
             reference_parts: parts,

@@ -49,6 +49,7 @@ impl ReferenceParts {
     /// have changed.
     pub fn prepare(
         spec: &'static SubstitutedFile,
+        handed_out: &HandedOut,
         reference: &Path,
         cache: &Path,
         rustc: &Rustc,
@@ -58,11 +59,11 @@ impl ReferenceParts {
             sandbox: Sandbox::none(),
             ..rustc.clone()
         };
-        let read = |name: &&'static str| Ok((*name, files::read_to_string(reference.join(name))?));
-        let parts = spec.parts.iter().map(read);
+        let read = |name: &'static str| Ok((name, files::read_to_string(reference.join(name))?));
+        let parts = handed_out.parts(spec).map(read);
         let parts: Vec<(&str, String)> = parts.collect::<Result<_, Error>>()?;
         let scaffold = reference.join("..").join(spec.folder());
-        let root = parts_root(spec);
+        let root = parts_root(handed_out.parts(spec));
         let parts_of_file = ReferenceParts {
             spec,
             folder: cache.join(cache_key(&parts, &root, rustc)),
@@ -114,9 +115,8 @@ fn module(file: &str) -> &str {
 }
 
 /// Returns the source of the parts' root module.
-fn parts_root(spec: &SubstitutedFile) -> String {
-    let modules = spec.parts.iter();
-    modules
+fn parts_root(parts: impl Iterator<Item = &'static str>) -> String {
+    parts
         .map(|file| format!("pub mod {};\n", module(file)))
         .collect()
 }

@@ -78,8 +78,6 @@ pub struct GivenFile {
 pub struct SubstitutedFile {
     /// The name of the task file.
     pub file: &'static str,
-    /// The reference's files that make up the parts.
-    pub parts: &'static [&'static str],
     /// The given files that are compiled with the file.
     pub given: &'static [&'static str],
 }
@@ -129,6 +127,14 @@ impl HandedOut {
     /// the reference's `src`.
     pub fn solutions(&self) -> &'static str {
         self.reference.trim_end_matches("/src")
+    }
+
+    /// Returns the names of the reference's files that make up the parts of a substituted file: all
+    /// files except the root of the crate and those that are compiled with the submission.
+    pub fn parts(&self, substituted: &SubstitutedFile) -> impl Iterator<Item = &'static str> {
+        let given = self.given.iter().skip(1).map(|file| file.name);
+        let all = self.file_names().chain(given);
+        all.filter(|name| *name != substituted.file && !substituted.given.contains(name))
     }
 
     /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is another

@@ -66,13 +66,6 @@ fn main() -> std::process::ExitCode {
     reference: "reference/src",
     substitutions: &[SubstitutedFile {
         file: "bvh.rs",
-        parts: &[
-            "camera.rs",
-            "bbox.rs",
-            "triangle.rs",
-            "sphere.rs",
-            "primitive.rs",
-        ],
         given: &["world.rs"],
     }],
 };

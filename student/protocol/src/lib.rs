@@ -19,10 +19,7 @@ mod view;
 pub mod wire;
 
 pub use answer::{Answer, ElementOutcome, Panic, Returned};
-pub use function::{
-    AnyTable, BBoxHit, Corners, Function, Geometry, Hit, LocalDirection, Output, Query, Reflect,
-    Rows, SampleRay, Table, Words,
-};
+pub use function::*;
 pub use interval::Interval;
 pub use question::Question;
 pub use ray::Ray;

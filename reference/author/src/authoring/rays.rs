@@ -3,20 +3,13 @@
 use grader::handed_out;
 
 use super::{Attack, Authoring};
-use crate::items::{bbox, build, camera, sphere, traverse, triangle};
+use crate::items;
 
 /// The assignment `rays`.
 pub static RAYS: Authoring = Authoring {
     handed_out: &handed_out::RAYS,
     practice_exam: "grader/exams/practice.json",
-    items: &[
-        camera::items,
-        triangle::items,
-        sphere::items,
-        bbox::items,
-        build::items,
-        traverse::items,
-    ],
+    items: items::TASKS,
     oracles: "reference/author/src/oracle",
     attacks: &[
         Attack {

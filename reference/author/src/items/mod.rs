@@ -30,6 +30,16 @@ pub use distinct::{draw_items, shares_a_question};
 /// Draws the items of one task.
 pub type TaskItems = fn(Seed) -> Vec<DeclaredItem>;
 
+/// The items of each task of `rays`, in lecture order.
+pub const TASKS: &[TaskItems] = &[
+    camera::items,
+    triangle::items,
+    sphere::items,
+    bbox::items,
+    build::items,
+    traverse::items,
+];
+
 /// Returns the items of an exam, each after the items that it needs.
 pub fn items(tasks: &[TaskItems], seed: Seed) -> Vec<Item> {
     let all = tasks.iter().flat_map(|items| items(seed));

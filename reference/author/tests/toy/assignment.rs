@@ -81,7 +81,6 @@ fn main() -> std::process::ExitCode {
     reference: "reference/author/tests/toy/solved/src",
     substitutions: &[SubstitutedFile {
         file: "mirror.rs",
-        parts: &["ball.rs"],
         given: &["world.rs"],
     }],
 };

@@ -1,6 +1,6 @@
 //! The probe for a submission's `mirror.rs` that is graded with the reference's `ball.rs`.
 
-use parts::ball;
+use parts::*;
 
 mod mirror;
 mod world;

@@ -1,4 +1,4 @@
-//! Given: connects your five files to the framework, which renders scenes and answers the grader's
+//! Given: connects your files to the framework, which renders scenes and answers the grader's
 //! questions.
 //!
 //! This file is compiled together with yours each time they are graded, so it is short and written
@@ -15,7 +15,7 @@ use crate::bvh::{Bvh, Node};
 use crate::camera::Camera;
 use crate::primitive::Primitive;
 
-/// Your five files, as an implementation of the framework's [`Submission`].
+/// Your files, as an implementation of the framework's [`Submission`].
 pub struct Student;
 
 impl Submission for Student {

@@ -1,6 +1,6 @@
 //! The path-tracing assignment: from camera rays to a bounding volume hierarchy.
 //!
-//! You write five files, in lecture order: [`camera`], [`triangle`], [`sphere`], [`bbox`] and
+//! You write these files, in lecture order: [`camera`], [`triangle`], [`sphere`], [`bbox`] and
 //! [`bvh`]. Only these are graded. [`primitive`] and [`world`] are given.
 
 #![forbid(unsafe_code)]

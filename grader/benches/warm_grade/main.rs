@@ -25,7 +25,7 @@ const ROUNDS: usize = 15;
 /// The measured quantities, in the order in which each round measures them, and the baseline with
 /// which each is compared.
 const ROWS: [Row; 7] = [
-    Row::new("bare rustc of the five files (F)", "F", TimeKind::Cpu),
+    Row::new("bare rustc of the task files (F)", "F", TimeKind::Cpu),
     Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),
     Row::new("changed submission to probe", "F", TimeKind::Cpu),
     Row::new("changed submission to score.json", "F", TimeKind::Cpu),

@@ -1,5 +1,5 @@
 //! Measures the CPU time per submission of a class, at the strongest isolation level that the
-//! machine supports, and compares it with the baseline F: one bare `rustc` call for the same five
+//! machine supports, and compares it with the baseline F: one bare `rustc` call for the same task
 //! files (`grader/benches/README.md`).
 //!
 //! All submissions change in each round, so that nothing cached in an earlier round can be reused.

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| TempDir::new().expect("temporary folder"));
 
-/// Reads the bytes as a submission. The result must be five files or an error.
+/// Reads the bytes as a submission. The result must be the task files or an error.
 pub fn read(bytes: &[u8]) {
     let path = FOLDER.path().join("any.zip");
     fs::write(&path, bytes).expect("the file can be written");

@@ -10,7 +10,7 @@ use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, Tree, TreeNode};
 
 use crate::scene::Scene;
 
-/// A submission's five files, called through the given file `world.rs`, which implements this
+/// A submission's files, called through the given file `world.rs`, which implements this
 /// trait. The methods convert the cameras, shapes and nodes in a scene or a question to the
 /// submission's own types.
 pub trait Submission: Sync {

@@ -60,7 +60,7 @@ fn duration(time: TimeVal) -> Duration {
     Duration::from_micros(u64::try_from(micros).expect("CPU time is not negative"))
 }
 
-/// The baseline: one `rustc` call for the five task files and the given `lib.rs` and `primitive.rs`,
+/// The baseline: one `rustc` call for the task files and the given `lib.rs` and `primitive.rs`,
 /// with or without code generation. All their dependencies are already compiled.
 pub struct BareRustc {
     dependencies: Value,
@@ -74,7 +74,7 @@ impl BareRustc {
         }
     }
 
-    /// Returns the command that compiles the five files.
+    /// Returns the command that compiles the task files.
     pub fn compile(&self, folder: &Path) -> Command {
         self.rustc(
             folder,
@@ -82,14 +82,14 @@ impl BareRustc {
         )
     }
 
-    /// Returns the command that checks the five files for errors.
+    /// Returns the command that checks the task files for errors.
     pub fn check(&self, folder: &Path) -> Command {
         let mut command = self.compile(folder);
         command.arg("--emit=metadata");
         command
     }
 
-    /// Returns the command that compiles the five files to a program, with `root` as the crate
+    /// Returns the command that compiles the task files to a program, with `root` as the crate
     /// root.
     pub fn program(&self, folder: &Path, root: &str) -> Command {
         self.rustc(folder, &["--crate-type=bin", root])

@@ -10,7 +10,7 @@ use zip::write::SimpleFileOptions;
 
 use crate::harness::{TestClass, assert_contains, files_below, zip};
 
-/// Returns an archive with the five task files in a subfolder.
+/// Returns an archive with the task files in a subfolder.
 fn archive() -> Vec<u8> {
     zip(RAYS
         .file_names()

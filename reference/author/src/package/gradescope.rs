@@ -22,6 +22,9 @@ const SCRIPTS: [(&str, &str); 3] = [
         include_str!("templates/gradescope/grade"),
     ),
 ];
+/// The text in the scripts that stands for the names of the task files.
+const TASK_FILES: &str = "TASK_FILES";
+
 /// Collects all files of the zip.
 pub(super) fn package(
     root: &Path,
@@ -46,7 +49,7 @@ pub(super) fn package(
     package.insert(package_path("exam.json"), exam);
     package.insert(package_path("policy.toml"), policy);
     for (path, text) in SCRIPTS {
-        package.insert(path, text);
+        package.insert(path, text.replace(TASK_FILES, &handed_out.file_list()));
     }
     Ok(package)
 }

@@ -37,15 +37,27 @@ fn the_handout_is_in_sync_and_its_links_names_and_commands_exist() {
 }
 
 #[test]
-fn the_readme_has_the_numbers_of_the_exam() {
-    let exam: serde_json::Value = serde_json::from_str(RAYS.practice_exam).unwrap();
-    let count = |list: &str| exam[list].as_array().unwrap().len();
-    let readme = text("README.md").replace('\n', " ");
-    for sentence in [
-        format!("The exam has {} items.", count("items")),
-        format!("the answers that {} known mistakes give", count("mistakes")),
-    ] {
-        assert!(readme.contains(&sentence), "the README lacks: {sentence}");
+fn the_tables_of_tasks_in_the_handout_have_the_files_and_points() {
+    for page in ["handout/src/start.md", "handout/src/grading.md"] {
+        let text = text(page);
+        let rows = text.lines().filter_map(|line| {
+            let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+            let [first, file, method, points] = cells[..] else {
+                return None;
+            };
+            file.contains(".rs`")
+                .then_some([first, file, method, points])
+        });
+        let rows: Vec<[&str; 4]> = rows.collect();
+        assert_eq!(rows.len(), RAYS.assignment.tasks.len(), "{page}: {rows:?}");
+        for (task, [first, file, method, points]) in RAYS.assignment.tasks.iter().zip(rows) {
+            assert_eq!(file, format!("`{}`", task.file), "{page}");
+            assert!(
+                method.ends_with(&format!("::{}`", task.method)),
+                "{page}: {method}"
+            );
+            assert_eq!(points, task.points.to_string(), "{page}: {first}");
+        }
     }
 }
 
@@ -74,7 +86,7 @@ fn the_handout_has_the_limits_of_the_grader() {
 }
 
 #[test]
-fn the_starter_has_nine_files_per_folder_and_no_marks() {
+fn the_starter_has_every_file_in_each_folder_and_no_marks() {
     let files = starter_files();
     let with_main = RAYS.files.len() + RAYS.given.len() + 1;
     assert_eq!(files.len(), 2 * with_main, "{files:?}");

@@ -1,51 +1,9 @@
-//! Questions that the grader asks the probe.
+//! The size of questions and of their answers.
 
 use glam::UVec2;
-use serde::{Deserialize, Serialize};
 
-use crate::function::{
-    AnyTable, BBoxHit, Corners, Geometry, Hit, Query, Reflect, SampleRay, Table,
-};
-use crate::packed;
+use crate::function::{AnyTable, Corners, Geometry, Query, Question, Table};
 use crate::ray::Ray;
-use crate::shape::Shape;
-
-/// A question. It consists of elements (the rows of a table, or a tree or a picture as a whole) that
-/// are answered separately, so that a panic affects only its own element.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Question {
-    /// Calls `Camera::sample_ray` once per row.
-    SampleRay(Table<SampleRay>),
-    /// Finds the closest hit of one ray per row, without or with a tree.
-    Hit(Table<Hit>),
-    /// Calls `BBox::hit` once per row.
-    #[serde(rename = "bbox_hit")]
-    BBoxHit(Table<BBoxHit>),
-    /// Calls `reflect` once per row.
-    Reflect(Table<Reflect>),
-    /// Calls `Bvh::build` once. The answer is the whole tree.
-    Build {
-        /// The primitives, each with a different number.
-        #[serde(with = "packed")]
-        shapes: Vec<Shape>,
-        /// The maximum number of primitives in a leaf.
-        max_leaf_size: u32,
-    },
-    /// Renders a path-traced picture. The framework draws every random number.
-    Radiance {
-        /// The scene, as the text of a scene file that needs no other file.
-        scene: String,
-        /// The number of pixels, across and up.
-        film: UVec2,
-        /// The number of paths per pixel.
-        samples: u32,
-        /// The maximum number of times that a path is scattered.
-        bounces: u32,
-        /// The seed of all random numbers.
-        seed: u64,
-    },
-}
 
 impl Question {
     /// Returns the question that asks for the closest hits of these rays.
@@ -56,17 +14,6 @@ impl Question {
     /// Returns the question that asks when rays are in the box between these corners.
     pub fn boxes(corners: Corners, queries: Vec<Query>) -> Self {
         Question::BBoxHit(Table::of_list(corners, queries))
-    }
-
-    /// Returns the table, if the question is one.
-    pub fn table(&self) -> Option<&dyn AnyTable> {
-        match self {
-            Question::SampleRay(table) => Some(table),
-            Question::Hit(table) => Some(table),
-            Question::BBoxHit(table) => Some(table),
-            Question::Reflect(table) => Some(table),
-            Question::Build { .. } | Question::Radiance { .. } => None,
-        }
     }
 
     /// Returns the number of elements, which is also the number of outcomes in the answer.

@@ -4,10 +4,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Table, Words};
+use super::{Function, Input, Output, Question, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::interval::Interval;
-use crate::question::Question;
 use crate::ray::Ray;
 use crate::value::{Fields, Record, Value, fields};
 

@@ -5,10 +5,9 @@ use std::borrow::Cow;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Input, Output, Table, View, Words};
+use super::{Function, Input, Output, Question, Table, View, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::packed;
-use crate::question::Question;
 use crate::ray::Ray;
 use crate::shape::Shape;
 use crate::trace::Trace;

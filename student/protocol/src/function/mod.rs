@@ -1,4 +1,5 @@
-//! Functions: the methods of a submission that an exam calls in tables, once per row.
+//! Functions: the methods of a submission that an exam calls in tables, once per row; and the questions,
+//! each of which is such a table, or one of the few things that are none.
 
 mod bbox_hit;
 mod hit;
@@ -9,11 +10,13 @@ mod table;
 
 use std::fmt::Debug;
 
-use serde::Serialize;
+use glam::UVec2;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use crate::answer::{Answer, ElementOutcome};
-use crate::question::Question;
+use crate::packed;
+use crate::shape::Shape;
 use crate::value::Record;
 
 pub use bbox_hit::{BBoxHit, Corners, Query};
@@ -22,6 +25,56 @@ pub use reflect::{LocalDirection, Reflect};
 pub use rows::{Input, NoView, Rows, View};
 pub use sample_ray::SampleRay;
 pub use table::{AnyTable, Table};
+
+/// A question. It consists of elements (the rows of a table, or a tree or a picture as a whole) that
+/// are answered separately, so that a panic affects only its own element.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Question {
+    /// Calls `Camera::sample_ray` once per row.
+    SampleRay(Table<SampleRay>),
+    /// Finds the closest hit of one ray per row, without or with a tree.
+    Hit(Table<Hit>),
+    /// Calls `BBox::hit` once per row.
+    #[serde(rename = "bbox_hit")]
+    BBoxHit(Table<BBoxHit>),
+    /// Calls `reflect` once per row.
+    Reflect(Table<Reflect>),
+    /// Calls `Bvh::build` once. The answer is the whole tree.
+    Build {
+        /// The primitives, each with a different number.
+        #[serde(with = "packed")]
+        shapes: Vec<Shape>,
+        /// The maximum number of primitives in a leaf.
+        max_leaf_size: u32,
+    },
+    /// Renders a path-traced picture. The framework draws every random number.
+    Radiance {
+        /// The scene, as the text of a scene file that needs no other file.
+        scene: String,
+        /// The number of pixels, across and up.
+        film: UVec2,
+        /// The number of paths per pixel.
+        samples: u32,
+        /// The maximum number of times that a path is scattered.
+        bounces: u32,
+        /// The seed of all random numbers.
+        seed: u64,
+    },
+}
+
+impl Question {
+    /// Returns the table, if the question is one.
+    pub fn table(&self) -> Option<&dyn AnyTable> {
+        match self {
+            Question::SampleRay(table) => Some(table),
+            Question::Hit(table) => Some(table),
+            Question::BBoxHit(table) => Some(table),
+            Question::Reflect(table) => Some(table),
+            Question::Build { .. } | Question::Radiance { .. } => None,
+        }
+    }
+}
 
 /// A method of a submission, with the types of what it is called on and with, and of what it returns.
 pub trait Function: Copy + Debug + PartialEq + 'static {

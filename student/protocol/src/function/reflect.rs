@@ -4,9 +4,8 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Table, Words};
+use super::{Function, Input, Output, Question, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
-use crate::question::Question;
 use crate::value::{Fields, Record, fields};
 
 /// Calls `reflect` for directions. It is called on nothing.

@@ -3,9 +3,8 @@
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Input, Output, Table, View, Words};
+use super::{Function, Input, Output, Question, Table, View, Words};
 use crate::answer::{Answer, ElementOutcome};
-use crate::question::Question;
 use crate::ray::Ray;
 use crate::value::{Fields, Record, fields};
 use crate::view::{PinholeCamera, Sample};

@@ -5,8 +5,7 @@ use std::ops::Range;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Output, Rows, View, Words};
-use crate::question::Question;
+use super::{Function, Output, Question, Rows, View, Words};
 use crate::value::{Record, Value};
 
 /// A question that calls a function of a subject once per row.

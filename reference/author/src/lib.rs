@@ -18,7 +18,7 @@
 //! | solutions, and how they are built and run | [`solutions`] |
 //! | assignments as data | [`authoring`] |
 //! | an exam's items | [`items`] |
-//! | trees with decoys; other generated files | [`tree`], [`starter`] |
+//! | trees with decoys; what the contract allows; other generated files | [`tree`], [`domains`], [`starter`] |
 //! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
 pub mod authoring;
@@ -26,6 +26,7 @@ pub mod bundle;
 pub mod cli;
 pub mod commands;
 pub mod coverage;
+pub mod domains;
 pub mod drawing_data;
 pub mod exams;
 pub mod generated_file;

@@ -52,6 +52,11 @@ impl Rng {
         self.numbers.random_range(min..max)
     }
 
+    /// Returns a number in `[min, max)` whose logarithm is uniformly distributed.
+    pub fn log_uniform(&mut self, min: f64, max: f64) -> f64 {
+        libm::exp(self.uniform(libm::log(min), libm::log(max)))
+    }
+
     /// Returns an integer in `0..n`. Panics if `n` is 0.
     pub fn index(&mut self, n: usize) -> usize {
         self.numbers.random_range(0..n)
@@ -113,14 +118,22 @@ impl Rng {
         list
     }
 
+    /// Calls `attempt` up to `most` times, until it returns `Some`.
+    pub fn attempt<T>(
+        &mut self,
+        most: usize,
+        mut attempt: impl FnMut(&mut Rng) -> Option<T>,
+    ) -> Option<T> {
+        (0..most).find_map(|_| attempt(self))
+    }
+
     /// Calls `attempt` until it returns `Some`, and returns that value.
     ///
     /// Questions are found by rejection sampling: a question is drawn again if a correct answer in
     /// single precision could differ from the key.
-    pub fn retry<T>(&mut self, mut attempt: impl FnMut(&mut Rng) -> Option<T>) -> T {
+    pub fn retry<T>(&mut self, attempt: impl FnMut(&mut Rng) -> Option<T>) -> T {
         const MAX_ATTEMPTS: usize = 1_000_000;
-        (0..MAX_ATTEMPTS)
-            .find_map(|_| attempt(self))
+        self.attempt(MAX_ATTEMPTS, attempt)
             .expect("an attempt succeeds")
     }
 }

@@ -43,7 +43,7 @@ pub const TASKS: &[TaskItems] = &[
 /// Returns the items of an exam, each after the items that it needs.
 pub fn items(tasks: &[TaskItems], seed: Seed) -> Vec<Item> {
     let all = tasks.iter().flat_map(|items| items(seed));
-    resolve(all.map(|item| item.with_a_room(seed)).collect())
+    resolve(all.collect())
 }
 
 /// Returns an exam of the items about boxes, for tests.

@@ -1,16 +1,13 @@
 //! Items about which of the two roots counts, if any.
 
-use judging::exam::ExamQuestion;
-use protocol::Ray;
+use super::questions;
+use crate::domains::sphere::Line;
+use crate::items::{Declaration, groups};
 
-use super::{
-    hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, ray_passing_at,
-    sphere_question, table_questions, unambiguous_ray,
-};
-use crate::items::place::dust;
-use crate::items::{Declaration, groups, reversed_if};
-use crate::oracle::Ray64;
-use crate::seed::Rng;
+/// Returns whether the sphere is not behind the ray, which starts outside and has no end.
+fn is_ahead(line: &Line) -> bool {
+    line.is_unlimited() && (line.misses() || line.roots[0] > 0.0)
+}
 
 pub(super) const NEAR_SIDE: Declaration = Declaration {
     id: "sphere.near_side",
@@ -19,7 +16,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
            to end, and compare them with those in your code. From outside, the smaller root is the \
            distance; a negative discriminant is a miss.",
     section: "sphere.md#the-quadratic-equation",
-    questions: |rng| table_questions(rng, &["distance"], &[1.0, 1.0, 1.0], hitting_ray),
+    questions: |rng| questions(rng, &["distance"], is_ahead),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -29,23 +26,7 @@ pub(super) const BESIDE: Declaration = Declaration {
     look: "Without a real root there is no hit, and with two there may be one: work out the value \
            under the square root for the ray shown, before you take the root.",
     section: "sphere.md#the-square-root-of-a-negative-number",
-    questions: |rng| {
-        let mut table = |radius: f64| {
-            let sphere = random_sphere(rng, radius);
-            let mut rays: Vec<Ray> = (0..8).map(|_| missing_ray(rng, &sphere)).collect();
-            rays.extend((0..2).map(|_| hitting_ray(rng, &sphere)));
-            // Rays that barely miss and rays that barely hit reveal a sphere that is slightly too large
-            // or too small.
-            for (approach, count) in [([1.15, 1.25], 4), ([0.75, 0.85], 2)] {
-                rays.extend((0..count).map(|_| {
-                    let approach = rng.uniform(approach[0], approach[1]);
-                    ray_passing_at(rng, &sphere, approach)
-                }));
-            }
-            sphere_question(&[], &sphere, 0, rng.shuffled(rays))
-        };
-        vec![table(1.0), table(0.6), table(2.0)]
-    },
+    questions: |rng| questions(rng, &[], is_ahead),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -55,16 +36,7 @@ pub(super) const RADIUS: Declaration = Declaration {
     look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so can \
            distances: compare each root with ray.range, not with a small constant.",
     section: "sphere.md#the-radius-is-not-always-one",
-    questions: |rng| {
-        let (judged, radii) = (["distance"], [0.3, 0.7, 2.0, 5.0]);
-        let [placed, tiny] =
-            &mut ["sphere.radius.placed", "sphere.radius.tiny"].map(|it| rng.sequence(it));
-        let tiny = table_questions(tiny, &judged, &[1.0], hitting_ray);
-        let mut questions = table_questions(rng, &judged, &radii, hitting_ray);
-        questions.extend(placed_questions(placed, &judged, hitting_ray));
-        questions.extend(tiny.into_iter().map(dust));
-        questions
-    },
+    questions: |rng| questions(rng, &["distance"], |_| true),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -75,12 +47,9 @@ pub(super) const BEHIND: Declaration = Declaration {
            positive. Work out both for the ray shown.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
-        let mut table = |radius: f64| {
-            let sphere = random_sphere(rng, radius);
-            let rays = (0..16).map(|i| reversed_if(i % 2 == 1, hitting_ray(rng, &sphere)));
-            sphere_question(&["distance"], &sphere, 0, rays)
-        };
-        vec![table(1.0), table(1.5)]
+        questions(rng, &["distance"], |line| {
+            line.is_unlimited() && line.roots[0] * line.roots[1] > 0.0
+        })
     },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
@@ -93,51 +62,12 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
            is in the range is its distance.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
-        let (judged, placed) = (["distance"], &mut rng.sequence("sphere.from_inside.placed"));
-        let near = table_questions(rng, &judged, &[1.0, 2.0], ray_from_inside);
-        [near, placed_questions(placed, &judged, ray_from_inside)].concat()
+        questions(rng, &["distance"], |line| {
+            line.is_unlimited() && !(line.roots[0] > 0.0)
+        })
     },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
-
-/// Creates questions with rays through a sphere, where `range` computes each ray's range from its
-/// index and its two roots.
-fn range_questions(
-    rng: &mut Rng,
-    range: impl Fn(&mut Rng, usize, [f64; 2]) -> (f64, f64),
-) -> Vec<ExamQuestion> {
-    let mut table = |radius: f64| {
-        let sphere = random_sphere(rng, radius);
-        let rays = (0..16).map(|i| {
-            unambiguous_ray(rng, &sphere, |rng| {
-                let ray = rng.retry(|rng| {
-                    let ray = hitting_ray(rng, &sphere);
-                    let [near, far] = sphere.intersect_line(&Ray64::from(&ray)).roots;
-                    (far - near > 0.4).then_some(ray)
-                });
-                let (min, max) = range(rng, i, sphere.intersect_line(&Ray64::from(&ray)).roots);
-                ray.within(min as f32, max as f32)
-            })
-        });
-        sphere_question(&["distance"], &sphere, 0, rays)
-    };
-    vec![table(1.0), table(2.0), dust(table(1.0))]
-}
-
-/// Creates a question with rays that go on from a hit, as through glass: those that have entered the
-/// sphere hit its far side, and those that have left it miss.
-fn rays_from_the_surface(rng: &mut Rng) -> ExamQuestion {
-    let sphere = random_sphere(rng, 1.5);
-    let rays = (0..12).map(|i| {
-        let ray = hitting_ray(rng, &sphere);
-        let ray64 = Ray64::from(&ray);
-        let origin = ray64
-            .at(sphere.intersect_line(&ray64).roots[i % 2])
-            .as_vec3();
-        Ray { origin, ..ray }.within(0.05, f32::INFINITY)
-    });
-    sphere_question(&["distance"], &sphere, 0, rays)
-}
 
 pub(super) const FAR_ROOT: Declaration = Declaration {
     id: "sphere.far_root",
@@ -145,21 +75,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
     look: "The range need not start at 0. If the near root is outside the range and the far root \
            is inside, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
-    questions: |rng| {
-        let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
-            // The range starts before the sphere, inside it, or behind it.
-            let from = match i % 3 {
-                0 => rng.uniform(0.0, near - 0.05),
-                1 => rng.uniform(near + 0.05, far - 0.05),
-                _ => far + 0.05,
-            };
-            (from, far + rng.uniform(0.1, 3.0))
-        };
-        let from_the_surface = &mut rng.sequence("sphere.rays_from_the_surface");
-        let mut questions = range_questions(rng, range);
-        questions.push(rays_from_the_surface(from_the_surface));
-        questions
-    },
+    questions: |rng| questions(rng, &["distance"], |line| line.ray64.min > line.roots[0]),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -171,16 +87,9 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
            shown?",
     section: "sphere.md#check-each-root-by-itself",
     questions: |rng| {
-        let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
-            // The range ends before the sphere, inside it, or behind it.
-            let max = match i % 3 {
-                0 => near - rng.uniform(0.03, 0.3),
-                1 => rng.uniform(near + 0.05, far - 0.05),
-                _ => far + rng.uniform(0.05, 1.0),
-            };
-            (0.0, max)
-        };
-        range_questions(rng, range)
+        questions(rng, &["distance"], |line| {
+            !line.misses() && line.ray64.min == 0.0 && line.ray64.max.is_finite()
+        })
     },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
@@ -193,16 +102,9 @@ pub(super) const RANGE_WITHIN: Declaration = Declaration {
            is.",
     section: "sphere.md#check-each-root-by-itself",
     questions: |rng| {
-        let range = |rng: &mut Rng, i: usize, [near, far]: [f64; 2]| {
-            let size = far - near;
-            // The range is between the roots, behind both, or around the first one.
-            match i % 3 {
-                0 => (near + 0.1 * size, far - rng.uniform(0.1, 0.3) * size),
-                1 => (far + 0.05, far + rng.uniform(1.0, 3.0)),
-                _ => (near - 0.1, near + 0.5 * size),
-            }
-        };
-        range_questions(rng, range)
+        questions(rng, &["distance"], |line| {
+            !line.misses() && line.ray64.min > 0.0
+        })
     },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };

@@ -2,23 +2,10 @@
 
 use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
-use protocol::Ray;
 
-use super::{
-    hitting_ray, missing_ray, placed_questions, random_sphere, ray_from_inside, sphere_question,
-    table_questions,
-};
+use super::questions;
 use crate::items::{Declaration, meshes, picture};
-use crate::oracle::sphere::Sphere;
 use crate::seed::Rng;
-
-fn ray_from_either_side(rng: &mut Rng, sphere: &Sphere) -> Ray {
-    if rng.coin() {
-        hitting_ray(rng, sphere)
-    } else {
-        ray_from_inside(rng, sphere)
-    }
-}
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "sphere.position",
@@ -26,7 +13,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
-    questions: |rng| table_questions(rng, &["position"], &[0.8, 2.0], ray_from_either_side),
+    questions: |rng| questions(rng, &["position"], |_| true),
     ..Declaration::ALONE
 };
 
@@ -36,15 +23,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
            surface, so it is never flipped toward the ray.",
     section: "sphere.md#the-normal-points-away-from-the-centre",
-    questions: |rng| {
-        let judged = ["normal", "unit_normal"];
-        let outside = table_questions(rng, &judged, &[0.5, 3.0], hitting_ray);
-        let inside = &mut rng.sequence("sphere.normal.inside");
-        let inside = table_questions(inside, &judged, &[2.0], ray_from_inside);
-        let placed = &mut rng.sequence("sphere.normal.placed");
-        let placed = placed_questions(placed, &judged, ray_from_either_side);
-        [outside, inside, placed].concat()
-    },
+    questions: |rng| questions(rng, &["normal", "unit_normal"], |_| true),
     ..Declaration::ALONE
 };
 
@@ -55,7 +34,7 @@ pub(super) const UV: Declaration = Declaration {
            must be one. Check the vector that you pass: where does it start, which way does it \
            point, and how long is it?",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
-    questions: |rng| table_questions(rng, &["uv"], &[1.0, 1.0], hitting_ray),
+    questions: |rng| questions(rng, &["uv"], |line| line.misses() || line.roots[0] > 0.0),
     ..Declaration::ALONE
 };
 
@@ -65,12 +44,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
     look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
-    questions: |rng| {
-        let (judged, placed) = (["uv"], &mut rng.sequence("sphere.uv_radius.placed"));
-        let near = table_questions(rng, &judged, &[0.4, 2.5], ray_from_either_side);
-        let placed = placed_questions(placed, &judged, ray_from_either_side);
-        [near, placed].concat()
-    },
+    questions: |rng| questions(rng, &["uv"], |_| true),
     ..Declaration::ALONE
 };
 
@@ -80,17 +54,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     look: "Copy both: the origin from the ray that you were given, even if you computed with a \
            shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
-    questions: |rng| {
-        let mut table = |shape: u32| {
-            let sphere = random_sphere(rng, 1.2);
-            let mut rays: Vec<Ray> = (0..3).map(|_| hitting_ray(rng, &sphere)).collect();
-            rays.extend((0..3).map(|_| ray_from_inside(rng, &sphere)));
-            rays.extend((0..3).map(|_| missing_ray(rng, &sphere)));
-            let judged = ["origin", "shape"];
-            sphere_question(&judged, &sphere, shape, rays)
-        };
-        vec![table(0), table(3), table(99)]
-    },
+    questions: |rng| questions(rng, &["origin", "shape"], |_| true),
     ..Declaration::ALONE
 };
 

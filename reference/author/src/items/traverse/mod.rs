@@ -41,7 +41,8 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         end_to_end::PICTURE,
         end_to_end::RADIANCE,
     ];
-    draw_items(seed, &all)
+    let items = draw_items(seed, &all).into_iter();
+    items.map(|item| item.with_a_room(seed)).collect()
 }
 
 /// The fields of an item about traversal that is wrong if triangles or boxes are. The others are empty.

@@ -1,0 +1,185 @@
+//! The domains of single fields: their special values, their magnitudes, and how both are drawn.
+
+use glam::{DVec3, Vec3};
+use protocol::Interval;
+
+use crate::seed::Rng;
+
+/// The largest coordinate of a scene.
+pub const FURTHEST: f64 = 1000.0;
+
+/// The classes of lengths: decades.
+pub const SIZES: &[&str] = &[
+    "below 1e-4",
+    "1e-4",
+    "1e-3",
+    "1e-2",
+    "0.1",
+    "1",
+    "10",
+    "100",
+];
+
+/// Returns the class of a length: its decade.
+pub fn size_class(size: f64) -> usize {
+    let decade = size.log10().floor() as i32 + 5;
+    decade.clamp(0, SIZES.len() as i32 - 1) as usize
+}
+
+/// Draws a length of one class.
+pub fn size(rng: &mut Rng, class: usize) -> f64 {
+    match class {
+        0 => rng.log_uniform(2e-7, 1e-4),
+        _ => 10f64.powi(class as i32 - 5) * rng.log_uniform(1.05, 9.5),
+    }
+}
+
+/// The classes of positions, by the largest coordinate in sizes of the thing that is there.
+pub const PLACES: &[&str] = &[
+    "around the origin",
+    "1 size away",
+    "10 sizes away",
+    "100 sizes away",
+];
+
+/// Returns the class of a position.
+pub fn place_class(position: DVec3, size: f64) -> usize {
+    match position.abs().max_element() / size {
+        ..1.0 => 0,
+        ..10.0 => 1,
+        ..100.0 => 2,
+        _ => 3,
+    }
+}
+
+/// Draws a position for a thing of this size. No coordinate is much larger than a thousand, or than
+/// 5,000 sizes.
+pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
+    let furthest = (FURTHEST / size).min(5000.0);
+    let far = match rng.index(PLACES.len()) {
+        0 => {
+            return if rng.coin() {
+                DVec3::ZERO
+            } else {
+                rng.point(0.9 * size)
+            };
+        }
+        class => 10f64.powi(class as i32 - 1),
+    };
+    let sizes = far.min(0.5 * furthest) * rng.log_uniform(1.1, 9.0);
+    let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
+    size * sizes.min(furthest) * rng.vector(0.3, 1.0) * signs
+}
+
+/// The octants, by the signs of x, y and z.
+pub const OCTANTS: &[&str] = &["+++", "-++", "+-+", "--+", "++-", "-+-", "+--", "---"];
+
+/// Returns the octant of a vector without a component that is 0.
+pub fn octant(vector: DVec3) -> Option<usize> {
+    let is_inside = vector.abs().min_element() > 0.0;
+    is_inside.then_some(vector.is_negative_bitmask() as usize)
+}
+
+/// The classes of directions: along an axis, in a plane of two axes, and the octants.
+pub const DIRECTIONS: &[&str] = &[
+    "along +x",
+    "along +y",
+    "along +z",
+    "along -x",
+    "along -y",
+    "along -z",
+    "in the yz-plane",
+    "in the zx-plane",
+    "in the xy-plane",
+    "+++",
+    "-++",
+    "+-+",
+    "--+",
+    "++-",
+    "-+-",
+    "+--",
+    "---",
+];
+
+/// Returns the class of a direction.
+pub fn direction_class(dir: Vec3) -> Option<usize> {
+    let is_zero = dir.to_array().map(|component| component == 0.0);
+    let zeros = is_zero.iter().filter(|zero| **zero).count();
+    match zeros {
+        0 => Some(9 + octant(dir.as_dvec3())?),
+        1 => Some(6 + is_zero.iter().position(|zero| *zero)?),
+        2 => {
+            let axis = is_zero.iter().position(|zero| !zero)?;
+            Some(if dir[axis] > 0.0 { axis } else { 3 + axis })
+        }
+        _ => None,
+    }
+}
+
+/// Draws a direction: along an axis, in a plane of two axes, or any. Zeros have either sign.
+pub fn direction(rng: &mut Rng) -> DVec3 {
+    let (kind, axis) = (rng.index(3), rng.index(3));
+    let mut dir = rng.retry(|rng| {
+        let dir = rng.direction();
+        (dir.abs().min_element() > 0.01).then_some(dir)
+    });
+    if kind < 2 {
+        dir[axis] = 0.0 * rng.sign();
+    }
+    if kind < 1 {
+        dir[(axis + 1) % 3] = 0.0 * rng.sign();
+    }
+    dir.normalize()
+}
+
+/// The classes of ranges.
+pub const RANGES: &[&str] = &[
+    "from 0 to ∞",
+    "from 0 to an end",
+    "from later to ∞",
+    "from later to an end",
+];
+
+/// Returns the class of a range.
+pub fn range_class(range: Interval) -> Option<usize> {
+    let (starts_later, ends) = (range.min > 0.0, range.max < f32::INFINITY);
+    Some(usize::from(ends) + 2 * usize::from(starts_later))
+}
+
+/// Draws a range whose ends are at distances up to `furthest`.
+pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
+    let min = if rng.coin() {
+        0.0
+    } else {
+        rng.uniform(0.0, furthest)
+    };
+    let max = if rng.coin() {
+        f64::INFINITY
+    } else {
+        rng.uniform(min, 1.2 * furthest)
+    };
+    Interval::new(min as f32, max as f32)
+}
+
+/// The classes of the numbers of shapes.
+pub const NUMBERS: &[&str] = &["0", "1 to 255", "256 to 65535", "above 65535"];
+
+/// Returns the class of the number of a shape.
+pub fn number_class(number: u32) -> usize {
+    match number {
+        0 => 0,
+        1..256 => 1,
+        256..65536 => 2,
+        _ => 3,
+    }
+}
+
+/// Draws the number of a shape.
+pub fn number(rng: &mut Rng) -> u32 {
+    match rng.index(NUMBERS.len()) {
+        0 => 0,
+        1 => rng.integer(1, 255),
+        2 => rng.integer(256, 65535),
+        _ => rng.integer(65536, u32::MAX),
+    }
+}

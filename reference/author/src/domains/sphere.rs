@@ -1,0 +1,247 @@
+//! The domain of `Sphere::hit`.
+
+use glam::DVec3;
+use protocol::{Interval, Ray, Shape};
+
+use super::Aspect;
+use super::fields;
+use super::shape::{DIRECTION, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall, ShapeDomain};
+use crate::oracle::sphere::Sphere;
+use crate::oracle::{Ray64, scan};
+use crate::seed::Rng;
+
+/// The domain of `Sphere::hit`.
+pub static SPHERE: ShapeDomain = ShapeDomain {
+    function: "Sphere::hit",
+    aspects: &[SIZE, PLACE, OCTANT, NUMBER, START, LINE, DIRECTION, RANGE],
+};
+
+/// The start of the ray, seen from the sphere.
+const START: Aspect<ShapeCall> = Aspect {
+    name: "start",
+    classes: &[
+        "in front, up to 10 radii away",
+        "in front, up to 30 radii away",
+        "inside",
+        "at the centre",
+        "on the surface",
+        "behind",
+    ],
+    class: |call| {
+        let Line { sphere, ray64, .. } = Line::of(call)?;
+        let distance = ray64.origin.distance(sphere.center) / sphere.radius;
+        let leads_away = ray64.dir.dot(sphere.center - ray64.origin) < 0.0;
+        Some(match distance {
+            ..1e-6 => 3,
+            ..0.99 => 2,
+            ..1.01 => 4,
+            _ if leads_away => 5,
+            ..10.0 => 0,
+            _ => 1,
+        })
+    },
+};
+
+/// The distance of the ray's line from the centre.
+const LINE: Aspect<ShapeCall> = Aspect {
+    name: "line",
+    classes: &[
+        "through the centre",
+        "inside",
+        "grazing, inside",
+        "grazing, outside",
+        "outside",
+    ],
+    class: |call| {
+        Some(match Line::of(call)?.approach {
+            ..1e-3 => 0,
+            ..0.9 => 1,
+            ..1.0 => 2,
+            ..1.15 => 3,
+            _ => 4,
+        })
+    },
+};
+
+/// The line of a call's ray, and the sphere.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    /// The sphere.
+    pub sphere: Sphere,
+    /// The ray.
+    pub ray64: Ray64,
+    /// The smallest distance from the centre, in radii.
+    pub approach: f64,
+    /// The distances at which the line enters and leaves the sphere, or NaN.
+    pub roots: [f64; 2],
+}
+
+impl Line {
+    /// Returns the line of a call, or `None` if its shape is no sphere.
+    pub fn of(call: &ShapeCall) -> Option<Line> {
+        let Shape::Sphere { center, radius, .. } = call.shape else {
+            return None;
+        };
+        let sphere = Sphere {
+            center: center.as_dvec3(),
+            radius: radius.into(),
+        };
+        let ray64 = Ray64::from(&call.ray);
+        let line = sphere.intersect_line(&ray64);
+        Some(Line {
+            sphere,
+            ray64,
+            approach: line.closest_approach,
+            roots: line.roots,
+        })
+    }
+
+    /// Returns whether the line misses the sphere.
+    pub fn misses(&self) -> bool {
+        self.approach > 1.0
+    }
+
+    /// Returns whether the range of the ray is from 0 to ∞.
+    pub fn is_unlimited(&self) -> bool {
+        self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
+    }
+
+    /// Returns the roots in the ray's range.
+    pub fn hits(&self) -> impl Iterator<Item = f64> + '_ {
+        self.roots
+            .into_iter()
+            .filter(|&root| self.ray64.is_in_range(root))
+    }
+
+    /// Returns how wrong a distance may be if it is computed in single precision by a usual formula.
+    /// The difference b² − c loses digits as the square of the distance from the centre grows, and the
+    /// square root passes on more of that loss the closer the ray is to a tangent.
+    fn distance_error(&self) -> f64 {
+        let from_center = self
+            .ray64
+            .origin
+            .distance(self.sphere.center)
+            .max(self.sphere.radius);
+        let half_chord = 0.5 * (self.roots[1] - self.roots[0]);
+        EPSILON * (4.0 * from_center * from_center / half_chord + 2.0 * self.coordinates())
+    }
+
+    /// Returns the largest coordinate of the ray and the sphere.
+    fn coordinates(&self) -> f64 {
+        let sphere = self.sphere.center.abs().max_element() + self.sphere.radius;
+        sphere.max(self.ray64.origin.abs().max_element())
+    }
+
+    /// Returns whether every correct formula in single precision agrees on whether the sphere is hit.
+    pub fn is_clear(&self) -> bool {
+        /// The least difference between the squares of the approach and of 1.
+        const TANGENT_MARGIN: f64 = 0.01;
+        /// The least difference between a distance and an end of the range, in radii.
+        const END_MARGIN: f64 = 0.02;
+        let distance = self.ray64.origin.distance(self.sphere.center) / self.sphere.radius;
+        let squared = (self.approach * self.approach - 1.0).abs();
+        if squared < TANGENT_MARGIN.max(64.0 * EPSILON * distance * distance) {
+            return false;
+        }
+        let margin = (END_MARGIN * self.sphere.radius).max(2.0 * self.distance_error());
+        let ends = [self.ray64.min, self.ray64.max];
+        let is_away = |root: f64| ends.iter().all(|end| (root - end).abs() >= margin);
+        self.misses() || self.roots.into_iter().all(is_away)
+    }
+
+    /// Returns whether every correct formula in single precision computes the quantity of this name well
+    /// within its tolerance.
+    pub fn is_exact(&self, quantity: &str) -> bool {
+        /// The largest part of a tolerance that errors may take.
+        const PART: f64 = 0.3;
+        let Some(distance) = self.hits().next() else {
+            return true;
+        };
+        let coordinates = self.coordinates();
+        let error = self.distance_error();
+        let position = error + 2.0 * EPSILON * coordinates;
+        let normal = position / self.sphere.radius;
+        let height = (self.ray64.at(distance) - self.sphere.center).y / self.sphere.radius;
+        let from_pole = (1.0 - height * height).max(0.0).sqrt();
+        match quantity {
+            "distance" => error <= PART * 1e-4 * coordinates.max(distance),
+            "position" => position <= PART * 1e-4 * coordinates.max(distance),
+            "normal" | "unit_normal" => normal <= PART * 1e-3,
+            "uv" => from_pole > 0.05 && normal / from_pole <= PART * 2e-3,
+            _ => true,
+        }
+    }
+}
+
+/// The relative error of one operation in single precision.
+const EPSILON: f64 = 6e-8;
+
+/// Draws a sphere with a radius of this class.
+fn sphere(rng: &mut Rng, size: usize) -> Sphere {
+    let radius = fields::size(rng, size);
+    let rounded = |center: DVec3| center.as_vec3().as_dvec3();
+    Sphere {
+        center: rounded(fields::place(rng, radius)),
+        radius: f64::from(radius as f32),
+    }
+}
+
+/// Draws a ray in, around or beside a sphere. Returns `None` if it would start too far away.
+fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
+    let bounds = scan::bounds(shape);
+    let (center, radius) = (bounds.center(), 0.5 * (bounds.max - bounds.min).x);
+    let dir = fields::direction(rng);
+    let approach = match rng.index(6) {
+        0 => 0.0,
+        1 | 2 => rng.uniform(0.0, 0.9),
+        3 => rng.uniform(0.9, 0.995),
+        4 => rng.uniform(1.005, 1.15),
+        _ => rng.uniform(1.15, 3.0),
+    };
+    let closest = center + approach * radius * rng.perpendicular_to(dir);
+    let half_chord = radius * (1.0 - approach * approach).max(0.0).sqrt();
+    let ahead = match rng.index(6) {
+        0 => radius * rng.uniform(1.2, 10.0),
+        1 => radius * rng.uniform(10.0, 29.0),
+        2 => half_chord * rng.uniform(-0.9, 0.9),
+        3 => 0.0,
+        4 => half_chord * rng.sign(),
+        _ => -radius * rng.log_uniform(1.2, 29.0),
+    };
+    let origin = closest - ahead * dir;
+    if origin.abs().max_element() > fields::FURTHEST {
+        return None;
+    }
+    let Interval { min, max } = fields::range(rng, ahead.max(0.0) + 2.0 * radius);
+    Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(min, max))
+}
+
+/// Draws spheres of every size, each with rays that belong to an idea, every other one a hit. All
+/// correct formulas compute the judged quantities within their tolerances.
+pub fn tables(
+    rng: &mut Rng,
+    judged: &[&str],
+    belongs: impl Fn(&Line) -> bool,
+) -> Vec<(Shape, Vec<Ray>)> {
+    let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
+    super::shape::tables(
+        rng,
+        SPHERE.aspects,
+        |rng, size| {
+            let Sphere { center, radius } = sphere(rng, size);
+            Shape::Sphere {
+                center: center.as_vec3(),
+                radius: radius as f32,
+                shape: fields::number(rng),
+            }
+        },
+        |rng, shape| {
+            let call = ShapeCall {
+                shape: *shape,
+                ray: ray(rng, shape)?,
+            };
+            let line = Line::of(&call)?;
+            (is_fair(&line) && belongs(&line)).then_some(call)
+        },
+    )
+}

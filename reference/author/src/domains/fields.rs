@@ -1,5 +1,7 @@
 //! The domains of single fields: their special values, their magnitudes, and how both are drawn.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3};
 use protocol::Interval;
 
@@ -19,6 +21,13 @@ pub const SIZES: &[&str] = &[
     "10",
     "100",
 ];
+
+/// All classes of lengths.
+pub const EVERY_SIZE: Range<usize> = 0..SIZES.len();
+/// The classes of lengths that are so small that an absolute number could decide about them.
+pub const TINY: Range<usize> = 0..2;
+/// The classes of lengths from a hundredth on.
+pub const USUAL: Range<usize> = 3..SIZES.len();
 
 /// Returns the class of a length: its decade.
 pub fn size_class(size: f64) -> usize {
@@ -182,4 +191,12 @@ pub fn number(rng: &mut Rng) -> u32 {
         2 => rng.integer(256, 65535),
         _ => rng.integer(65536, u32::MAX),
     }
+}
+
+/// Returns the weights of a point inside a triangle, all of them at least `least`.
+pub fn weights_inside(rng: &mut Rng, least: f64) -> [f64; 3] {
+    let mut cuts = [rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0)];
+    cuts.sort_by(f64::total_cmp);
+    let parts = [cuts[0], cuts[1] - cuts[0], 1.0 - cuts[1]];
+    parts.map(|part| least + (1.0 - 3.0 * least) * part)
 }

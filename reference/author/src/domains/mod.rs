@@ -9,6 +9,7 @@ mod balance;
 pub mod fields;
 pub mod shape;
 pub mod sphere;
+pub mod triangle;
 
 use protocol::Question;
 

@@ -1,5 +1,7 @@
 //! Calls of `hit` of a single shape, and what all shapes have in common.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
@@ -115,15 +117,16 @@ impl Domain for ShapeDomain {
     }
 }
 
-/// Draws shapes of every size, each with rays of which every other one is a hit, so that each class of
-/// each aspect occurs.
+/// Draws a shape of each of these sizes, each with rays of which every other one is a hit, so that each
+/// class of each aspect occurs.
 pub fn tables(
     rng: &mut Rng,
     aspects: &'static [Aspect<ShapeCall>],
+    sizes: Range<usize>,
     shape: impl Fn(&mut Rng, usize) -> Shape,
     call: impl Fn(&mut Rng, &Shape) -> Option<ShapeCall>,
 ) -> Vec<(Shape, Vec<Ray>)> {
-    const ROWS: usize = 12;
+    const ROWS: usize = 14;
     let mut balance = Balance::new(aspects);
     let table = |size: usize| {
         rng.retry(|rng| {
@@ -147,5 +150,5 @@ pub fn tables(
             Some((shape, rng.shuffled(rays)))
         })
     };
-    (0..SIZES.len()).map(table).collect()
+    sizes.map(table).collect()
 }

@@ -1,5 +1,7 @@
 //! The domain of `Sphere::hit`.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use protocol::{Interval, Ray, Shape};
 
@@ -216,17 +218,19 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(min, max))
 }
 
-/// Draws spheres of every size, each with rays that belong to an idea, every other one a hit. All
+/// Draws spheres of these sizes, each with rays that belong to an idea, every other one a hit. All
 /// correct formulas compute the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
+    sizes: Range<usize>,
     belongs: impl Fn(&Line) -> bool,
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
     super::shape::tables(
         rng,
         SPHERE.aspects,
+        sizes,
         |rng, size| {
             let Sphere { center, radius } = sphere(rng, size);
             Shape::Sphere {

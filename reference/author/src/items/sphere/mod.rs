@@ -3,6 +3,8 @@
 mod roots;
 mod surface;
 
+use std::ops::Range;
+
 use judging::exam::ExamQuestion;
 
 use crate::domains::sphere::{Line, tables};
@@ -30,10 +32,15 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     draw_items(seed, &all)
 }
 
-/// Creates questions about spheres of every size. Their rays belong to an idea, and every other one is
+/// Creates questions about spheres of these sizes. Their rays belong to an idea, and every other one is
 /// a hit.
-fn questions(rng: &mut Rng, judged: &[&str], belongs: impl Fn(&Line) -> bool) -> Vec<ExamQuestion> {
-    let tables = tables(rng, judged, belongs).into_iter();
+fn questions(
+    rng: &mut Rng,
+    judged: &[&str],
+    sizes: Range<usize>,
+    belongs: impl Fn(&Line) -> bool,
+) -> Vec<ExamQuestion> {
+    let tables = tables(rng, judged, sizes, belongs).into_iter();
     let question = |(shape, rays)| shape_question(judged, shape, rays);
     tables.map(question).collect()
 }

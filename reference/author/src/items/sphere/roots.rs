@@ -1,6 +1,7 @@
 //! Items about which of the two roots counts, if any.
 
 use super::questions;
+use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
 use crate::domains::sphere::Line;
 use crate::items::{Declaration, groups};
 
@@ -16,7 +17,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
            to end, and compare them with those in your code. From outside, the smaller root is the \
            distance; a negative discriminant is a miss.",
     section: "sphere.md#the-quadratic-equation",
-    questions: |rng| questions(rng, &["distance"], is_ahead),
+    questions: |rng| questions(rng, &["distance"], USUAL, is_ahead),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -26,7 +27,7 @@ pub(super) const BESIDE: Declaration = Declaration {
     look: "Without a real root there is no hit, and with two there may be one: work out the value \
            under the square root for the ray shown, before you take the root.",
     section: "sphere.md#the-square-root-of-a-negative-number",
-    questions: |rng| questions(rng, &[], is_ahead),
+    questions: |rng| questions(rng, &[], USUAL, is_ahead),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -36,7 +37,14 @@ pub(super) const RADIUS: Declaration = Declaration {
     look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so can \
            distances: compare each root with ray.range, not with a small constant.",
     section: "sphere.md#the-radius-is-not-always-one",
-    questions: |rng| questions(rng, &["distance"], |_| true),
+    questions: |rng| {
+        let all = ["distance", "position", "normal", "uv", "shape"];
+        let tiny = questions(&mut rng.sequence("sphere.radius.tiny"), &all, TINY, |_| {
+            true
+        });
+        let distances = questions(rng, &["distance"], EVERY_SIZE, |_| true);
+        [distances, tiny].concat()
+    },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -47,7 +55,7 @@ pub(super) const BEHIND: Declaration = Declaration {
            positive. Work out both for the ray shown.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
-        questions(rng, &["distance"], |line| {
+        questions(rng, &["distance"], USUAL, |line| {
             line.is_unlimited() && line.roots[0] * line.roots[1] > 0.0
         })
     },
@@ -62,7 +70,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
            is in the range is its distance.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
-        questions(rng, &["distance"], |line| {
+        questions(rng, &["distance"], USUAL, |line| {
             line.is_unlimited() && !(line.roots[0] > 0.0)
         })
     },
@@ -75,7 +83,11 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
     look: "The range need not start at 0. If the near root is outside the range and the far root \
            is inside, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
-    questions: |rng| questions(rng, &["distance"], |line| line.ray64.min > line.roots[0]),
+    questions: |rng| {
+        questions(rng, &["distance"], EVERY_SIZE, |line| {
+            line.ray64.min > line.roots[0]
+        })
+    },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
@@ -87,7 +99,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
            shown?",
     section: "sphere.md#check-each-root-by-itself",
     questions: |rng| {
-        questions(rng, &["distance"], |line| {
+        questions(rng, &["distance"], EVERY_SIZE, |line| {
             !line.misses() && line.ray64.min == 0.0 && line.ray64.max.is_finite()
         })
     },
@@ -102,7 +114,7 @@ pub(super) const RANGE_WITHIN: Declaration = Declaration {
            is.",
     section: "sphere.md#check-each-root-by-itself",
     questions: |rng| {
-        questions(rng, &["distance"], |line| {
+        questions(rng, &["distance"], EVERY_SIZE, |line| {
             !line.misses() && line.ray64.min > 0.0
         })
     },

@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
 
 use super::questions;
+use crate::domains::fields::USUAL;
 use crate::items::{Declaration, meshes, picture};
 use crate::seed::Rng;
 
@@ -13,7 +14,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
-    questions: |rng| questions(rng, &["position"], |_| true),
+    questions: |rng| questions(rng, &["position"], USUAL, |_| true),
     ..Declaration::ALONE
 };
 
@@ -23,7 +24,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
            surface, so it is never flipped toward the ray.",
     section: "sphere.md#the-normal-points-away-from-the-centre",
-    questions: |rng| questions(rng, &["normal", "unit_normal"], |_| true),
+    questions: |rng| questions(rng, &["normal", "unit_normal"], USUAL, |_| true),
     ..Declaration::ALONE
 };
 
@@ -34,7 +35,11 @@ pub(super) const UV: Declaration = Declaration {
            must be one. Check the vector that you pass: where does it start, which way does it \
            point, and how long is it?",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
-    questions: |rng| questions(rng, &["uv"], |line| line.misses() || line.roots[0] > 0.0),
+    questions: |rng| {
+        questions(rng, &["uv"], USUAL, |line| {
+            line.misses() || line.roots[0] > 0.0
+        })
+    },
     ..Declaration::ALONE
 };
 
@@ -44,7 +49,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
     look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
-    questions: |rng| questions(rng, &["uv"], |_| true),
+    questions: |rng| questions(rng, &["uv"], USUAL, |_| true),
     ..Declaration::ALONE
 };
 
@@ -54,7 +59,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     look: "Copy both: the origin from the ray that you were given, even if you computed with a \
            shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
-    questions: |rng| questions(rng, &["origin", "shape"], |_| true),
+    questions: |rng| questions(rng, &["origin", "shape"], USUAL, |_| true),
     ..Declaration::ALONE
 };
 

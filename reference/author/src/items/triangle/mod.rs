@@ -1,17 +1,19 @@
 //! Items of task 2, step 1: triangles.
 
-mod aim;
 mod hits;
 mod scene;
 mod surface;
 
-use aim::{Side, hitting_ray, random_triangle, ray_through, shape, weights_beyond_edge};
-use judging::exam::ExamQuestion;
-use protocol::{Ray, Vertex};
+use std::ops::Range;
 
-use crate::items::place::Place;
-use crate::items::{DeclaredItem, draw_items};
+use judging::exam::ExamQuestion;
+
+use crate::domains::triangle::{Plane, tables};
+use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
+
+/// The sizes of most triangles. Smaller ones, whose determinants are tiny, are the idea of an item.
+const USUAL: Range<usize> = 4..8;
 
 /// Returns the items of the task `triangle`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
@@ -28,6 +30,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         hits::RANGE_MIN,
         hits::BEHIND_THE_RAY,
         hits::TINY,
+        hits::GRAZING,
         hits::DEGENERATE,
         surface::ORIGIN_AND_MATERIAL,
         scene::PICTURE,
@@ -35,27 +38,25 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     draw_items(seed, &all)
 }
 
-/// Creates one question for each of four triangles, with rays that hit the triangle from this side
-/// and some rays that miss. The last triangle is as large and as far from the origin as those of the
-/// Cornell box.
-fn table_questions(rng: &mut Rng, judged: &[&str], side: Side) -> Vec<ExamQuestion> {
-    let mut table = || {
-        let vertices = random_triangle(rng);
-        let mut rays: Vec<Ray> = (0..8).map(|_| hitting_ray(rng, &vertices, side)).collect();
-        // These rays pass beyond each edge in turn.
-        rays.extend((0..4).map(|i| {
-            let weights = weights_beyond_edge(rng, i % 3);
-            ray_through(rng, &vertices, weights, side)
-        }));
-        (shape(&vertices, 0), rng.shuffled(rays))
-    };
-    let [first, second, third, last] = [table(), table(), table(), table()];
-    let last = Place::room(rng).table(&last);
-    let question = |(shape, rays)| super::shape_question(judged, shape, rays);
-    [first, second, third, last].map(question).to_vec()
+/// Creates questions about triangles of these sizes. Their rays belong to an idea, and every other one
+/// is a hit.
+fn questions(
+    rng: &mut Rng,
+    judged: &[&str],
+    sizes: Range<usize>,
+    belongs: impl Fn(&Plane) -> bool,
+) -> Vec<ExamQuestion> {
+    let tables = tables(rng, judged, sizes, belongs).into_iter();
+    let question = |(shape, rays)| shape_question(judged, shape, rays);
+    tables.map(question).collect()
 }
 
-/// Creates a question about a triangle whose hits are compared by their distances.
-fn distance_question(vertices: &[Vertex; 3], rays: impl IntoIterator<Item = Ray>) -> ExamQuestion {
-    super::shape_question(&["distance"], shape(vertices, 0), rays)
+/// Returns whether the ray does not graze the triangle, which is the idea of an item.
+fn is_steep(plane: &Plane) -> bool {
+    plane.slope.abs() > 0.1
+}
+
+/// Returns whether the ray does not pass close to an edge, which is the idea of an item.
+fn is_well_inside(plane: &Plane) -> bool {
+    plane.least_weight().abs() > 0.02
 }

@@ -1,15 +1,14 @@
 //! The item with a picture of triangles.
 
-use glam::{Vec3, dvec3, vec2, vec3};
+use glam::{DVec3, Vec2, Vec3, dvec3, vec2, vec3};
 use protocol::{Shape, Vertex};
 
-use super::aim::{random_triangle, shape};
 use crate::items::{Declaration, picture};
 use crate::seed::Rng;
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "triangle.picture",
-    points: 4,
+    points: 3,
     title: "a picture of triangles is correct in hits, depth, normals and uv",
     look: "It shows a smooth hill, a square made of two triangles, triangles seen from behind and \
            some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
@@ -92,4 +91,31 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
         add(vertices);
     }
     shapes
+}
+
+/// Returns a triangle that is neither small nor thin, with different normals and texture
+/// coordinates at its corners.
+fn random_triangle(rng: &mut Rng) -> [Vertex; 3] {
+    rng.retry(|rng| {
+        let corners = [rng.point(2.0), rng.point(2.0), rng.point(2.0)];
+        let [p0, p1, p2] = corners;
+        let normal = (p1 - p0).cross(p2 - p0);
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        // Twice the area divided by the longest side is the smallest altitude.
+        (normal.length() / longest > 1.0).then(|| {
+            let mut vertex = |corner: DVec3, uv: Vec2| {
+                let tilted = normal.normalize() + 0.7 * rng.direction();
+                Vertex::new(corner.as_vec3(), tilted.normalize().as_vec3(), uv)
+            };
+            let uvs = [vec2(0.1, 0.2), vec2(0.9, 0.35), vec2(0.3, 0.85)];
+            [vertex(p0, uvs[0]), vertex(p1, uvs[1]), vertex(p2, uvs[2])]
+        })
+    })
+}
+
+fn shape(vertices: &[Vertex; 3], shape: u32) -> Shape {
+    Shape::Triangle {
+        vertices: *vertices,
+        shape,
+    }
 }

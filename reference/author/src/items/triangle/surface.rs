@@ -1,19 +1,25 @@
 //! Items about the quantities of a hit.
 
-use protocol::Ray;
+use super::{USUAL, is_steep, is_well_inside, questions};
+use crate::domains::triangle::Plane;
+use crate::items::{Declaration, groups};
 
-use super::aim::{
-    Side, hitting_ray, missing_ray, random_triangle, ray_through, shape, weights_inside,
-};
-use super::table_questions;
-use crate::items::{Declaration, groups, shape_question};
+/// Returns whether the ray comes from the front.
+fn is_from_the_front(plane: &Plane) -> bool {
+    is_from_either_side(plane) && plane.slope < 0.0
+}
+
+/// Returns whether the ray is well inside the triangle, or well outside.
+fn is_from_either_side(plane: &Plane) -> bool {
+    is_steep(plane) && is_well_inside(plane)
+}
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "triangle.position",
     title: "position is the point where the ray hits the triangle",
     look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
     section: "triangle.md#what-to-return",
-    questions: |rng| table_questions(rng, &["position"], Side::Front),
+    questions: |rng| questions(rng, &["position"], USUAL, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
@@ -23,7 +29,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
            p2, and w = 1 − u − v. The normal of the flat face is not used.",
     section: "triangle.md#interpolate-the-given-normals",
-    questions: |rng| table_questions(rng, &["normal"], Side::Front),
+    questions: |rng| questions(rng, &["normal"], USUAL, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
@@ -33,7 +39,7 @@ pub(super) const UV: Declaration = Declaration {
     look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and p2, \
            and w = 1 − u − v. The barycentric u and v are only its weights.",
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
-    questions: |rng| table_questions(rng, &["uv"], Side::Front),
+    questions: |rng| questions(rng, &["uv"], USUAL, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
@@ -44,20 +50,10 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
            = 1 − u − v belongs to p0, u to p1 and v to p2.",
     section: "triangle.md#each-weight-belongs-to-its-corner",
     questions: |rng| {
-        let mut table = || {
-            let vertices = random_triangle(rng);
-            let mut rays = Vec::new();
-            for corner in 0..3 {
-                for _ in 0..3 {
-                    let mut weights = weights_inside(rng, 0.25).map(|w| 0.2 * w);
-                    weights[corner] += 0.8;
-                    rays.push(ray_through(rng, &vertices, weights, Side::Front));
-                }
-                rays.push(missing_ray(rng, &vertices, Side::Front));
-            }
-            shape_question(&["uv"], shape(&vertices, 0), rays)
-        };
-        vec![table(), table()]
+        questions(rng, &["uv"], USUAL, |plane| {
+            is_from_the_front(plane)
+                && (!plane.is_inside() || plane.weights.iter().any(|&weight| weight > 0.8))
+        })
     },
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
@@ -68,7 +64,7 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
     look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
            ray.",
     section: "triangle.md#do-not-flip-the-normal",
-    questions: |rng| table_questions(rng, &["normal"], Side::Either),
+    questions: |rng| questions(rng, &["normal"], USUAL, is_from_either_side),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
@@ -77,17 +73,6 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     title: "the trace holds the ray's origin and the triangle's shape",
     look: "Copy both: the origin from the ray, and the shape's number from the triangle.",
     section: "triangle.md#what-to-return",
-    questions: |rng| {
-        let mut table = |number: u32| {
-            let vertices = random_triangle(rng);
-            let mut rays: Vec<Ray> = (0..6)
-                .map(|_| hitting_ray(rng, &vertices, Side::Front))
-                .collect();
-            rays.extend((0..3).map(|_| missing_ray(rng, &vertices, Side::Front)));
-            let judged = ["origin", "shape"];
-            shape_question(&judged, shape(&vertices, number), rays)
-        };
-        vec![table(0), table(7), table(42)]
-    },
+    questions: |rng| questions(rng, &["origin", "shape"], USUAL, is_from_either_side),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };

@@ -1,0 +1,344 @@
+//! The domain of `Triangle::hit`.
+
+use std::ops::Range;
+
+use glam::{DVec3, Vec2};
+use protocol::{Ray, Shape, Vertex};
+
+use super::Aspect;
+use super::fields;
+use super::shape::{DIRECTION, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall, ShapeDomain};
+use crate::oracle::{Ray64, scan, triangle};
+use crate::seed::Rng;
+
+/// The domain of `Triangle::hit`.
+pub static TRIANGLE: ShapeDomain = ShapeDomain {
+    function: "Triangle::hit",
+    aspects: &[
+        SIZE,
+        PLACE,
+        OCTANT,
+        NUMBER,
+        FACING,
+        START,
+        COSINE,
+        CROSSING,
+        LEAST_WEIGHT,
+        DIRECTION,
+        RANGE,
+    ],
+};
+
+/// The direction in which the triangle faces.
+const FACING: Aspect<ShapeCall> = Aspect {
+    name: "facing",
+    classes: &["+x", "+y", "+z", "-x", "-y", "-z", "any"],
+    class: |call| {
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        let normal = (p1 - p0).cross(p2 - p0);
+        let axes = (0..3).filter(|&axis| normal[axis] != 0.0);
+        let axes: Vec<usize> = axes.collect();
+        Some(match axes[..] {
+            [axis] if normal[axis] > 0.0 => axis,
+            [axis] => 3 + axis,
+            _ => 6,
+        })
+    },
+};
+
+/// The start of the ray, seen from the triangle. Its size is half of its box's longest side.
+const START: Aspect<ShapeCall> = Aspect {
+    name: "start",
+    classes: &[
+        "in front, up to 3 sizes away",
+        "in front, up to 30 sizes away",
+        "behind, up to 3 sizes away",
+        "behind, up to 30 sizes away",
+        "on the surface",
+        "leads away",
+    ],
+    class: |call| {
+        let Plane {
+            distance, slope, ..
+        } = Plane::of(call)?;
+        let sizes = distance / call.size();
+        let side = if slope < 0.0 { 0 } else { 2 };
+        Some(match sizes {
+            ..-0.01 => 5,
+            ..0.01 => 4,
+            ..3.0 => side,
+            _ => side + 1,
+        })
+    },
+};
+
+/// The cosine between the ray and the triangle's normal.
+const COSINE: Aspect<ShapeCall> = Aspect {
+    name: "cosine",
+    classes: &["below 0.01", "0.01 to 0.1", "0.1 to 0.5", "0.5 to 1", "1"],
+    class: |call| {
+        Some(match Plane::of(call)?.slope.abs() {
+            ..0.01 => 0,
+            ..0.1 => 1,
+            ..0.5 => 2,
+            ..0.999_999 => 3,
+            _ => 4,
+        })
+    },
+};
+
+/// The point where the ray's line crosses the plane.
+const CROSSING: Aspect<ShapeCall> = Aspect {
+    name: "crossing",
+    classes: &[
+        "inside",
+        "just inside an edge",
+        "just outside an edge",
+        "outside",
+        "far outside",
+    ],
+    class: |call| {
+        Some(match Plane::of(call)?.least_weight() {
+            EDGE.. => 0,
+            0.0.. => 1,
+            -0.02.. => 2,
+            -1.0.. => 3,
+            _ => 4,
+        })
+    },
+};
+
+/// The largest weight at which a point counts as just inside an edge.
+const EDGE: f64 = 0.02;
+
+/// The corner with the smallest weight.
+const LEAST_WEIGHT: Aspect<ShapeCall> = Aspect {
+    name: "least weight",
+    classes: &["p0", "p1", "p2"],
+    class: |call| {
+        let plane = Plane::of(call)?;
+        (0..3).min_by(|&a, &b| plane.weights[a].total_cmp(&plane.weights[b]))
+    },
+};
+
+/// The point where a call's ray crosses the plane of the triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    /// The ray.
+    pub ray64: Ray64,
+    /// The distance along the ray, which is negative if the ray leads away from the plane.
+    pub distance: f64,
+    /// The weights of the corners.
+    pub weights: [f64; 3],
+    /// The ray's direction times the normal (p1 − p0) × (p2 − p0), which has length one. Negative if
+    /// the ray comes from the front.
+    pub slope: f64,
+    /// The smallest altitude.
+    altitude: f64,
+    /// Half of the longest side of the triangle's box.
+    size: f64,
+    /// The largest coordinate of the ray and the triangle.
+    coordinates: f64,
+}
+
+impl Plane {
+    /// Returns the point where a call's ray crosses the plane, or `None` if it is parallel to it.
+    pub fn of(call: &ShapeCall) -> Option<Plane> {
+        let corners @ [p0, p1, p2] = scan::corners(&call.shape)?;
+        let ray64 = Ray64::from(&call.ray);
+        let crossing = triangle::intersect_plane(&ray64, corners)?;
+        let normal = (p1 - p0).cross(p2 - p0);
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let points = corners.into_iter().chain([ray64.origin]);
+        Some(Plane {
+            ray64,
+            distance: crossing.distance,
+            weights: crossing.weights,
+            slope: normal.normalize().dot(ray64.dir),
+            altitude: normal.length() / longest,
+            size: call.size(),
+            coordinates: points
+                .map(|point| point.abs().max_element())
+                .fold(0.0, f64::max),
+        })
+    }
+
+    /// Returns the smallest weight, which is negative outside the triangle.
+    pub fn least_weight(&self) -> f64 {
+        self.weights.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns whether the range of the ray is from 0 to ∞.
+    pub fn is_unlimited(&self) -> bool {
+        self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
+    }
+
+    /// Returns whether the ray crosses the plane inside the triangle, whatever its range is.
+    pub fn is_inside(&self) -> bool {
+        self.least_weight() >= 0.0
+    }
+
+    fn is_hit(&self) -> bool {
+        self.is_inside() && self.ray64.is_in_range(self.distance)
+    }
+
+    /// Returns how wrong the distance may be if it is computed in single precision by a usual formula,
+    /// such as (n · p0 − n · origin) / (n · direction).
+    fn distance_error(&self) -> f64 {
+        1.5 * EPSILON * (self.coordinates + self.distance.abs()) / self.slope.abs()
+    }
+
+    /// Returns how wrong a weight may be if it is computed in single precision by a usual formula.
+    fn weight_error(&self) -> f64 {
+        (2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates) / self.altitude
+    }
+
+    /// Returns whether every correct formula in single precision agrees on whether the triangle is hit.
+    pub fn is_clear(&self) -> bool {
+        /// The least distance from an edge, in altitudes.
+        const EDGE_MARGIN: f64 = 5e-4;
+        /// The least cosine at which edges are tested.
+        const EDGE_COSINE: f64 = 0.1;
+        /// The least distance from an edge of a ray at a smaller cosine, in altitudes.
+        const GRAZING_MARGIN: f64 = 0.1;
+        /// The least difference between a distance and an end of the range, in sizes.
+        const END_MARGIN: f64 = 0.02;
+        let margin = if self.slope.abs() < EDGE_COSINE {
+            GRAZING_MARGIN
+        } else {
+            EDGE_MARGIN
+        };
+        let margin = margin.max(4.0 * self.weight_error());
+        if self.slope.abs() < 3.5e-3 || self.least_weight().abs() < margin {
+            return false;
+        }
+        let margin = (END_MARGIN * self.size).max(4.0 * self.distance_error());
+        let mut ends = [self.ray64.min, self.ray64.max].into_iter();
+        !self.is_inside() || ends.all(|end| (self.distance - end).abs() >= margin)
+    }
+
+    /// Returns whether every correct formula in single precision computes the quantity of this name well
+    /// within its tolerance.
+    pub fn is_exact(&self, quantity: &str) -> bool {
+        /// The largest part of a tolerance that errors may take.
+        const PART: f64 = 0.4;
+        if !self.is_hit() {
+            return true;
+        }
+        let scale = self.coordinates.max(self.distance);
+        match quantity {
+            "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
+            "normal" => 2.0 * self.weight_error() <= PART * 1e-3,
+            "uv" => self.weight_error() <= PART * 2e-3,
+            _ => true,
+        }
+    }
+}
+
+/// The relative error of one operation in single precision.
+const EPSILON: f64 = 6e-8;
+
+/// Draws a triangle of this size, which faces along an axis or in any direction. It is not thin, and its
+/// corners have different normals and texture coordinates.
+fn shape(rng: &mut Rng, size: usize) -> Shape {
+    let size = fields::size(rng, size);
+    let wall = rng.coin().then(|| rng.index(3));
+    let corners = rng.retry(|rng| {
+        let mut corners = [rng.point(1.0), rng.point(1.0), rng.point(1.0)];
+        if let Some(axis) = wall {
+            corners.iter_mut().for_each(|corner| corner[axis] = 0.0);
+        }
+        let [p0, p1, p2] = corners;
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+        (altitude > 0.3 * longest).then_some(corners)
+    });
+    let bounds = crate::oracle::bbox::Bounds::around(corners);
+    let factor = 2.0 * size / (bounds.max - bounds.min).max_element();
+    let start = if rng.index(6) == 0 {
+        -factor * corners[0]
+    } else {
+        fields::place(rng, size) - factor * bounds.center()
+    };
+    let corners = corners.map(|corner| (start + factor * corner).as_vec3());
+    let front = {
+        let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());
+        (p1 - p0).cross(p2 - p0).normalize()
+    };
+    let vertices = corners.map(|corner| {
+        let normal = (front + 0.7 * rng.direction()).normalize();
+        let uv = Vec2::new(rng.uniform(0.0, 1.0) as f32, rng.uniform(0.0, 1.0) as f32);
+        Vertex::new(corner, normal.as_vec3(), uv)
+    });
+    Shape::Triangle {
+        vertices,
+        shape: fields::number(rng),
+    }
+}
+
+/// Returns the weights of a point: inside, near an edge, or outside.
+fn weights(rng: &mut Rng) -> [f64; 3] {
+    let least = match rng.index(6) {
+        0 | 1 => return fields::weights_inside(rng, EDGE),
+        2 => rng.log_uniform(5e-4, EDGE),
+        3 => -rng.log_uniform(5e-4, EDGE),
+        4 => -rng.uniform(EDGE, 1.0),
+        _ => -rng.uniform(1.0, 4.0),
+    };
+    let (corner, along) = (rng.index(3), rng.uniform(0.05, 0.95));
+    let mut weights = [least; 3];
+    weights[(corner + 1) % 3] = (1.0 - least) * along;
+    weights[(corner + 2) % 3] = (1.0 - least) * (1.0 - along);
+    weights
+}
+
+/// Draws a ray through the plane of a triangle. Returns `None` if it would start too far away.
+fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
+    let [p0, p1, p2] = scan::corners(shape)?;
+    let [w0, w1, w2] = weights(rng);
+    let target = w0 * p0 + w1 * p1 + w2 * p2;
+    let front = (p1 - p0).cross(p2 - p0).normalize();
+    let bounds = scan::bounds(shape);
+    let size = 0.5 * (bounds.max - bounds.min).max_element();
+    let dir = match rng.index(6) {
+        0 => {
+            let cosine = rng.sign() * rng.log_uniform(3.5e-3, 0.1);
+            let along = rng.perpendicular_to(front);
+            (1.0 - cosine * cosine).sqrt() * along + cosine * front
+        }
+        1 => rng.sign() * front,
+        _ => fields::direction(rng),
+    };
+    let ahead = size
+        * match rng.index(6) {
+            0 | 1 => rng.log_uniform(0.05, 3.0),
+            2 | 3 => rng.uniform(3.0, 28.0),
+            4 => 0.0,
+            _ => -rng.log_uniform(0.05, 28.0),
+        };
+    let origin: DVec3 = target - ahead * dir;
+    if origin.abs().max_element() > fields::FURTHEST {
+        return None;
+    }
+    let range = fields::range(rng, ahead.max(0.0) + 2.0 * size);
+    Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(range.min, range.max))
+}
+
+/// Draws triangles of these sizes, each with rays that belong to an idea, every other one a hit. All
+/// correct formulas compute the judged quantities within their tolerances.
+pub fn tables(
+    rng: &mut Rng,
+    judged: &[&str],
+    sizes: Range<usize>,
+    belongs: impl Fn(&Plane) -> bool,
+) -> Vec<(Shape, Vec<Ray>)> {
+    let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
+    super::shape::tables(rng, TRIANGLE.aspects, sizes, shape, |rng, shape| {
+        let call = ShapeCall {
+            shape: *shape,
+            ray: ray(rng, shape)?,
+        };
+        let plane = Plane::of(&call)?;
+        (is_fair(&plane) && belongs(&plane)).then_some(call)
+    })
+}

@@ -3,9 +3,9 @@
 use super::Aspect;
 use crate::seed::Rng;
 
-/// How many calls are drawn for each that is chosen.
-const CANDIDATES: usize = 16;
-/// How many calls are drawn at most until one of them is of the right kind.
+/// How many suitable calls are compared.
+const CANDIDATES: usize = 8;
+/// How many calls are drawn at most to find them.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.
@@ -27,22 +27,21 @@ impl<C> Balance<C> {
     }
 
     /// Draws some calls, and chooses the one whose classes have been chosen least often. Returns `None`
-    /// if `draw` hardly ever returns a call.
+    /// if `draw` never returns a call.
     pub fn choose(
         &mut self,
         rng: &mut Rng,
         mut draw: impl FnMut(&mut Rng) -> Option<C>,
     ) -> Option<C> {
-        let candidates = (0..CANDIDATES).map(|_| rng.attempt(ATTEMPTS, &mut draw));
-        let mut candidates = candidates.collect::<Option<Vec<C>>>()?;
-        let rarity = |call: &C| {
-            self.classes(call)
+        let drawn = (0..ATTEMPTS).filter_map(|_| draw(rng));
+        let rarity = |call: &C| -> f64 {
+            let classes = self.classes(call);
+            classes
                 .map(|(aspect, class)| self.rarity(aspect, class))
-                .sum::<f64>()
+                .sum()
         };
-        let rarities: Vec<f64> = candidates.iter().map(rarity).collect();
-        let rarest = (0..CANDIDATES).max_by(|&a, &b| rarities[a].total_cmp(&rarities[b]));
-        let call = candidates.swap_remove(rarest.expect("there are candidates"));
+        let rated = drawn.take(CANDIDATES).map(|call| (rarity(&call), call));
+        let (_, call) = rated.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
         let classes: Vec<(usize, usize)> = self.classes(&call).collect();
         for (aspect, class) in classes {
             self.counts[aspect][class] += 1;

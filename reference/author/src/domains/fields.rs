@@ -10,7 +10,7 @@ use crate::seed::Rng;
 /// The largest coordinate of a scene.
 pub const FURTHEST: f64 = 1000.0;
 
-/// The classes of lengths: decades.
+/// The classes of lengths: decades, named by their beginnings.
 pub const SIZES: &[&str] = &[
     "below 1e-4",
     "1e-4",
@@ -20,6 +20,7 @@ pub const SIZES: &[&str] = &[
     "1",
     "10",
     "100",
+    "500",
 ];
 
 /// All classes of lengths.
@@ -31,15 +32,34 @@ pub const USUAL: Range<usize> = 3..SIZES.len();
 
 /// Returns the class of a length: its decade.
 pub fn size_class(size: f64) -> usize {
+    if size >= 500.0 {
+        return SIZES.len() - 1;
+    }
     let decade = size.log10().floor() as i32 + 5;
-    decade.clamp(0, SIZES.len() as i32 - 1) as usize
+    decade.clamp(0, SIZES.len() as i32 - 2) as usize
 }
 
 /// Draws a length of one class.
 pub fn size(rng: &mut Rng, class: usize) -> f64 {
     match class {
         0 => rng.log_uniform(2e-7, 1e-4),
+        7 => rng.log_uniform(105.0, 450.0),
+        8 => rng.log_uniform(510.0, 900.0),
         _ => 10f64.powi(class as i32 - 5) * rng.log_uniform(1.05, 9.5),
+    }
+}
+
+/// The classes of distances along a ray.
+pub const DISTANCES: &[&str] = &["below 1e-2", "1e-2", "1", "100", "2000"];
+
+/// Returns the class of a distance along a ray.
+pub fn distance_class(distance: f64) -> usize {
+    match distance {
+        ..1e-2 => 0,
+        ..1.0 => 1,
+        ..100.0 => 2,
+        ..2000.0 => 3,
+        _ => 4,
     }
 }
 
@@ -139,6 +159,12 @@ pub fn direction(rng: &mut Rng) -> DVec3 {
         dir[(axis + 1) % 3] = 0.0 * rng.sign();
     }
     dir.normalize()
+}
+
+/// Draws the start of a ray toward a target, up to 30 sizes away.
+pub fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
+    let start = rng.vector(0.5, 1.0) * FURTHEST * -target.signum();
+    (start.distance(target) < 29.0 * size).then_some(start)
 }
 
 /// The classes of ranges.

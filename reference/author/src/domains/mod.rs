@@ -6,14 +6,20 @@
 //! shapes, along an axis, from inside.
 
 mod balance;
+pub mod bbox;
+pub mod camera;
 pub mod fields;
 pub mod shape;
 pub mod sphere;
+mod tables;
 pub mod triangle;
 
 use protocol::Question;
 
+use crate::seed::Rng;
+
 pub use balance::Balance;
+pub use tables::{Drawn, Generator};
 
 /// One way in which calls differ, divided into classes.
 #[derive(Debug)]
@@ -26,15 +32,73 @@ pub struct Aspect<C: 'static> {
     pub class: fn(&C) -> Option<usize>,
 }
 
-/// The aspects of the calls of a function.
-pub trait Domain: Sync {
+/// A call of a function that may return nothing.
+pub trait Call: Copy + 'static {
+    /// The value that the function is called on.
+    type Subject: Copy;
+    /// The arguments.
+    type Input: Copy;
+
+    /// Creates a call that no other precedes.
+    fn new(subject: Self::Subject, input: Self::Input) -> Self;
+
+    /// Returns a value much like the one that the function is called on.
+    fn other_subject(&self) -> Self::Subject;
+
+    /// Returns the value that the function is called on.
+    fn subject(&self) -> Self::Subject;
+
+    /// Returns the arguments.
+    fn input(&self) -> Self::Input;
+
+    /// Returns whether the correct answer is not `None`.
+    fn is_hit(&self) -> bool;
+
+    /// Returns a hit with another range of distances, which may be a miss.
+    fn with_other_range(&self, rng: &mut Rng) -> Option<Self>;
+}
+
+/// The domain of a function.
+#[derive(Debug)]
+pub struct FunctionDomain<C: 'static> {
     /// The name of the function, as in [`protocol::AnyTable::name`].
+    pub function: &'static str,
+    /// How its calls differ.
+    pub aspects: &'static [Aspect<C>],
+    /// Returns the calls of a question about the function.
+    pub calls: fn(&Question) -> Vec<C>,
+}
+
+/// The domain of any function.
+pub trait Domain: Sync {
+    /// The name of the function.
     fn function(&self) -> &'static str;
 
     /// Returns the names of the aspects, each with its classes.
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])>;
 
-    /// Returns the classes of each call of a question about the function: one for each aspect that
+    /// Returns the classes of each call of a question about the function, one for each aspect that
     /// applies.
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
+}
+
+impl<C> Domain for FunctionDomain<C> {
+    fn function(&self) -> &'static str {
+        self.function
+    }
+
+    fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
+        let aspects = self.aspects.iter();
+        aspects
+            .map(|aspect| (aspect.name, aspect.classes))
+            .collect()
+    }
+
+    fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
+        let classes = |call: &C| {
+            let aspects = self.aspects.iter();
+            aspects.map(|aspect| (aspect.class)(call)).collect()
+        };
+        (self.calls)(question).iter().map(classes).collect()
+    }
 }

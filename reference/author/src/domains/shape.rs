@@ -1,15 +1,13 @@
 //! Calls of `hit` of a single shape, and what all shapes have in common.
 
-use std::ops::Range;
-
 use glam::DVec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::fields::{
-    DIRECTIONS, NUMBERS, OCTANTS, PLACES, RANGES, SIZES, direction_class, number_class, octant,
-    place_class, range_class, size_class,
+    self, DIRECTIONS, DISTANCES, NUMBERS, OCTANTS, PLACES, RANGES, SIZES, direction_class,
+    distance_class, number_class, octant, place_class, range_class, size_class,
 };
-use super::{Aspect, Balance, Domain};
+use super::{Aspect, Call};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
@@ -20,6 +18,8 @@ pub struct ShapeCall {
     pub shape: Shape,
     /// The ray.
     pub ray: Ray,
+    /// The ray of the call before this one, if it was about the same shape.
+    pub before: Option<Ray>,
 }
 
 impl ShapeCall {
@@ -69,6 +69,16 @@ pub const DIRECTION: Aspect<ShapeCall> = Aspect {
     class: |call| direction_class(call.ray.dir),
 };
 
+/// The distance of the hit.
+pub const DISTANCE: Aspect<ShapeCall> = Aspect {
+    name: "distance",
+    classes: DISTANCES,
+    class: |call| {
+        let hit = scan::intersect(&Ray64::from(&call.ray), &call.shape)?;
+        Some(distance_class(hit.distance))
+    },
+};
+
 /// The range of the ray.
 pub const RANGE: Aspect<ShapeCall> = Aspect {
     name: "range",
@@ -76,79 +86,83 @@ pub const RANGE: Aspect<ShapeCall> = Aspect {
     class: |call| range_class(call.ray.range),
 };
 
-/// The domain of `hit` of one kind of shape.
-#[derive(Debug)]
-pub struct ShapeDomain {
-    /// The name of the method.
-    pub function: &'static str,
-    /// How its calls differ.
-    pub aspects: &'static [Aspect<ShapeCall>],
-}
-
-impl Domain for ShapeDomain {
-    fn function(&self) -> &'static str {
-        self.function
-    }
-
-    fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
-        let aspects = self.aspects.iter();
-        aspects
-            .map(|aspect| (aspect.name, aspect.classes))
-            .collect()
-    }
-
-    fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
-        let Question::Hit(table) = question else {
-            return Vec::new();
-        };
-        let Geometry::List { shapes } = &table.subject else {
-            return Vec::new();
-        };
-        let [shape] = shapes[..] else {
-            return Vec::new();
-        };
-        let rays = table.rows.to_vec();
-        let calls = rays.iter().map(|&ray| ShapeCall { shape, ray });
-        let classes = calls.map(|call| {
-            let aspects = self.aspects.iter();
-            aspects.map(|aspect| (aspect.class)(&call)).collect()
-        });
-        classes.collect()
-    }
-}
-
-/// Draws a shape of each of these sizes, each with rays of which every other one is a hit, so that each
-/// class of each aspect occurs.
-pub fn tables(
-    rng: &mut Rng,
-    aspects: &'static [Aspect<ShapeCall>],
-    sizes: Range<usize>,
-    shape: impl Fn(&mut Rng, usize) -> Shape,
-    call: impl Fn(&mut Rng, &Shape) -> Option<ShapeCall>,
-) -> Vec<(Shape, Vec<Ray>)> {
-    const ROWS: usize = 14;
-    let mut balance = Balance::new(aspects);
-    let table = |size: usize| {
-        rng.retry(|rng| {
-            let shape = balance.clone().choose(rng, |rng| {
-                let shape = shape(rng, size);
-                rng.attempt(100, |rng| call(rng, &shape))
-            })?;
-            let shape = shape.shape;
-            let mut drawn = balance.clone();
-            let rays = (0..ROWS).map(|row| {
-                let expected = row % 2 == 0;
-                let chosen = drawn.choose(rng, |rng| {
-                    let call = call(rng, &shape)?;
-                    let hit = scan::intersect(&Ray64::from(&call.ray), &shape);
-                    (hit.is_some() == expected).then_some(call)
-                });
-                Some(chosen?.ray)
-            });
-            let rays = rays.collect::<Option<Vec<Ray>>>()?;
-            balance = drawn;
-            Some((shape, rng.shuffled(rays)))
+/// The call before.
+pub const HISTORY: Aspect<ShapeCall> = Aspect {
+    name: "call before",
+    classes: &["none", "another ray", "the same ray with another range"],
+    class: |call| {
+        Some(match call.before {
+            None => 0,
+            Some(before) if (before.origin, before.dir) == (call.ray.origin, call.ray.dir) => 2,
+            Some(_) => 1,
         })
+    },
+};
+
+impl Call for ShapeCall {
+    type Subject = Shape;
+    type Input = Ray;
+
+    fn new(shape: Shape, ray: Ray) -> Self {
+        ShapeCall {
+            shape,
+            ray,
+            before: None,
+        }
+    }
+
+    fn other_subject(&self) -> Shape {
+        const FACTOR: f32 = 0.75;
+        let middle = self.middle().as_vec3();
+        let mut shape = self.shape;
+        match &mut shape {
+            Shape::Sphere { radius, .. } => *radius *= FACTOR,
+            Shape::Triangle { vertices, .. } => {
+                for vertex in vertices {
+                    vertex.position = middle + FACTOR * (vertex.position - middle);
+                }
+            }
+            Shape::FlatTriangle { corners, .. } => {
+                *corners = corners.map(|corner| middle + FACTOR * (corner - middle));
+            }
+        }
+        shape
+    }
+
+    fn subject(&self) -> Shape {
+        self.shape
+    }
+
+    fn input(&self) -> Ray {
+        self.ray
+    }
+
+    fn is_hit(&self) -> bool {
+        scan::intersect(&Ray64::from(&self.ray), &self.shape).is_some()
+    }
+
+    fn with_other_range(&self, rng: &mut Rng) -> Option<Self> {
+        let distance = scan::intersect(&Ray64::from(&self.ray), &self.shape)?.distance;
+        let range = fields::range(rng, distance + 2.0 * self.size());
+        let ray = self.ray.within(range.min, range.max);
+        Some(ShapeCall { ray, ..*self })
+    }
+}
+
+/// Returns the calls of a question about a single shape.
+pub fn calls(question: &Question) -> Vec<ShapeCall> {
+    let Question::Hit(table) = question else {
+        return Vec::new();
     };
-    sizes.map(table).collect()
+    let Geometry::List { shapes } = &table.subject else {
+        return Vec::new();
+    };
+    let [shape] = shapes[..] else {
+        return Vec::new();
+    };
+    let rays = table.rows.to_vec();
+    let before = std::iter::once(None).chain(rays.iter().copied().map(Some));
+    let calls = rays.iter().zip(before);
+    let calls = calls.map(|(&ray, before)| ShapeCall { shape, ray, before });
+    calls.collect()
 }

@@ -2,20 +2,24 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
 use protocol::{Interval, Ray, Shape};
 
-use super::Aspect;
 use super::fields;
-use super::shape::{DIRECTION, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall, ShapeDomain};
+use super::shape::{
+    self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
+};
+use super::{Aspect, FunctionDomain, Generator};
 use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
 /// The domain of `Sphere::hit`.
-pub static SPHERE: ShapeDomain = ShapeDomain {
+pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
+    calls: shape::calls,
     function: "Sphere::hit",
-    aspects: &[SIZE, PLACE, OCTANT, NUMBER, START, LINE, DIRECTION, RANGE],
+    aspects: &[
+        SIZE, PLACE, OCTANT, NUMBER, START, DISTANCE, LINE, DIRECTION, RANGE, HISTORY,
+    ],
 };
 
 /// The start of the ray, seen from the sphere.
@@ -179,12 +183,12 @@ impl Line {
 const EPSILON: f64 = 6e-8;
 
 /// Draws a sphere with a radius of this class.
-fn sphere(rng: &mut Rng, size: usize) -> Sphere {
+fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let radius = fields::size(rng, size);
-    let rounded = |center: DVec3| center.as_vec3().as_dvec3();
-    Sphere {
-        center: rounded(fields::place(rng, radius)),
-        radius: f64::from(radius as f32),
+    Shape::Sphere {
+        center: fields::place(rng, radius).as_vec3(),
+        radius: radius as f32,
+        shape: fields::number(rng),
     }
 }
 
@@ -210,7 +214,12 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
         4 => half_chord * rng.sign(),
         _ => -radius * rng.log_uniform(1.2, 29.0),
     };
-    let origin = closest - ahead * dir;
+    let mut origin = closest - ahead * dir;
+    let mut dir = dir;
+    if rng.index(8) == 0 {
+        origin = fields::start_far_away(rng, closest, radius)?;
+        dir = (closest - origin).normalize();
+    }
     if origin.abs().max_element() > fields::FURTHEST {
         return None;
     }
@@ -227,25 +236,11 @@ pub fn tables(
     belongs: impl Fn(&Line) -> bool,
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
-    super::shape::tables(
-        rng,
-        SPHERE.aspects,
-        sizes,
-        |rng, size| {
-            let Sphere { center, radius } = sphere(rng, size);
-            Shape::Sphere {
-                center: center.as_vec3(),
-                radius: radius as f32,
-                shape: fields::number(rng),
-            }
-        },
-        |rng, shape| {
-            let call = ShapeCall {
-                shape: *shape,
-                ray: ray(rng, shape)?,
-            };
-            let line = Line::of(&call)?;
-            (is_fair(&line) && belongs(&line)).then_some(call)
-        },
-    )
+    let generator = Generator {
+        aspects: SPHERE.aspects,
+        subject: &drawn_shape,
+        input: &ray,
+        fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),
+    };
+    generator.tables(rng, sizes)
 }

@@ -2,17 +2,21 @@
 
 use std::ops::Range;
 
-use glam::{DVec3, Vec2};
+use glam::{DVec2, DVec3};
 use protocol::{Ray, Shape, Vertex};
 
-use super::Aspect;
 use super::fields;
-use super::shape::{DIRECTION, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall, ShapeDomain};
+use super::shape::{
+    self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
+};
+use super::{Aspect, FunctionDomain, Generator};
+use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan, triangle};
 use crate::seed::Rng;
 
 /// The domain of `Triangle::hit`.
-pub static TRIANGLE: ShapeDomain = ShapeDomain {
+pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
+    calls: shape::calls,
     function: "Triangle::hit",
     aspects: &[
         SIZE,
@@ -20,29 +24,89 @@ pub static TRIANGLE: ShapeDomain = ShapeDomain {
         OCTANT,
         NUMBER,
         FACING,
+        FORM,
+        TILES,
+        NORMALS,
         START,
+        DISTANCE,
         COSINE,
         CROSSING,
         LEAST_WEIGHT,
         DIRECTION,
         RANGE,
+        HISTORY,
     ],
 };
 
 /// The direction in which the triangle faces.
 const FACING: Aspect<ShapeCall> = Aspect {
     name: "facing",
-    classes: &["+x", "+y", "+z", "-x", "-y", "-z", "any"],
+    classes: &[
+        "+x",
+        "+y",
+        "+z",
+        "-x",
+        "-y",
+        "-z",
+        "almost along an axis",
+        "any",
+    ],
     class: |call| {
         let [p0, p1, p2] = scan::corners(&call.shape)?;
-        let normal = (p1 - p0).cross(p2 - p0);
-        let axes = (0..3).filter(|&axis| normal[axis] != 0.0);
-        let axes: Vec<usize> = axes.collect();
+        let normal = (p1 - p0).cross(p2 - p0).normalize();
+        let axes: Vec<usize> = (0..3).filter(|&axis| normal[axis] != 0.0).collect();
         Some(match axes[..] {
             [axis] if normal[axis] > 0.0 => axis,
             [axis] => 3 + axis,
-            _ => 6,
+            _ if normal.abs().max_element() > 0.9999 => 6,
+            _ => 7,
         })
+    },
+};
+
+/// The form of the triangle.
+const FORM: Aspect<ShapeCall> = Aspect {
+    name: "form",
+    classes: &["wide", "narrow at p0", "narrow at p1", "narrow at p2"],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        let narrow = (0..3).find(|&corner| {
+            let side = |other: usize| corners[(corner + other) % 3] - corners[corner];
+            let (a, b) = (side(1).normalize(), side(2).normalize());
+            a.cross(b).length() < NARROW && a.dot(b) > 0.0
+        });
+        Some(narrow.map_or(0, |corner| 1 + corner))
+    },
+};
+
+/// The sine of the angles that count as narrow.
+const NARROW: f64 = 0.045;
+
+/// The texture coordinates of the corners.
+const TILES: Aspect<ShapeCall> = Aspect {
+    name: "uv of the corners",
+    classes: &["in [0, 1]", "beyond"],
+    class: |call| {
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let unit = 0.0..=1.0;
+        let is_inside = |vertex: &Vertex| vertex.uv.to_array().iter().all(|it| unit.contains(it));
+        Some(usize::from(!vertices.iter().all(is_inside)))
+    },
+};
+
+/// The side to which the normals of the corners point.
+const NORMALS: Aspect<ShapeCall> = Aspect {
+    name: "normals of the corners",
+    classes: &["to the front", "to the back"],
+    class: |call| {
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        let front = (p1 - p0).cross(p2 - p0);
+        Some(usize::from(vertices[0].normal.as_dvec3().dot(front) < 0.0))
     },
 };
 
@@ -229,7 +293,8 @@ impl Plane {
         match quantity {
             "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
             "normal" => 2.0 * self.weight_error() <= PART * 1e-3,
-            "uv" => self.weight_error() <= PART * 2e-3,
+            // Corners may differ by five tiles.
+            "uv" => 5.0 * self.weight_error() <= PART * 2e-3,
             _ => true,
         }
     }
@@ -238,22 +303,12 @@ impl Plane {
 /// The relative error of one operation in single precision.
 const EPSILON: f64 = 6e-8;
 
-/// Draws a triangle of this size, which faces along an axis or in any direction. It is not thin, and its
-/// corners have different normals and texture coordinates.
-fn shape(rng: &mut Rng, size: usize) -> Shape {
+/// Draws a triangle of this size. It faces along an axis, almost so, or in any direction, and may be
+/// narrow at a corner.
+fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
-    let wall = rng.coin().then(|| rng.index(3));
-    let corners = rng.retry(|rng| {
-        let mut corners = [rng.point(1.0), rng.point(1.0), rng.point(1.0)];
-        if let Some(axis) = wall {
-            corners.iter_mut().for_each(|corner| corner[axis] = 0.0);
-        }
-        let [p0, p1, p2] = corners;
-        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
-        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
-        (altitude > 0.3 * longest).then_some(corners)
-    });
-    let bounds = crate::oracle::bbox::Bounds::around(corners);
+    let corners = corners(rng);
+    let bounds = Bounds::around(corners);
     let factor = 2.0 * size / (bounds.max - bounds.min).max_element();
     let start = if rng.index(6) == 0 {
         -factor * corners[0]
@@ -261,19 +316,47 @@ fn shape(rng: &mut Rng, size: usize) -> Shape {
         fields::place(rng, size) - factor * bounds.center()
     };
     let corners = corners.map(|corner| (start + factor * corner).as_vec3());
-    let front = {
-        let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());
-        (p1 - p0).cross(p2 - p0).normalize()
-    };
+    let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());
+    let side = rng.sign() * (p1 - p0).cross(p2 - p0).normalize();
+    let (least, most) = if rng.coin() { (0.0, 1.0) } else { (-2.0, 3.0) };
     let vertices = corners.map(|corner| {
-        let normal = (front + 0.7 * rng.direction()).normalize();
-        let uv = Vec2::new(rng.uniform(0.0, 1.0) as f32, rng.uniform(0.0, 1.0) as f32);
-        Vertex::new(corner, normal.as_vec3(), uv)
+        let normal = (side + 0.7 * rng.direction()).normalize();
+        let uv = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+        Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
     });
     Shape::Triangle {
         vertices,
         shape: fields::number(rng),
     }
+}
+
+/// Draws the corners of a triangle with sides of about one.
+fn corners(rng: &mut Rng) -> [DVec3; 3] {
+    let (axis, kind) = (rng.index(3), rng.index(4));
+    let tilt = match kind {
+        0 | 1 => 0.0,
+        2 => rng.log_uniform(1e-6, 1e-3),
+        _ => 1.0,
+    };
+    let corners = rng.retry(|rng| {
+        let corners @ [p0, p1, p2] = [(); 3].map(|()| {
+            let mut corner = rng.point(1.0);
+            corner[axis] *= tilt;
+            corner
+        });
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+        (altitude > 0.3 * longest && longest > 0.5).then_some(corners)
+    });
+    if rng.index(4) > 0 {
+        return corners;
+    }
+    // The side opposite a corner is so short that the corner is narrow.
+    let corner = rng.index(3);
+    let (second, third) = ((corner + 1) % 3, (corner + 2) % 3);
+    let mut corners = corners;
+    corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03));
+    corners
 }
 
 /// Returns the weights of a point: inside, near an edge, or outside.
@@ -316,7 +399,12 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
             4 => 0.0,
             _ => -rng.log_uniform(0.05, 28.0),
         };
-    let origin: DVec3 = target - ahead * dir;
+    let mut origin = target - ahead * dir;
+    let mut dir = dir;
+    if rng.index(8) == 0 {
+        origin = fields::start_far_away(rng, target, size)?;
+        dir = (target - origin).normalize();
+    }
     if origin.abs().max_element() > fields::FURTHEST {
         return None;
     }
@@ -333,12 +421,11 @@ pub fn tables(
     belongs: impl Fn(&Plane) -> bool,
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
-    super::shape::tables(rng, TRIANGLE.aspects, sizes, shape, |rng, shape| {
-        let call = ShapeCall {
-            shape: *shape,
-            ray: ray(rng, shape)?,
-        };
-        let plane = Plane::of(&call)?;
-        (is_fair(&plane) && belongs(&plane)).then_some(call)
-    })
+    let generator = Generator {
+        aspects: TRIANGLE.aspects,
+        subject: &drawn_shape,
+        input: &ray,
+        fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),
+    };
+    generator.tables(rng, sizes)
 }

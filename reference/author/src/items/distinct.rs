@@ -42,14 +42,17 @@ fn practice_item(item: &Declaration) -> Arc<Item> {
 /// Returns whether the correct answer to a question of the one item earns points for a question of
 /// the other.
 ///
-/// Some questions are left out. If no ray hits anything, there is only one answer. A tree is an
+/// Some questions are left out. If one row answers them all, as with the length of a direction, or if no
+/// ray hits anything, there is only one answer. A tree is an
 /// answer to its own primitives only, and these are drawn by the seed. So is the number that a
 /// picture to be recorded depends on.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
     let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();
     let is_drawn = |question: &&ExamQuestion| match &question.key {
-        Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
+        Key::Table { rows, .. } => {
+            (0..rows.count()).any(|row| rows.is_present(row)) && !one_row_answers_all(question)
+        }
         Key::FirstHits { .. } => true,
         Key::Radiance { pixels, .. } => !pixels.is_empty(),
         Key::Tree { .. } => false,
@@ -59,6 +62,15 @@ pub fn shares_a_question(item: &Item, other: &Item) -> bool {
         let mut credits = answers.iter().map(|answer| judge(question, answer).credit);
         credits.any(|credit: Credit| credit.apply(item.points) > 0)
     })
+}
+
+/// Returns whether the correct answer to the first row is correct in every other row.
+fn one_row_answers_all(asked: &ExamQuestion) -> bool {
+    let Some(answer) = asked.single(0).key.answer() else {
+        return false;
+    };
+    let mut others = (1..asked.question.count()).map(|row| asked.single(row));
+    others.all(|other| judge(&other, &answer).credit.apply(1) == 1)
 }
 
 #[cfg(test)]

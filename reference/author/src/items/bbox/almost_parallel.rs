@@ -5,9 +5,12 @@ use glam::DVec3;
 use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray};
 
-use super::{QUERIES_OF_EACH_KIND, bbox_question};
+use super::bbox_question;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
+
+/// The number of rays that hit, and of those that miss.
+const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// Returns rays that hit a box, followed by as many that miss it.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {

@@ -1,18 +1,20 @@
 //! Items about hits and misses of rays from all sides.
 
-use glam::{Vec3, dvec3};
-use judging::exam::ExamQuestion;
-use protocol::{Interval, Ray};
+use super::{USUAL, almost_parallel, is_ordinary, questions};
+use crate::domains::bbox::BoxCall;
+use crate::domains::fields::EVERY_SIZE;
+use crate::items::{Declaration, groups};
 
-use super::{
-    almost_parallel, bbox_question, clear_outcome, hits_and_misses, random_box,
-    random_box_question, ray_from_around,
-};
-use crate::items::place::{Place, dust};
-use crate::items::{Declaration, groups, ray};
-use crate::oracle::Ray64;
-use crate::oracle::bbox::Bounds;
-use crate::seed::Rng;
+/// Returns whether the box is not behind the ray, which starts outside.
+fn is_ahead(call: &BoxCall) -> bool {
+    let enters_ahead = |(enter, _)| enter > 0.0;
+    is_ordinary(call) && call.is_unlimited() && call.crossing().is_none_or(enters_ahead)
+}
+
+/// Returns whether the ray crosses the slab of each axis.
+fn crosses_all_slabs(call: &BoxCall) -> bool {
+    (0..3).all(|axis| call.bounds.slab(axis).span(&call.ray64()).is_some())
+}
 
 pub(super) const THROUGH: Declaration = Declaration {
     id: "bbox.through",
@@ -21,20 +23,7 @@ pub(super) const THROUGH: Declaration = Declaration {
            answer is the interval that these three intervals and the argument times have in \
            common, or None if there is none.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
-    questions: |rng| {
-        let mut question = || {
-            let bounds = random_box(rng);
-            let queries = hits_and_misses(rng, &bounds, |rng| {
-                (ray_from_around(rng, &bounds), Interval::AHEAD)
-            });
-            (bounds, queries)
-        };
-        let [near, far] = [question(), question()];
-        let room = Place::room(rng);
-        let queries = far.1.iter().map(|query| room.query(query)).collect();
-        let far = bbox_question(room.bounds(&far.0), queries);
-        vec![bbox_question(near.0, near.1), far]
-    },
+    questions: |rng| questions(rng, USUAL, is_ahead),
     ..Declaration::in_group(groups::BOXES)
 };
 
@@ -45,18 +34,9 @@ pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
            latest entry comes after the earliest exit, however small both are.",
     section: "boxes.md#the-slab-intervals-must-overlap",
     questions: |rng| {
-        // Hits, and misses that cross all three slabs, but never at the same time.
-        let query = |rng: &mut Rng, bounds: &Bounds| {
-            let ray = rng.retry(|rng| {
-                let ray = ray_from_around(rng, bounds);
-                let ray64 = Ray64::from(&ray);
-                let crosses = |axis: usize| bounds.slab(axis).span(&ray64).is_some();
-                (0..3).all(crosses).then_some(ray)
-            });
-            (ray, Interval::AHEAD)
-        };
-        let mut question = || random_box_question(rng, query);
-        vec![question(), dust(question())]
+        questions(rng, EVERY_SIZE, |call| {
+            is_ahead(call) && crosses_all_slabs(call)
+        })
     },
     ..Declaration::in_group(groups::BOXES)
 };
@@ -66,28 +46,9 @@ pub(super) const OCTANTS: Declaration = Declaration {
     title: "rays in all directions enter and leave at the right times",
     look: "On an axis where the direction is negative, the ray reaches the larger plane first.",
     section: "boxes.md#a-negative-direction-swaps-the-planes",
-    questions: octants,
+    questions: |rng| questions(rng, USUAL, is_ordinary),
     ..Declaration::in_group(groups::BOXES)
 };
-
-fn octants(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let bounds = random_box(rng);
-    let mut queries = Vec::new();
-    for octant in 0..8 {
-        let sign = |axis: i32| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 };
-        let signs = dvec3(sign(0), sign(1), sign(2));
-        for is_hit in [true, true, false] {
-            queries.push(rng.retry(|rng| {
-                let dir = (rng.point(0.35) + 0.6) * signs;
-                let target = bounds.center() + rng.point(1.2) * (bounds.max - bounds.min);
-                let ray = ray(target - 4.0 * dir.normalize() * 2.0, target);
-                let query = (ray, Interval::AHEAD);
-                (clear_outcome(&bounds, &query) == Some(is_hit)).then_some(query)
-            }));
-        }
-    }
-    vec![bbox_question(bounds, queries)]
-}
 
 pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     id: "bbox.axis_parallel",
@@ -97,20 +58,10 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
            is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     questions: |rng| {
-        let zero = |rng: &mut Rng| if rng.coin() { 0.0 } else { -0.0 };
-        let question = random_box_question(rng, |rng, bounds| {
-            let target = bounds.center() + rng.point(0.9) * (bounds.max - bounds.min);
-            let axis = rng.index(3);
-            // The direction is parallel to an axis, or perpendicular to one.
-            let mut dir = Vec3::from([zero(rng), zero(rng), zero(rng)]);
-            dir[axis] = rng.sign() as f32;
-            if rng.coin() {
-                dir[(axis + 1) % 3] = (rng.sign() * rng.uniform(0.4, 0.9)) as f32;
-            }
-            let ray = Ray::new((target - 7.0 * dir.as_dvec3().normalize()).as_vec3(), dir);
-            (ray, Interval::AHEAD)
+        let parallel = questions(rng, EVERY_SIZE, |call| {
+            !call.is_flat() && call.is_parallel()
         });
-        vec![question, almost_parallel::question(rng)]
+        [parallel, vec![almost_parallel::question(rng)]].concat()
     },
     ..Declaration::in_group(groups::BOXES)
 };
@@ -121,24 +72,6 @@ pub(super) const FLAT: Declaration = Declaration {
     look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the same \
            time, and that is a hit.",
     section: "boxes.md#flat-boxes-can-be-hit",
-    questions: flat,
+    questions: |rng| questions(rng, EVERY_SIZE, BoxCall::is_flat),
     ..Declaration::in_group(groups::BOXES)
 };
-
-fn flat(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let mut question = |axis: usize| {
-        let mut bounds = random_box(rng);
-        bounds.max[axis] = bounds.min[axis];
-        let queries = hits_and_misses(rng, &bounds, |rng| {
-            rng.retry(|rng| {
-                let target = bounds.center() + rng.point(1.0) * (bounds.max - bounds.min);
-                let origin = bounds.center() + rng.direction() * rng.uniform(4.0, 8.0);
-                let ray = ray(origin, target);
-                let is_steep = ray.dir[axis].abs() > 0.3;
-                is_steep.then_some((ray, Interval::AHEAD))
-            })
-        });
-        bbox_question(bounds, queries)
-    };
-    vec![question(0), question(1), question(2)]
-}

@@ -4,10 +4,12 @@ mod almost_parallel;
 mod hits;
 mod times;
 
-use glam::DVec3;
+use std::ops::Range;
+
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Corners, Interval, Question, Ray};
 
+use crate::domains::bbox::{BoxCall, tables};
 use crate::items::{DeclaredItem, draw_items};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
@@ -15,7 +17,8 @@ use crate::seed::{Rng, Seed};
 
 type Query = (Ray, Interval);
 
-const QUERIES_OF_EACH_KIND: usize = 12;
+/// The sizes of most boxes. Smaller ones are asked where an absolute number could decide.
+const USUAL: Range<usize> = 4..9;
 
 /// Returns the items of the task `bbox`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
@@ -51,71 +54,21 @@ fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
     ExamQuestion::new(question, key)
 }
 
-/// Returns a box with sides from 1 to 4 and corners that are exact in single precision.
-fn random_box(rng: &mut Rng) -> Bounds {
-    let min = rng.point(3.0);
-    let size = rng.vector(1.0, 4.0);
-    let rounded = |corner: DVec3| corner.as_vec3().as_dvec3();
-    Bounds {
-        min: rounded(min),
-        max: rounded(min + size),
-    }
-}
-
-/// Returns whether a query hits, or `None` if slightly growing or shrinking both the box and the
-/// time interval would change the outcome.
-fn clear_outcome(bounds: &Bounds, (ray, times): &Query) -> Option<bool> {
-    const MARGIN: f64 = 0.03;
-    let ray64 = Ray64::from(ray).within(*times);
-    let hits_with = |margin: f64| {
-        let grown = bounds.grown(margin);
-        // Flat sides stay flat.
-        let flat = bounds.min.cmpeq(bounds.max);
-        let bounds = Bounds {
-            min: DVec3::select(flat, bounds.min, grown.min),
-            max: DVec3::select(flat, bounds.max, grown.max),
-        };
-        let ray64 = Ray64 {
-            min: ray64.min - margin,
-            max: ray64.max + margin,
-            ..ray64
-        };
-        bounds.span(&ray64).is_some()
-    };
-    (hits_with(-MARGIN) == hits_with(MARGIN)).then_some(hits_with(0.0))
-}
-
-/// Returns queries that hit, followed by as many that miss.
-fn hits_and_misses(
+/// Creates questions about boxes of these sizes. Their calls belong to an idea, and every other one is a
+/// hit.
+fn questions(
     rng: &mut Rng,
-    bounds: &Bounds,
-    mut query: impl FnMut(&mut Rng) -> Query,
-) -> Vec<Query> {
-    let mut queries = Vec::new();
-    for is_hit in [true, false] {
-        for _ in 0..QUERIES_OF_EACH_KIND {
-            queries.push(rng.retry(|rng| {
-                let query = query(rng);
-                (clear_outcome(bounds, &query) == Some(is_hit)).then_some(query)
-            }));
-        }
-    }
-    queries
+    sizes: Range<usize>,
+    belongs: impl Fn(&BoxCall) -> bool,
+) -> Vec<ExamQuestion> {
+    let tables = tables(rng, sizes, belongs).into_iter();
+    tables
+        .map(|(bounds, queries)| bbox_question(bounds, queries))
+        .collect()
 }
 
-/// Creates a question about a random box, with queries that hit it and as many that miss it.
-fn random_box_question(
-    rng: &mut Rng,
-    mut query: impl FnMut(&mut Rng, &Bounds) -> Query,
-) -> ExamQuestion {
-    let bounds = random_box(rng);
-    let queries = hits_and_misses(rng, &bounds, |rng| query(rng, &bounds));
-    bbox_question(bounds, queries)
-}
-
-/// Returns a ray from a point outside the box toward a point in or near the box.
-fn ray_from_around(rng: &mut Rng, bounds: &Bounds) -> Ray {
-    let target = bounds.center() + rng.point(1.0) * (bounds.max - bounds.min);
-    let origin = bounds.center() + rng.direction() * rng.uniform(6.0, 10.0);
-    super::ray(origin, target)
+/// Returns whether neither the box is flat nor the ray parallel to one of its faces, which are ideas of
+/// two items.
+fn is_ordinary(call: &BoxCall) -> bool {
+    !call.is_flat() && !call.is_parallel()
 }

@@ -1,17 +1,13 @@
 //! Items about the offset within the pixel, and about the ray itself.
 
-use glam::{UVec2, uvec2, vec2};
+use glam::{UVec2, uvec2};
 use judging::exam::ExamQuestion;
-use protocol::{Rows, Sample};
+use protocol::{PinholeCamera, Rows, Sample};
 
 use super::{camera, camera_question, direction_question, middle_of, random_below};
+use crate::domains::camera::{ASPECT_RATIOS, FIELDS_OF_VIEW, drawn, offset, sample, side};
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
-
-fn random_offset(rng: &mut Rng) -> f32 {
-    // The very ends are avoided, because 1 is not a valid offset.
-    rng.uniform(0.02, 0.98) as f32
-}
 
 pub(super) const OFFSET: Declaration = Declaration {
     id: "camera.offset",
@@ -21,15 +17,22 @@ pub(super) const OFFSET: Declaration = Declaration {
            measured in pixels. Each component is used as it is given, on its own axis.",
     section: "camera.md#the-offset-is-measured-in-pixels",
     questions: |rng| {
-        let question = |width: u32| {
-            let samples = (0..24).map(|_| Sample {
-                pixel: uvec2(random_below(rng, width), 0),
-                offset: vec2(random_offset(rng), 0.5),
+        let mut question = |length: u32, along: [UVec2; 2]| {
+            let samples = (0..24).map(|_| {
+                let [x, y] = along.map(|axis| axis.as_vec2());
+                Sample {
+                    pixel: random_below(rng, length) * along[0],
+                    offset: offset(rng) * x + 0.5 * y,
+                }
             });
-            let camera = camera(50.0, f64::from(width), uvec2(width, 1));
-            direction_question(camera, samples)
+            let film = length * along[0] + along[1];
+            let aspect = f64::from(film.x) / f64::from(film.y);
+            direction_question(camera(50.0, aspect, film), samples)
         };
-        [1, 3, 4].map(question).to_vec()
+        let lengths = [1, 3, 4].into_iter();
+        let axes = [[UVec2::X, UVec2::Y], [UVec2::Y, UVec2::X]];
+        let all = lengths.flat_map(|length| axes.map(|along| (length, along)));
+        all.map(|(length, along)| question(length, along)).collect()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -43,16 +46,26 @@ pub(super) const OFFSET_AXES: Declaration = Declaration {
         let samples = (0..24).map(|i| {
             let small = rng.uniform(0.05, 0.25) as f32;
             let large = rng.uniform(0.6, 0.95) as f32;
+            let pairs = [
+                [small, large],
+                [large, small],
+                [0.0, large],
+                [small, 0.0],
+                [0.0, 0.0],
+            ];
             Sample {
-                pixel: uvec2(0, 0),
-                offset: if i % 2 == 0 {
-                    vec2(small, large)
-                } else {
-                    vec2(large, small)
-                },
+                pixel: UVec2::ZERO,
+                offset: pairs[i % pairs.len()].into(),
             }
         });
-        vec![direction_question(camera(90.0, 1.0, UVec2::ONE), samples)]
+        let single = direction_question(camera(90.0, 1.0, UVec2::ONE), samples);
+        let films = [uvec2(1, rng.integer(2, 9)), uvec2(rng.integer(2, 9), 1)];
+        let line = |film: UVec2| {
+            let camera = camera(rng.uniform(60.0, 100.0), 1.0, film);
+            let samples: Vec<Sample> = (0..12).map(|_| sample(rng, &camera)).collect();
+            direction_question(camera, samples)
+        };
+        [vec![single], films.map(line).to_vec()].concat()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -65,13 +78,27 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
     section: "camera.md#integer-division-gives-zero",
     questions: |rng| {
         let film = uvec2(3840, 2160);
-        let samples = (0..32).map(|_| Sample {
-            pixel: uvec2(random_below(rng, film.x), random_below(rng, film.y)),
-            offset: vec2(random_offset(rng), random_offset(rng)),
-        });
-        let samples: Vec<Sample> = samples.collect();
-        let camera = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
-        vec![direction_question(camera, samples)]
+        let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
+        let films = [
+            (4096, 4096),
+            (4096, side(rng, 1)),
+            (side(rng, 3), 4096),
+            (side(rng, 3), side(rng, 2)),
+        ];
+        let mut cameras = vec![usual];
+        for (x, y) in films {
+            let part = ASPECT_RATIOS[rng.index(ASPECT_RATIOS.len())];
+            cameras.push(camera(
+                rng.uniform(20.0, 100.0),
+                drawn(part, rng),
+                uvec2(x, y),
+            ));
+        }
+        let question = |camera: PinholeCamera| {
+            let samples: Vec<Sample> = (0..24).map(|_| sample(rng, &camera)).collect();
+            direction_question(camera, samples)
+        };
+        cameras.into_iter().map(question).collect()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -85,13 +112,34 @@ fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
     camera_question(judged, camera(90.0, 1.0, film), samples)
 }
 
+/// Creates questions about cameras of all kinds, for quantities that are the same for all of them.
+fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuestion> {
+    let parts = FIELDS_OF_VIEW.into_iter().enumerate();
+    let question = |(index, part)| {
+        let aspect = drawn(ASPECT_RATIOS[index % ASPECT_RATIOS.len()], rng);
+        let film = uvec2(side(rng, index), side(rng, index + index / 4));
+        let camera = camera(drawn(part, rng), aspect, film);
+        let samples = (0..8).map(|_| sample(rng, &camera));
+        let samples = Rows::List(samples.collect());
+        camera_question(judged, camera, samples)
+    };
+    parts.map(question).collect()
+}
+
 pub(super) const UNIT_LENGTH: Declaration = Declaration {
     id: "camera.unit_length",
     title: "the direction has length one",
     look: "Distances along a ray are measured in lengths of its direction. Ray::new normalises the \
            direction; filling in the fields yourself does not.",
     section: "camera.md#the-direction-has-length-one",
-    questions: |rng| vec![spread_question(&["direction", "unit_direction"], rng)],
+    questions: |rng| {
+        let spread = spread_question(&["direction", "unit_direction"], rng);
+        [
+            vec![spread],
+            questions_about_all_cameras(&["unit_direction"], rng),
+        ]
+        .concat()
+    },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
 
@@ -101,8 +149,12 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
     look: "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from 0 to ∞.",
     section: "camera.md#the-ray-starts-at-the-camera",
     questions: |rng| {
-        let judged = ["direction", "origin", "range"];
-        vec![spread_question(&judged, rng)]
+        let spread = spread_question(&["direction", "origin", "range"], rng);
+        [
+            vec![spread],
+            questions_about_all_cameras(&["origin", "range"], rng),
+        ]
+        .concat()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };

@@ -4,6 +4,7 @@ use glam::{UVec2, uvec2};
 use judging::exam::ExamQuestion;
 
 use super::{camera, direction_question, middle_of, middle_row};
+use crate::domains::camera::{ASPECT_RATIOS, FIELDS_OF_VIEW, drawn};
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
 
@@ -50,13 +51,12 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
            middle and the upper edge of the sensor: which angle is at the camera?",
     section: "camera.md#half-the-angle-and-twice-the-tangent",
     questions: |rng| {
-        let film = UVec2::splat(9);
-        let question = |(from, to): (f64, f64)| {
-            direction_question(camera(rng.uniform(from, to), 1.0, film), middle_row(film))
+        let film = UVec2::splat(odd_size(rng, 9, 31));
+        let question = |part| {
+            let field_of_view = drawn(part, rng);
+            direction_question(camera(field_of_view, 1.0, film), middle_row(film))
         };
-        [(15.0, 25.0), (30.0, 50.0), (55.0, 80.0), (100.0, 125.0)]
-            .map(question)
-            .to_vec()
+        FIELDS_OF_VIEW.map(question).to_vec()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -73,6 +73,10 @@ pub(super) const ASPECT_RATIO: Declaration = Declaration {
             uvec2(rng.integer(13, 19), odd_size(rng, 7, 11)),
             uvec2(rng.integer(7, 10), odd_size(rng, 13, 17)),
             uvec2(rng.integer(18, 24), odd_size(rng, 5, 7)),
+            uvec2(rng.integer(25, 35), odd_size(rng, 3, 5)),
+            uvec2(30, 3),
+            uvec2(rng.integer(3, 5), odd_size(rng, 23, 29)),
+            uvec2(1, 10),
         ];
         let question = |film: UVec2| {
             let fov = rng.uniform(50.0, 70.0);
@@ -90,16 +94,18 @@ pub(super) const OTHER_ASPECT: Declaration = Declaration {
            into.",
     section: "camera.md#the-aspect-ratio-is-not-that-of-the-film",
     questions: |rng| {
-        let question = |(film, from, to)| {
-            direction_question(camera(70.0, rng.uniform(from, to), film), middle_row(film))
-        };
-        [
-            (uvec2(9, 9), 1.6, 2.4),
-            (uvec2(16, 5), 0.5, 0.8),
-            (uvec2(5, 9), 1.2, 1.8),
-        ]
-        .map(question)
-        .to_vec()
+        // Each film is asked with other aspect ratios, one after the other.
+        let questions = [uvec2(9, 9), uvec2(16, 5), uvec2(5, 9)].map(|film| {
+            let field_of_view = rng.uniform(60.0, 80.0);
+            let parts = ASPECT_RATIOS.into_iter();
+            let others = parts.filter(|&(from, to)| !(from..=to).contains(&aspect_of(film)));
+            let question = |part| {
+                let camera = camera(field_of_view, drawn(part, rng), film);
+                direction_question(camera, middle_row(film))
+            };
+            others.map(question).collect::<Vec<ExamQuestion>>()
+        });
+        questions.concat()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -115,6 +121,8 @@ pub(super) const FILM: Declaration = Declaration {
         let films = [
             uvec2(odd_size(rng, 13, 21), odd_size(rng, 3, 7)),
             uvec2(odd_size(rng, 3, 7), odd_size(rng, 13, 21)),
+            uvec2(odd_size(rng, 5, 25), 1),
+            uvec2(1, odd_size(rng, 5, 25)),
         ];
         let question = |film: UVec2| {
             let columns = (0..film.y).map(|y| middle_of(film.x / 2, y));

@@ -13,7 +13,7 @@ use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
 
 /// The sizes of most triangles. Smaller ones, whose determinants are tiny, are the idea of an item.
-const USUAL: Range<usize> = 4..8;
+const USUAL: Range<usize> = 4..9;
 
 /// Returns the items of the task `triangle`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {

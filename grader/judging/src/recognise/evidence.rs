@@ -49,20 +49,17 @@ impl<'a> Evidence<'a> {
         if !sole.is_empty() {
             return sole;
         }
-        let of_several: [fn(&Self) -> Vec<usize>; 3] = [
-            Self::causes_in_pairs,
-            Self::partial_causes,
-            Self::dominant_causes,
-        ];
-        let mut found = of_several.iter().map(|causes| causes(self));
-        let first = found.find(|causes| !causes.is_empty());
-        self.with_enough_failures(first.unwrap_or_default(), MIN_FAILED_ITEMS_OF_SEVERAL)
+        let mut causes = self.causes_in_pairs();
+        if causes.is_empty() {
+            causes = self.partial_causes();
+        }
+        self.with_enough_failures(causes, MIN_FAILED_ITEMS_OF_SEVERAL)
     }
 
-    /// Returns whether a mistake changes any answer to an item.
-    pub(super) fn affects(&self, mistake: usize, item: &Item) -> bool {
-        let mut items = self.items.iter();
-        items.any(|other| other.item.id == item.id && other.wrong.contains_key(&mistake))
+    /// Returns whether a mistake changes any answer to an item, and every answer is that of the mistake.
+    pub(super) fn explains(&self, mistake: usize, item: &Item) -> bool {
+        let mut affected = self.affected(mistake);
+        affected.any(|other| other.item.id == item.id && other.is_explained_by(&[mistake]))
     }
 
     /// Returns the mistakes that give wrong answers. Too many mistakes end in a panic or an overflow,
@@ -156,9 +153,10 @@ impl<'a> Evidence<'a> {
             let explains = |mistake| affected.iter().all(|item| item.is_explained_by(&[mistake]));
             let is_rival = |other| {
                 let has_other_hint = self.hint(other) != self.hint(mistake);
+                let mut items = self.affected(other);
                 has_other_hint
                     && explains(other)
-                    && self.explained(other) == self.affected(other).count()
+                    && items.all(|item| item.is_explained_by(&[other]))
             };
             let mut others = self.mistakes.iter().copied();
             affected.len() >= 2
@@ -170,46 +168,6 @@ impl<'a> Evidence<'a> {
         };
         let mistakes = self.mistakes.iter().copied();
         mistakes.filter(|&mistake| is_cause(mistake)).collect()
-    }
-
-    /// Returns the mistakes that explain most of the wrong items, and nearly all answers to those that
-    /// they affect, while no mistake with another hint comes close in the number of items and
-    /// of answers. A second mistake can change the few answers that are left, in a way that depends on
-    /// both.
-    fn dominant_causes(&self) -> Vec<usize> {
-        let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
-        let is_cause = |mistake: usize| {
-            let (items, affected) = (self.explained(mistake), self.affected(mistake).count());
-            let (agreeing, differing) = self.agreement(mistake);
-            // Where a single item differs, more of its answers may.
-            let is_clear = if 10 * items >= 9 * affected {
-                agreeing >= 2 * differing
-            } else {
-                agreeing > 4 * differing
-            };
-            let is_rival = |other| {
-                self.hint(other) != self.hint(mistake)
-                    && 2 * self.explained(other) > items
-                    && 2 * self.agreement(other).0 > agreeing
-            };
-            let mut others = self.mistakes.iter().copied();
-            items >= 3
-                && 2 * items > wrong
-                && 4 * items >= 3 * affected
-                && agreeing >= 3
-                && is_clear
-                && !others.any(is_rival)
-        };
-        let mistakes = self.mistakes.iter().copied();
-        mistakes.filter(|&mistake| is_cause(mistake)).collect()
-    }
-
-    /// Returns the number of the items that a mistake affects and explains.
-    fn explained(&self, mistake: usize) -> usize {
-        let affected = self.affected(mistake);
-        affected
-            .filter(|item| item.is_explained_by(&[mistake]))
-            .count()
     }
 
     /// Returns how many wrong answers are those of a mistake, and how many answers to the items that

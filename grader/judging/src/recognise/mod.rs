@@ -1,16 +1,15 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
-//! A false hint is worse than none, so a mistake is named only in four cases. If it gives no answers at
-//! all, several items must fail as they do with it. If no ray hits anything with it, it is never named,
-//! since any code that finds nothing answers like it.
+//! A false hint is worse than none, so a mistake is named only in three cases, and only at items to which
+//! every answer is that of the mistake. If it gives no answers at all, several items must fail as they do
+//! with it. If no ray hits anything with it, it is never named, since any code that finds nothing answers
+//! like it.
 //!
 //! 1. It alone explains all answers in the task.
 //! 2. It explains them together with one other mistake, and no other pair does without it. Most answers
 //!    must be those of one of the two: where both change an answer, anything can come out.
 //! 3. It explains every item that it affects, which are most of the wrong ones, and no other known
 //!    mistake explains these items. Other items of the task may be wrong for another reason.
-//! 4. It explains nearly all answers to the items that it affects, which are most of the wrong ones,
-//!    and no other known mistake comes close. A second mistake may have changed the others.
 
 mod evidence;
 
@@ -75,8 +74,8 @@ impl Observations {
         all_answered && to_hit >= MIN_ITEMS_WITHOUT_HITS && !self.has_other_than_miss
     }
 
-    /// Returns the known mistakes that explain an item. There are several if the answers do not
-    /// distinguish them, or if each of two explains a part.
+    /// Returns the known mistakes that explain every answer to an item. There are several if the answers
+    /// do not distinguish them.
     pub fn explain<'a>(&self, exam: &'a Exam, item: &Item) -> Vec<&'a KnownMistake> {
         let items = exam.items.iter().filter(|other| other.task == item.task);
         let observed =
@@ -84,7 +83,7 @@ impl Observations {
         let evidence = Evidence::new(exam, observed.collect());
 
         let mut named = evidence.causes();
-        named.retain(|&mistake| evidence.affects(mistake, item));
+        named.retain(|&mistake| evidence.explains(mistake, item));
         // Mistakes that no question distinguishes share a hint.
         let mut hints = BTreeSet::new();
         let mistakes = named.into_iter().map(|mistake| &exam.mistakes[mistake]);

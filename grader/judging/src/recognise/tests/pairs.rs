@@ -9,8 +9,9 @@ fn explain_pair(correct: &str, one: &str, other: &str, answers: &str) -> String 
 
 #[test]
 fn two_mistakes_are_named_where_each_explains_an_item_alone() {
+    // Neither is named at the last item, since not every answer there is its own.
     let named = |answers| explain_pair("1 2|3 4|5 6", "7 2||7 6", "|3 8|5 8", answers);
-    assert_eq!(named("7 2|3 8|7 8"), "one|other|one other");
+    assert_eq!(named("7 2|3 8|7 8"), "one|other|");
     // What neither changes is correct.
     assert_eq!(named("7 9|3 8|7 8"), "||");
 }
@@ -35,15 +36,15 @@ fn three_of_five_answers_must_be_those_of_a_mistake_in_a_pair() {
         let other = format!("8*{open}||8*3");
         explain_pair(&correct, &one, &other, &format!("9*{open}|7*{own}|8*3"))
     };
-    assert_eq!(named(2, 3), "one other|one|other");
-    assert_eq!(named(2, 2), "other||other");
+    assert_eq!(named(2, 3), "|one|other");
+    assert_eq!(named(2, 2), "||other");
     assert_eq!(named(3, 4), "||");
 }
 
 #[test]
 fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
     let named = |answers| explain_pair("1 2|3 4|5 6", "7 2|7 7|", "8 2||8 8", answers);
-    assert_eq!(named("9 2|7 7|8 8"), "one other|one|other");
+    assert_eq!(named("9 2|7 7|8 8"), "|one|other");
     // Both change the first number, and yet it is that of `one`: so `other` is not there.
     assert!(!named("7 2|7 7|8 8").contains("other"));
 }
@@ -52,7 +53,7 @@ fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
 #[test]
 fn a_pair_answers_like_one_of_them_only_where_both_answer_alike() {
     let named = |other| explain_pair("1 2|3 4|5*4", "7 7|7 7|", other, "7 7|7 7|8*4");
-    assert_eq!(named("7 2||8*4"), "one other|one|other");
+    assert_eq!(named("7 2||8*4"), "one|one|other");
     assert!(!named("8 2||8*4").contains("other"));
 }
 
@@ -71,11 +72,11 @@ fn a_pair_that_leaves_most_answers_open_explains_nothing() {
 #[test]
 fn an_answer_that_both_change_is_not_open_if_it_is_that_of_one() {
     let named = explain_pair("1*8|2*2|3*2", "7*8|7*2|", "8*8||8*2", "7*4 8*4|7*2|8*2");
-    assert_eq!(named, "one other|one|other");
+    assert_eq!(named, "|one|other");
 }
 
 #[test]
 fn a_hit_of_one_mistake_can_hide_the_miss_of_another() {
     let named = explain_pair("1|2|3*3", "7|7|", "miss||8*3", "7|7|8*3");
-    assert_eq!(named, "one other|one|other");
+    assert_eq!(named, "one|one|other");
 }

@@ -199,6 +199,8 @@ pub struct Plane {
     pub slope: f64,
     /// The smallest altitude.
     altitude: f64,
+    /// The longest side.
+    longest: f64,
     /// Half of the longest side of the triangle's box.
     size: f64,
     /// The largest coordinate of the ray and the triangle.
@@ -220,6 +222,7 @@ impl Plane {
             weights: crossing.weights,
             slope: normal.normalize().dot(ray64.dir),
             altitude: normal.length() / longest,
+            longest,
             size: call.size(),
             coordinates: points
                 .map(|point| point.abs().max_element())
@@ -252,9 +255,11 @@ impl Plane {
         1.5 * EPSILON * (self.coordinates + self.distance.abs()) / self.slope.abs()
     }
 
-    /// Returns how wrong a weight may be if it is computed in single precision by a usual formula.
+    /// Returns how wrong a weight may be if it is computed in single precision by a usual formula. Some
+    /// divide by the square of the area.
     fn weight_error(&self) -> f64 {
-        (2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates) / self.altitude
+        let position = 2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates;
+        position / self.altitude + 4.0 * EPSILON * (self.longest / self.altitude).powi(2)
     }
 
     /// Returns whether every correct formula in single precision agrees on whether the triangle is hit.

@@ -5,6 +5,7 @@ mod rays;
 
 use grader::handed_out::HandedOut;
 
+use crate::domains::Domain;
 use crate::items::TaskItems;
 
 pub use rays::RAYS;
@@ -24,6 +25,8 @@ pub struct Authoring {
     /// Draw the items of each task, in lecture order. The reference records the pictures whose keys
     /// only it can provide.
     pub items: &'static [TaskItems],
+    /// The domains of the functions that the items call.
+    pub domains: &'static [&'static dyn Domain],
     /// The folder of the oracles, relative to the workspace's root. Their formulas are secret.
     pub oracles: &'static str,
     /// The attacks in the trial of a package whose exam is secret.

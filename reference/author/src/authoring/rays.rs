@@ -3,6 +3,7 @@
 use grader::handed_out;
 
 use super::{Attack, Authoring};
+use crate::domains;
 use crate::items;
 
 /// The assignment `rays`.
@@ -10,6 +11,7 @@ pub static RAYS: Authoring = Authoring {
     handed_out: &handed_out::RAYS,
     practice_exam: "grader/exams/practice.json",
     items: items::TASKS,
+    domains: domains::FUNCTIONS,
     oracles: "reference/author/src/oracle",
     attacks: &[
         Attack {

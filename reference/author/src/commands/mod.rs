@@ -60,7 +60,7 @@ pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
         }
         Command::Coverage(check) => {
             let practice = exams::load_practice(root, authoring)?;
-            let coverage = coverage(root, authoring.handed_out, &practice)?;
+            let coverage = coverage(root, authoring, &practice)?;
             generate(slice::from_ref(&coverage.table), check.mode(), "coverage")?;
             report(&coverage.problems, &coverage.summary_line())
         }

@@ -1,9 +1,6 @@
 //! The list of sentences, the items that ask them, and the reasons for what is not asked.
 
-use judging::assignment::TaskInfo;
 use serde::Deserialize;
-
-use super::cells::Cell;
 
 /// The list of sentences and reasons.
 #[derive(Debug, Deserialize)]
@@ -28,30 +25,40 @@ pub(super) struct Sentence {
     pub why_not: Option<String>,
 }
 
-/// Cells that are not asked, with the reason.
+/// Classes that are not asked, with the reason.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Reason {
-    task: String,
-    /// The items of the sentences that it is about, all others being asked; or all of the task.
+    /// The function, such as `Sphere::hit`.
+    function: String,
+    /// The aspect; all if there is none.
+    aspect: Option<String>,
+    /// The classes; all if there are none.
     #[serde(default)]
-    items: Vec<String>,
-    cells: Vec<String>,
+    classes: Vec<String>,
+    /// The columns of the table; all if there are none.
+    #[serde(default)]
+    columns: Vec<String>,
     why: String,
 }
 
 impl Listed {
-    /// Returns the reason why a sentence is not asked at a cell.
-    pub(super) fn reason(&self, task: &TaskInfo, entry: &Sentence, cell: Cell) -> Option<&str> {
-        let mut reasons = self
-            .not_asked
-            .iter()
-            .filter(|reason| reason.task == task.id);
-        let fits = |reason: &&Reason| {
-            let is_about =
-                reason.items.is_empty() || reason.items.iter().any(|id| entry.items.contains(id));
-            is_about && reason.cells.iter().any(|it| it == cell)
-        };
-        reasons.find(fits).map(|reason| reason.why.as_str())
+    /// Returns the reason why a class of an aspect is not asked for what a column counts.
+    pub(super) fn reason(
+        &self,
+        function: &str,
+        aspect: &str,
+        class: &str,
+        column: &str,
+    ) -> Option<&str> {
+        let names =
+            |list: &[String], name: &str| list.is_empty() || list.iter().any(|it| it == name);
+        let mut reasons = self.not_asked.iter().filter(|reason| {
+            reason.function == function
+                && reason.aspect.as_deref().is_none_or(|it| it == aspect)
+                && names(&reason.classes, class)
+                && names(&reason.columns, column)
+        });
+        reasons.next().map(|reason| reason.why.as_str())
     }
 }

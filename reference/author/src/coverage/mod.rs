@@ -1,8 +1,8 @@
-//! The coverage of the contract: each sentence of each task's documentation, and how often the exam
-//! asks it at each scale, place, direction, start, size and history. A cell that is not asked has a
-//! reason in `coverage.toml`, in the folder of the assignment's solutions.
+//! The coverage of the contract: the items that ask each sentence of each task's documentation, and how
+//! often the exam asks each class of each function's domain. What is not asked has a reason in
+//! `coverage.toml`, in the folder of the assignment's solutions.
 
-mod cells;
+mod classes;
 mod contract;
 mod list;
 
@@ -11,28 +11,29 @@ use std::path::Path;
 
 use anyhow::Result;
 use grader::files;
-use grader::handed_out::HandedOut;
 use judging::assignment::TaskInfo;
 use judging::exam::Exam;
 
+use crate::authoring::Authoring;
+use crate::domains::Domain;
 use crate::generated_file::GeneratedFile;
 use crate::solutions::read_toml;
-use cells::Counts;
+use classes::Classes;
 use list::{Listed, Sentence};
 
 /// The list of sentences and reasons, relative to the folder of an assignment's solutions.
 const SENTENCES: &str = "coverage.toml";
 /// The table, relative to the same folder.
 const TABLE: &str = "coverage.md";
-/// The fewest questions of a cell, so that no mistake passes by luck.
-const FEWEST: usize = 3;
+/// The fewest answers of a class, so that no mistake passes by luck.
+const FEWEST: usize = 2;
 
 /// The table, and what is wrong with it.
 #[derive(Debug)]
 pub struct Coverage {
     /// The table as a file.
     pub table: GeneratedFile,
-    /// Sentences without items, items without sentences, and cells without questions and reasons,
+    /// Sentences without items, items without sentences, and classes without questions and reasons,
     /// one line each.
     pub problems: Vec<String>,
     sentences: usize,
@@ -44,7 +45,7 @@ impl Coverage {
     /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
         format!(
-            "sentences {}, cells asked {}, with a reason {}, missing {}",
+            "sentences {}, classes asked {}, with a reason {}, missing {}",
             self.sentences,
             self.asked,
             self.excused,
@@ -54,14 +55,17 @@ impl Coverage {
 }
 
 /// Determines the coverage of the contract by an exam.
-pub fn coverage(root: &Path, handed_out: &HandedOut, exam: &Exam) -> Result<Coverage> {
+pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Coverage> {
+    let handed_out = authoring.handed_out;
     let folder = handed_out.solutions();
     let listed: Listed = read_toml(&root.join(folder).join(SENTENCES))?;
     let text = format!(
         "# Coverage of the contract\n\n\
-         Written by `cargo author coverage` for the {} exam. Each row is a sentence of the \
-         documentation of a method that students write; each number counts the answers that ask it \
-         there. At least {FEWEST} must. A letter is the reason why fewer do, below the table.\n",
+         Written by `cargo author coverage` for the {} exam. First, the sentences of the documentation \
+         of the methods that students write, with the items that ask them. Then, for each function, how \
+         many answers ask each class of its domain: those that are something, those that are `None`, \
+         and those of which a quantity is judged. At least {FEWEST} must. A letter is the reason why \
+         fewer do, below the table.\n",
         exam.id
     );
     let mut coverage = Coverage {
@@ -74,6 +78,9 @@ pub fn coverage(root: &Path, handed_out: &HandedOut, exam: &Exam) -> Result<Cove
     for task in handed_out.assignment.tasks {
         let file = files::read_to_string(root.join(handed_out.reference).join(task.file))?;
         coverage.add_task(task, &contract::sentences(&file, task), &listed, exam);
+    }
+    for domain in authoring.domains {
+        coverage.add_function(*domain, &listed, exam);
     }
     Ok(coverage)
 }
@@ -90,11 +97,7 @@ impl Coverage {
         );
         self.check_items(task, &entries, exam);
 
-        let mut items = exam.items.iter().filter(|item| item.task == task.task());
-        let first = items.next().and_then(|item| item.questions.first());
-        let cells = first.map_or(Vec::new(), |asked| cells::of_task(&asked.question));
-        let mut reasons: Vec<&str> = Vec::new();
-        let mut rows = String::new();
+        self.table.contents += &format!("\n## {}\n\n| sentence | items |\n|---|---|\n", task.title);
         for sentence in sentences {
             self.sentences += 1;
             let Some(entry) = entries.iter().find(|entry| entry.text == *sentence) else {
@@ -102,41 +105,94 @@ impl Coverage {
                 self.problems.push(problem);
                 continue;
             };
-            rows += &format!("| {sentence} |");
-            if let Some(why) = &entry.why_not {
-                let why = letter(&mut reasons, why);
-                rows += &format!(" {why} |{}\n", " |".repeat(cells.len()));
-                continue;
-            }
-            let counts = counts(entry, exam);
             let items = entry.items.iter().map(|id| format!("`{}`", short(id)));
-            rows += &format!(" {} |", items.collect::<Vec<_>>().join(", "));
-            for cell in &cells {
-                let count = cells::times(&counts, cell);
-                let shown = if count >= FEWEST {
-                    self.asked += 1;
-                    count.to_string()
-                } else if let Some(why) = listed.reason(task, entry, cell) {
-                    self.excused += 1;
-                    letter(&mut reasons, why)
-                } else {
-                    let task = task.id;
-                    let problem = format!("{task}: {sentence:?} is asked {count} times at {cell}");
-                    self.problems.push(problem);
-                    format!("**{count}**")
-                };
-                rows += &format!(" {shown} |");
-            }
-            rows.push('\n');
+            let items = items.collect::<Vec<_>>().join(", ");
+            let asked = entry.why_not.as_deref().unwrap_or(&items);
+            self.table.contents += &format!("| {sentence} | {asked} |\n");
         }
+    }
+
+    fn add_function(&mut self, domain: &dyn Domain, listed: &Listed, exam: &Exam) {
+        let function = domain.function();
+        let classes = Classes::count(domain, exam);
+        let mut reasons: Vec<&str> = Vec::new();
+        let columns = &classes.columns;
+        let mut rows = String::new();
+        for (aspect, (name, names)) in domain.aspects().into_iter().enumerate() {
+            for (class, class_name) in names.iter().enumerate() {
+                rows += &format!("| {name} | {class_name} |");
+                for column in columns {
+                    let count = classes.times(aspect, class, column);
+                    let reason = listed.reason(function, name, class_name, column);
+                    let place = format!("{name} {class_name:?} for {column}");
+                    let shown = self.shown(function, &place, count, reason, &mut reasons);
+                    rows += &format!(" {shown} |");
+                }
+                rows.push('\n');
+            }
+        }
+        self.check_pairs(domain, &classes, listed);
         self.table.contents += &format!(
-            "\n## {}\n\n| sentence | items | {} |\n|---|---|{}\n{rows}",
-            task.title,
-            cells.join(" | "),
-            "--:|".repeat(cells.len())
+            "\n## `{function}`\n\n| aspect | class | {} |\n|---|---|{}\n{rows}",
+            columns.join(" | "),
+            "--:|".repeat(columns.len())
         );
         for (index, why) in reasons.iter().enumerate() {
-            self.table.contents += &format!("\n- {}: {why}\n", name(index));
+            self.table.contents += &format!("\n- {}: {why}\n", letter(index));
+        }
+    }
+
+    /// Returns a count, or the letter of the reason why it is small. Without a reason, that is a problem.
+    fn shown<'a>(
+        &mut self,
+        function: &str,
+        place: &str,
+        count: usize,
+        reason: Option<&'a str>,
+        reasons: &mut Vec<&'a str>,
+    ) -> String {
+        if count >= FEWEST {
+            self.asked += 1;
+            return count.to_string();
+        }
+        let Some(why) = reason else {
+            let problem = format!("{function} is asked {count} times at {place}");
+            self.problems.push(problem);
+            return format!("**{count}**");
+        };
+        self.excused += 1;
+        let known = reasons.iter().position(|other| *other == why);
+        letter(known.unwrap_or_else(|| {
+            reasons.push(why);
+            reasons.len() - 1
+        }))
+    }
+
+    /// Checks that each pair of classes of two aspects about shape is asked.
+    fn check_pairs(&mut self, domain: &dyn Domain, classes: &Classes, listed: &Listed) {
+        const COLUMN: &str = "pairs";
+        let (function, aspects) = (domain.function(), domain.aspects());
+        let find = |name: &str| aspects.iter().position(|aspect| aspect.0 == name);
+        for [first, second] in domain.pairs() {
+            let (Some(a), Some(b)) = (find(first), find(second)) else {
+                self.problems
+                    .push(format!("{function} has no aspects {first} and {second}"));
+                continue;
+            };
+            for (i, class) in aspects[a].1.iter().enumerate() {
+                for (j, other) in aspects[b].1.iter().enumerate() {
+                    let count = classes.times_together([(a, i), (b, j)]);
+                    let reason = listed.reason(function, first, class, COLUMN);
+                    let reason = reason.or_else(|| listed.reason(function, second, other, COLUMN));
+                    match (count, reason) {
+                        (1.., _) => self.asked += 1,
+                        (0, Some(_)) => self.excused += 1,
+                        (0, None) => self.problems.push(format!(
+                            "{function} is never asked at {first} {class:?} with {second} {other:?}"
+                        )),
+                    }
+                }
+            }
         }
     }
 
@@ -160,39 +216,21 @@ impl Coverage {
     }
 }
 
-fn counts(entry: &Sentence, exam: &Exam) -> Counts {
-    let mut counts = Counts::new();
-    let items = exam.items.iter();
-    let items = items.filter(|item| entry.items.contains(&item.id));
-    for question in items.flat_map(|item| &item.questions) {
-        cells::count(question, &mut counts);
-    }
-    counts
-}
-
 fn short(id: &str) -> &str {
     id.split('.').next_back().unwrap_or(id)
 }
 
-/// Returns the letter of a reason, which is added to the list if it is new.
-fn letter<'a>(reasons: &mut Vec<&'a str>, why: &'a str) -> String {
-    let known = reasons.iter().position(|other| *other == why);
-    name(known.unwrap_or_else(|| {
-        reasons.push(why);
-        reasons.len() - 1
-    }))
-}
-
-fn name(index: usize) -> String {
+fn letter(index: usize) -> String {
     char::from(b'a' + (index % 26) as u8).to_string()
 }
 
 #[cfg(test)]
 mod tests {
-    use grader::handed_out::RAYS;
+
     use judging::exam::Item;
 
     use super::*;
+    use crate::authoring::RAYS;
     use crate::items;
 
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
@@ -202,7 +240,7 @@ mod tests {
             .expect("the list can be read")
             .problems;
         all.into_iter()
-            .filter(|line| line.contains("bbox"))
+            .filter(|line| line.contains("bbox") || line.contains("BBox"))
             .collect()
     }
 
@@ -219,7 +257,7 @@ mod tests {
                 .any(|line| line.ends_with("there is no item bbox.flat")),
             "{new:?}"
         );
-        let not_asked = "is asked 0 times at scale: one";
-        assert!(new.iter().any(|line| line.ends_with(not_asked)), "{new:?}");
+        let not_asked = "BBox::hit is asked 0 times at form \"flat along x\" for some";
+        assert!(new.iter().any(|line| line.as_str() == not_asked), "{new:?}");
     }
 }

@@ -4,7 +4,7 @@ use super::Aspect;
 use crate::seed::Rng;
 
 /// How many suitable calls are compared.
-const CANDIDATES: usize = 8;
+const CANDIDATES: usize = 12;
 /// How many calls are drawn at most to find them.
 const ATTEMPTS: usize = 1000;
 
@@ -14,15 +14,26 @@ pub struct Balance<C: 'static> {
     aspects: &'static [Aspect<C>],
     /// For each aspect, how often each of its classes has been chosen.
     counts: Vec<Vec<u32>>,
+    /// The same for one subject.
+    of_subject: Vec<Vec<u32>>,
 }
 
 impl<C> Balance<C> {
     /// Creates a balance in which nothing has been chosen yet.
     pub fn new(aspects: &'static [Aspect<C>]) -> Self {
         let zeros = aspects.iter().map(|aspect| vec![0; aspect.classes.len()]);
+        let zeros: Vec<Vec<u32>> = zeros.collect();
         Balance {
             aspects,
-            counts: zeros.collect(),
+            counts: zeros.clone(),
+            of_subject: zeros,
+        }
+    }
+
+    /// Begins the calls of another subject. Each class shall occur for each subject, too.
+    pub fn next_subject(&mut self) {
+        for count in self.of_subject.iter_mut().flatten() {
+            *count = 0;
         }
     }
 
@@ -45,6 +56,7 @@ impl<C> Balance<C> {
         let classes: Vec<(usize, usize)> = self.classes(&call).collect();
         for (aspect, class) in classes {
             self.counts[aspect][class] += 1;
+            self.of_subject[aspect][class] += 1;
         }
         Some(call)
     }
@@ -56,6 +68,10 @@ impl<C> Balance<C> {
     }
 
     fn rarity(&self, aspect: usize, class: usize) -> f64 {
-        (1.0 + f64::from(self.counts[aspect][class])).powi(-2)
+        let counts = [&self.counts, &self.of_subject].map(|counts| counts[aspect][class]);
+        counts
+            .map(|count| (1.0 + f64::from(count)).powi(-2))
+            .iter()
+            .sum()
     }
 }

@@ -1,7 +1,5 @@
 //! The domain of `BBox::hit`.
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec3};
 use protocol::{Interval, Query, Question, Ray};
 
@@ -20,6 +18,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     aspects: &[
         SIZE, PLACE, OCTANT, FORM, START, DISTANCE, OUTCOME, DIRECTION, TIMES, RAYS_RANGE, HISTORY,
     ],
+    pairs: &[["size", "direction"], ["size", "start"]],
     calls,
 };
 
@@ -373,11 +372,12 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
 /// Draws boxes of these sizes, each with calls that belong to an idea, every other one a hit.
 pub fn tables(
     rng: &mut Rng,
-    sizes: Range<usize>,
+    sizes: &[usize],
     belongs: impl Fn(&BoxCall) -> bool,
 ) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     let generator = Generator {
         aspects: BOX.aspects,
+        subject_aspects: 4,
         subject: &drawn_box,
         input: &query,
         fits: &|call: &BoxCall| call.is_clear() && belongs(call),

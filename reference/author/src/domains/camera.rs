@@ -19,6 +19,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         OFFSET_X,
         OFFSET_Y,
     ],
+    pairs: &[],
     calls,
 };
 

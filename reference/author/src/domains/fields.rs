@@ -1,7 +1,5 @@
 //! The domains of single fields: their special values, their magnitudes, and how both are drawn.
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec3};
 use protocol::Interval;
 
@@ -23,12 +21,10 @@ pub const SIZES: &[&str] = &[
     "500",
 ];
 
-/// All classes of lengths.
-pub const EVERY_SIZE: Range<usize> = 0..SIZES.len();
+/// All classes of lengths, the small ones twice.
+pub const EVERY_SIZE: &[usize] = &[0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 1, 2, 3];
 /// The classes of lengths that are so small that an absolute number could decide about them.
-pub const TINY: Range<usize> = 0..2;
-/// The classes of lengths from a hundredth on.
-pub const USUAL: Range<usize> = 3..SIZES.len();
+pub const TINY: &[usize] = &[0, 1, 2];
 
 /// Returns the class of a length: its decade.
 pub fn size_class(size: f64) -> usize {

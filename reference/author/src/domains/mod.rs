@@ -14,12 +14,22 @@ pub mod sphere;
 mod tables;
 pub mod triangle;
 
+use std::fmt::Debug;
+
 use protocol::Question;
 
 use crate::seed::Rng;
 
 pub use balance::Balance;
 pub use tables::{Drawn, Generator};
+
+/// The domains of the functions of the assignment `rays`.
+pub static FUNCTIONS: &[&dyn Domain] = &[
+    &camera::CAMERA,
+    &triangle::TRIANGLE,
+    &sphere::SPHERE,
+    &bbox::BOX,
+];
 
 /// One way in which calls differ, divided into classes.
 #[derive(Debug)]
@@ -65,24 +75,29 @@ pub struct FunctionDomain<C: 'static> {
     pub function: &'static str,
     /// How its calls differ.
     pub aspects: &'static [Aspect<C>],
+    /// The pairs of aspects whose classes are all asked together.
+    pub pairs: &'static [[&'static str; 2]],
     /// Returns the calls of a question about the function.
     pub calls: fn(&Question) -> Vec<C>,
 }
 
 /// The domain of any function.
-pub trait Domain: Sync {
+pub trait Domain: Debug + Sync {
     /// The name of the function.
     fn function(&self) -> &'static str;
 
     /// Returns the names of the aspects, each with its classes.
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])>;
 
+    /// Returns the pairs of aspects whose classes are all asked together.
+    fn pairs(&self) -> &'static [[&'static str; 2]];
+
     /// Returns the classes of each call of a question about the function, one for each aspect that
     /// applies.
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
 }
 
-impl<C> Domain for FunctionDomain<C> {
+impl<C: Debug> Domain for FunctionDomain<C> {
     fn function(&self) -> &'static str {
         self.function
     }
@@ -94,11 +109,21 @@ impl<C> Domain for FunctionDomain<C> {
             .collect()
     }
 
+    fn pairs(&self) -> &'static [[&'static str; 2]] {
+        self.pairs
+    }
+
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
         let classes = |call: &C| {
             let aspects = self.aspects.iter();
             aspects.map(|aspect| (aspect.class)(call)).collect()
         };
+        if question
+            .table()
+            .is_some_and(|table| table.name() != self.function)
+        {
+            return Vec::new();
+        }
         (self.calls)(question).iter().map(classes).collect()
     }
 }

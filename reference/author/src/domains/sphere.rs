@@ -1,7 +1,5 @@
 //! The domain of `Sphere::hit`.
 
-use std::ops::Range;
-
 use protocol::{Interval, Ray, Shape};
 
 use super::fields;
@@ -15,6 +13,7 @@ use crate::seed::Rng;
 
 /// The domain of `Sphere::hit`.
 pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
+    pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Sphere::hit",
     aspects: &[
@@ -232,12 +231,13 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
-    sizes: Range<usize>,
+    sizes: &[usize],
     belongs: impl Fn(&Line) -> bool,
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
     let generator = Generator {
         aspects: SPHERE.aspects,
+        subject_aspects: 4,
         subject: &drawn_shape,
         input: &ray,
         fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),

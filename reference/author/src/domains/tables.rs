@@ -1,7 +1,5 @@
 //! Draws the rows of a table: calls of one subject, every other one a hit.
 
-use std::ops::Range;
-
 use super::{Aspect, Balance, Call};
 use crate::seed::Rng;
 
@@ -12,6 +10,8 @@ pub type Drawn<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 pub struct Generator<'a, C: Call> {
     /// How calls differ.
     pub aspects: &'static [Aspect<C>],
+    /// How many of the aspects are about the subject alone. They come first.
+    pub subject_aspects: usize,
     /// Draws a subject of a size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
@@ -27,10 +27,11 @@ impl<C: Call> Generator<'_, C> {
     /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class
     /// of each aspect occurs. Some pairs differ in nothing but the range, if the range decides.
     /// The last table has the calls before it again, with another subject.
-    pub fn tables(&self, rng: &mut Rng, sizes: Range<usize>) -> Vec<Drawn<C>> {
-        let mut balance = Balance::new(self.aspects);
-        let drawn = sizes.map(|size| rng.retry(|rng| self.table(rng, size, &mut balance)));
-        let mut tables: Vec<Drawn<C>> = drawn.collect();
+    pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
+        let (of_subject, of_row) = self.aspects.split_at(self.subject_aspects);
+        let mut balances = (Balance::new(of_subject), Balance::new(of_row));
+        let table = |&size: &usize| rng.retry(|rng| self.table(rng, size, &mut balances));
+        let mut tables: Vec<Drawn<C>> = sizes.iter().map(table).collect();
         let again = tables.last().and_then(|last| self.with_other_subject(last));
         tables.extend(again);
         tables
@@ -48,26 +49,32 @@ impl<C: Call> Generator<'_, C> {
     }
 
     /// Draws a subject and its calls. Returns `None` if few calls of the subject fit.
-    fn table(&self, rng: &mut Rng, size: usize, balance: &mut Balance<C>) -> Option<Drawn<C>> {
+    fn table(
+        &self,
+        rng: &mut Rng,
+        size: usize,
+        balances: &mut (Balance<C>, Balance<C>),
+    ) -> Option<Drawn<C>> {
         /// How many calls are drawn until one of them fits a subject.
         const ATTEMPTS: usize = 20;
-        let mut balanced = balance.clone();
-        let subject = balance.clone().choose(rng, |rng| {
+        let (mut of_subject, mut of_row) = balances.clone();
+        let subject = of_subject.choose(rng, |rng| {
             let subject = (self.subject)(rng, size);
             rng.attempt(ATTEMPTS, |rng| self.call(rng, &subject))
         })?;
         let subject = subject.subject();
+        of_row.next_subject();
         let pairs = (0..PAIRS).map(|_| {
-            let hit = balanced.choose(rng, |rng| self.call_of(rng, &subject, true))?;
+            let hit = of_row.choose(rng, |rng| self.call_of(rng, &subject, true))?;
             let miss = rng.coin().then(|| self.miss_by_range(rng, &hit)).flatten();
             let miss = match miss {
                 Some(miss) => miss,
-                None => balanced.choose(rng, |rng| self.call_of(rng, &subject, false))?,
+                None => of_row.choose(rng, |rng| self.call_of(rng, &subject, false))?,
             };
             Some(rng.shuffled(vec![hit.input(), miss.input()]))
         });
         let pairs = pairs.collect::<Option<Vec<Vec<C::Input>>>>()?;
-        *balance = balanced;
+        *balances = (of_subject, of_row);
         Some((subject, rng.shuffled(pairs).concat()))
     }
 

@@ -1,7 +1,5 @@
 //! The domain of `Triangle::hit`.
 
-use std::ops::Range;
-
 use glam::{DVec2, DVec3};
 use protocol::{Ray, Shape, Vertex};
 
@@ -16,6 +14,7 @@ use crate::seed::Rng;
 
 /// The domain of `Triangle::hit`.
 pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
+    pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Triangle::hit",
     aspects: &[
@@ -422,12 +421,13 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
-    sizes: Range<usize>,
+    sizes: &[usize],
     belongs: impl Fn(&Plane) -> bool,
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
     let generator = Generator {
         aspects: TRIANGLE.aspects,
+        subject_aspects: 8,
         subject: &drawn_shape,
         input: &ray,
         fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),

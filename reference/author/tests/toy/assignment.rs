@@ -90,6 +90,7 @@ pub static TOY: Authoring = Authoring {
     handed_out: &HANDED_OUT,
     practice_exam: "reference/author/tests/toy/practice.json",
     items: &[items::ball, items::mirror, items::nearest],
+    domains: &[&items::DIRECTIONS],
     oracles: "reference/author/tests/toy/items.rs",
     attacks: &[Attack {
         file: "ball.rs",

@@ -1,5 +1,6 @@
 //! The items of the toy. Correct answers are computed in double precision, from the definitions.
 
+use author::domains::{Aspect, FunctionDomain};
 use author::items::{Declaration, DeclaredItem, Group, draw_items, hits_key, ray};
 use author::oracle::{Ray64, scan};
 use author::seed::{Rng, Seed};
@@ -64,6 +65,28 @@ const REFLECTS: Declaration = Declaration {
         vec![ExamQuestion::new(question, key)]
     },
     ..Declaration::ALONE
+};
+
+/// The domain of `reflect`: directions above the surface.
+pub static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
+    function: "reflect",
+    aspects: &[Aspect {
+        name: "direction",
+        classes: &[
+            "x > 0, y > 0",
+            "x < 0, y > 0",
+            "x > 0, y < 0",
+            "x < 0, y < 0",
+        ],
+        class: |call| Some((call.direction.is_negative_bitmask() & 3) as usize),
+    }],
+    pairs: &[],
+    calls: |question| {
+        let Question::Reflect(table) = question else {
+            return Vec::new();
+        };
+        table.rows.to_vec().into_owned()
+    },
 };
 
 /// Returns a direction in single precision.

@@ -4,8 +4,6 @@ mod almost_parallel;
 mod hits;
 mod times;
 
-use std::ops::Range;
-
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Corners, Interval, Question, Ray};
 
@@ -18,7 +16,7 @@ use crate::seed::{Rng, Seed};
 type Query = (Ray, Interval);
 
 /// The sizes of most boxes. Smaller ones are asked where an absolute number could decide.
-const USUAL: Range<usize> = 4..9;
+const USUAL: &[usize] = &[4, 5, 6, 7, 8];
 
 /// Returns the items of the task `bbox`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
@@ -58,7 +56,7 @@ fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
 /// hit.
 fn questions(
     rng: &mut Rng,
-    sizes: Range<usize>,
+    sizes: &[usize],
     belongs: impl Fn(&BoxCall) -> bool,
 ) -> Vec<ExamQuestion> {
     let tables = tables(rng, sizes, belongs).into_iter();

@@ -117,7 +117,7 @@ fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuesti
     let parts = FIELDS_OF_VIEW.into_iter().enumerate();
     let question = |(index, part)| {
         let aspect = drawn(ASPECT_RATIOS[index % ASPECT_RATIOS.len()], rng);
-        let film = uvec2(side(rng, index), side(rng, index + index / 4));
+        let film = uvec2(side(rng, index), side(rng, 3 * index + 4));
         let camera = camera(drawn(part, rng), aspect, film);
         let samples = (0..8).map(|_| sample(rng, &camera));
         let samples = Rows::List(samples.collect());

@@ -3,13 +3,14 @@
 mod roots;
 mod surface;
 
-use std::ops::Range;
-
 use judging::exam::ExamQuestion;
 
 use crate::domains::sphere::{Line, tables};
 use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
+
+/// The sizes of most spheres. Smaller ones are asked where an absolute number could decide.
+const USUAL: &[usize] = &[3, 4, 5, 6, 7, 8, 4, 5, 6, 7];
 
 /// Returns the items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
@@ -37,7 +38,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
 fn questions(
     rng: &mut Rng,
     judged: &[&str],
-    sizes: Range<usize>,
+    sizes: &[usize],
     belongs: impl Fn(&Line) -> bool,
 ) -> Vec<ExamQuestion> {
     let tables = tables(rng, judged, sizes, belongs).into_iter();

@@ -1,7 +1,7 @@
 //! Items about which of the two roots counts, if any.
 
-use super::questions;
-use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
+use super::{USUAL, questions};
+use crate::domains::fields::{EVERY_SIZE, TINY};
 use crate::domains::sphere::Line;
 use crate::items::{Declaration, groups};
 
@@ -38,7 +38,15 @@ pub(super) const RADIUS: Declaration = Declaration {
            distances: compare each root with ray.range, not with a small constant.",
     section: "sphere.md#the-radius-is-not-always-one",
     questions: |rng| {
-        let all = ["distance", "position", "normal", "uv", "shape"];
+        let all = [
+            "distance",
+            "position",
+            "normal",
+            "unit_normal",
+            "uv",
+            "origin",
+            "shape",
+        ];
         let tiny = questions(&mut rng.sequence("sphere.radius.tiny"), &all, TINY, |_| {
             true
         });

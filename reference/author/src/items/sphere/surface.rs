@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
 
-use super::questions;
-use crate::domains::fields::USUAL;
+use super::{USUAL, questions};
+use crate::domains::fields::EVERY_SIZE;
 use crate::items::{Declaration, meshes, picture};
 use crate::seed::Rng;
 
@@ -59,7 +59,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     look: "Copy both: the origin from the ray that you were given, even if you computed with a \
            shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
-    questions: |rng| questions(rng, &["origin", "shape"], USUAL, |_| true),
+    questions: |rng| questions(rng, &["origin", "shape"], EVERY_SIZE, |_| true),
     ..Declaration::ALONE
 };
 

@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, Vertex};
 
 use super::{USUAL, is_steep, is_well_inside, questions};
-use crate::domains::fields::EVERY_SIZE;
+use crate::domains::fields::{self, EVERY_SIZE};
 use crate::domains::triangle::Plane;
 use crate::items::{Declaration, groups, shape_question};
 use crate::seed::Rng;
@@ -109,8 +109,8 @@ pub(super) const TINY: Declaration = Declaration {
            it with zero, not with a small number.",
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     questions: |rng| {
-        let all = ["distance", "position", "normal", "uv", "shape"];
-        questions(rng, &all, EVERY_SIZE, |plane| {
+        let all = ["distance", "position", "normal", "uv", "origin", "shape"];
+        questions(rng, &all, &[EVERY_SIZE, fields::TINY].concat(), |plane| {
             is_steep(plane) && is_well_inside(plane)
         })
     },
@@ -149,7 +149,7 @@ pub(super) const GRAZING: Declaration = Declaration {
            for a miss: only zero is.",
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     questions: |rng| {
-        let all = ["distance", "position"];
+        let all = ["distance", "position", "uv", "origin", "shape"];
         questions(rng, &all, USUAL, |plane| !is_steep(plane))
     },
     ..Declaration::ALONE

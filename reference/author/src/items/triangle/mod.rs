@@ -4,8 +4,6 @@ mod hits;
 mod scene;
 mod surface;
 
-use std::ops::Range;
-
 use judging::exam::ExamQuestion;
 
 use crate::domains::triangle::{Plane, tables};
@@ -13,7 +11,7 @@ use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
 
 /// The sizes of most triangles. Smaller ones, whose determinants are tiny, are the idea of an item.
-const USUAL: Range<usize> = 4..9;
+const USUAL: &[usize] = &[4, 5, 6, 7, 8];
 
 /// Returns the items of the task `triangle`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
@@ -43,7 +41,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
 fn questions(
     rng: &mut Rng,
     judged: &[&str],
-    sizes: Range<usize>,
+    sizes: &[usize],
     belongs: impl Fn(&Plane) -> bool,
 ) -> Vec<ExamQuestion> {
     let tables = tables(rng, judged, sizes, belongs).into_iter();

@@ -10,7 +10,8 @@ pub struct Ray {
     pub origin: Vec3,
     /// The direction, of length one, so that `t` is a distance.
     pub dir: Vec3,
-    /// The distances from `origin` at which hits count; both ends are included.
+    /// The distances from `origin` at which hits count; both ends are included, and neither is
+    /// negative.
     pub range: Interval,
 }
 

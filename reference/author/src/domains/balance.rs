@@ -75,3 +75,24 @@ impl<C> Balance<C> {
             .sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::Seed;
+
+    const ASPECTS: &[Aspect<bool>] = &[Aspect {
+        name: "luck",
+        classes: &["usual", "rare"],
+        class: |&is_rare| Some(usize::from(is_rare)),
+    }];
+
+    #[test]
+    fn a_rare_class_is_chosen_as_often_as_a_usual_one() {
+        let (mut balance, mut rng) = (Balance::new(ASPECTS), Seed(1).rng("balance"));
+        let chosen = (0..40).map(|_| balance.choose(&mut rng, |rng| Some(rng.index(10) == 0)));
+        let rare = chosen.flatten().filter(|&is_rare| is_rare).count();
+        assert!((15..=20).contains(&rare), "{rare}");
+        assert_eq!(balance.choose(&mut rng, |_| None), None);
+    }
+}

@@ -384,3 +384,49 @@ pub fn tables(
     };
     generator.tables(rng, sizes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::Seed;
+
+    /// Products with the inverse of the direction, in single precision.
+    fn span(call: &BoxCall) -> Option<(f32, f32)> {
+        let (origin, inverse) = (call.ray.origin, call.ray.dir.recip());
+        let (mut enter, mut leave) = (call.times.min, call.times.max);
+        for axis in 0..3 {
+            let (low, high) = (call.bounds.min[axis] as f32, call.bounds.max[axis] as f32);
+            if inverse[axis].is_infinite() {
+                if origin[axis] < low || origin[axis] > high {
+                    return None;
+                }
+                continue;
+            }
+            let [a, b] = [low, high].map(|at| at * inverse[axis] - origin[axis] * inverse[axis]);
+            (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
+        }
+        (enter <= leave).then_some((enter, leave))
+    }
+
+    #[test]
+    fn a_usual_formula_in_single_precision_stays_within_the_tolerances() {
+        for seed in 0..8 {
+            let mut rng = Seed(seed).rng("bbox");
+            for (bounds, queries) in tables(&mut rng, fields::EVERY_SIZE, |_| true) {
+                for query in queries {
+                    let call = BoxCall::new(bounds, query);
+                    let (got, expected) = (span(&call), bounds.span(&call.ray64()));
+                    assert_eq!(got.is_some(), expected.is_some(), "{call:?}");
+                    let (Some(got), Some(expected)) = (got, expected) else {
+                        continue;
+                    };
+                    let corners = bounds.min.abs().max(bounds.max.abs());
+                    let scale = corners.max(call.ray.origin.as_dvec3().abs()).max_element();
+                    let error = (f64::from(got.0) - expected.0).abs();
+                    let error = error.max((f64::from(got.1) - expected.1).abs());
+                    assert!(error < 0.5e-4 * scale, "{call:?}");
+                }
+            }
+        }
+    }
+}

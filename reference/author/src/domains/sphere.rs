@@ -244,3 +244,61 @@ pub fn tables(
     };
     generator.tables(rng, sizes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domains::Call;
+    use crate::seed::Seed;
+
+    /// The quadratic formula in full, in single precision.
+    fn distance(ray: &Ray, shape: &Shape) -> Option<f32> {
+        let Shape::Sphere { center, radius, .. } = *shape else {
+            return None;
+        };
+        let from_center = ray.origin - center;
+        let (a, b) = (ray.dir.dot(ray.dir), 2.0 * ray.dir.dot(from_center));
+        let discriminant = b * b - 4.0 * a * (from_center.dot(from_center) - radius * radius);
+        let root = |sign: f32| (-b + sign * discriminant.sqrt()) / (2.0 * a);
+        [root(-1.0), root(1.0)]
+            .into_iter()
+            .find(|&t| ray.range.contains(t))
+    }
+
+    #[test]
+    fn a_usual_formula_in_single_precision_stays_within_the_tolerances() {
+        for seed in 0..8 {
+            let mut rng = Seed(seed).rng("sphere");
+            for (shape, rays) in tables(&mut rng, &["distance"], fields::EVERY_SIZE, |_| true) {
+                for ray in rays {
+                    let line = Line::of(&ShapeCall::new(shape, ray)).expect("a sphere");
+                    let (got, expected) = (distance(&ray, &shape), line.hits().next());
+                    assert_eq!(got.is_some(), expected.is_some(), "{ray:?} {shape:?}");
+                    let error = f64::from(got.unwrap_or(0.0)) - expected.unwrap_or(0.0);
+                    assert!(
+                        error.abs() < 0.5e-4 * line.coordinates(),
+                        "{ray:?} {shape:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tangents_and_ends_of_ranges_are_not_clear() {
+        let shape = Shape::Sphere {
+            center: glam::vec3(0.0, 0.0, -5.0),
+            radius: 1.0,
+            shape: 0,
+        };
+        let is_clear = |x: f32, max: f32| {
+            let ray = Ray::new(glam::vec3(x, 0.0, 0.0), glam::Vec3::NEG_Z).within(0.0, max);
+            Line::of(&ShapeCall::new(shape, ray))
+                .expect("a sphere")
+                .is_clear()
+        };
+        assert!(is_clear(0.0, 9.0) && is_clear(0.9, 9.0) && is_clear(1.1, 9.0));
+        assert!(!is_clear(0.999, 9.0) && !is_clear(1.001, 9.0));
+        assert!(!is_clear(0.0, 4.01) && !is_clear(0.0, 6.01) && is_clear(0.0, 5.0));
+    }
+}

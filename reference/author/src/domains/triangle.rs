@@ -434,3 +434,67 @@ pub fn tables(
     };
     generator.tables(rng, sizes)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+
+    use super::*;
+    use crate::domains::Call;
+    use crate::seed::Seed;
+
+    /// The distance to the plane, and the weights as ratios of dot products, in single precision.
+    fn distance(ray: &Ray, shape: &Shape) -> Option<f32> {
+        let Shape::Triangle { vertices, .. } = shape else {
+            return None;
+        };
+        let [p0, p1, p2] = [0, 1, 2].map(|corner| vertices[corner].position);
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        let face = e1.cross(e2);
+        let t = face.dot(p0 - ray.origin) / face.dot(ray.dir);
+        let point = ray.at(t) - p0;
+        let area = face.dot(face);
+        let (u, v) = (
+            point.cross(e2).dot(face) / area,
+            e1.cross(point).dot(face) / area,
+        );
+        let is_inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+        (is_inside && ray.range.contains(t)).then_some(t)
+    }
+
+    #[test]
+    fn a_usual_formula_in_single_precision_stays_within_the_tolerances() {
+        for seed in 0..8 {
+            let mut rng = Seed(seed).rng("triangle");
+            for (shape, rays) in tables(&mut rng, &["distance"], fields::EVERY_SIZE, |_| true) {
+                for ray in rays {
+                    let plane = Plane::of(&ShapeCall::new(shape, ray)).expect("a triangle");
+                    let got = distance(&ray, &shape);
+                    assert_eq!(got.is_some(), plane.is_hit(), "{ray:?} {shape:?}");
+                    let error = got.map_or(0.0, |got| f64::from(got) - plane.distance);
+                    let scale = plane.coordinates.max(plane.distance);
+                    assert!(error.abs() < 0.5e-4 * scale, "{ray:?} {shape:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn edges_and_ends_of_ranges_are_not_clear() {
+        let corner =
+            |x: f32, y: f32| Vertex::new(glam::vec3(x, y, -5.0), glam::Vec3::Z, Vec2::ZERO);
+        let shape = Shape::Triangle {
+            vertices: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(-1.0, 1.0)],
+            shape: 0,
+        };
+        let is_clear = |x: f32, max: f32| {
+            let ray = Ray::new(glam::vec3(x, -0.5, 0.0), glam::Vec3::NEG_Z).within(0.0, max);
+            Plane::of(&ShapeCall::new(shape, ray))
+                .expect("a triangle")
+                .is_clear()
+        };
+        assert!(is_clear(-0.9, 9.0) && is_clear(-0.998, 9.0) && is_clear(-1.002, 9.0));
+        assert!(!is_clear(-0.9999, 9.0) && !is_clear(-1.0001, 9.0));
+        assert!(!is_clear(-0.9, 5.01) && is_clear(-0.9, 4.9));
+    }
+}

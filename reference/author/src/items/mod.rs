@@ -58,15 +58,6 @@ pub fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Returns the ray, or one in the opposite direction.
-fn reversed_if(is_reversed: bool, ray: Ray) -> Ray {
-    if is_reversed {
-        Ray::new(ray.origin, -ray.dir)
-    } else {
-        ray
-    }
-}
-
 /// Creates a question that asks for the hit of each ray with a shape, without a tree.
 fn shape_question(
     judged: &[&str],

@@ -4,6 +4,8 @@
 //! - Known mistakes in `TASK/*.toml`, with hints for students.
 //! - Independent mistakes in `independent/*.toml`: known mistakes in the code of a variant, where they
 //!   look as in the solution of a student who never saw the reference.
+//! - Other code with the answers of known mistakes in `same_answers/*.toml`: the hints must be true of
+//!   it, too.
 //! - Unknown mistakes in `unknown/*.toml`: no hint is written for them, so they tell whether wrong code
 //!   gets a hint that is not true of it.
 
@@ -160,6 +162,23 @@ fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Ve
 pub fn independent_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("independent")?.into_iter();
     all.map(|mistake| mistake.in_variant(solutions)).collect()
+}
+
+/// Reads other code with the answers of known mistakes: changes to the reference for another reason.
+pub fn other_causes(solutions: &Solutions) -> Result<Vec<Solution>> {
+    let all = solutions.read_catalogue("same_answers")?.into_iter();
+    all.map(|mistake| {
+        if solutions.mistake(&mistake.id).is_none() {
+            bail!(
+                "{} in mistakes/same_answers is no known mistake",
+                mistake.id
+            );
+        }
+        let mut other = mistake.solution(solutions.recorder.reference())?;
+        other.id += " for another reason";
+        Ok(other)
+    })
+    .collect()
 }
 
 /// Reads the unknown mistakes, and applies them to the reference.

@@ -12,7 +12,7 @@ use crate::hints::observed_answers;
 use crate::proof::grade::Graded;
 use crate::proof::run::run;
 use crate::solutions::Solutions;
-use crate::solutions::catalogue::{independent_mistakes, unknown_mistakes};
+use crate::solutions::catalogue::{independent_mistakes, other_causes, unknown_mistakes};
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::Answers;
 
@@ -66,9 +66,11 @@ fn report(
     })
 }
 
-/// Grades every independent mistake, and determines its hints.
+/// Grades every independent mistake, and other code with the answers of known ones, and determines
+/// their hints.
 pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
-    let rows = report(solutions, &independent_mistakes(solutions)?, exam)?;
+    let all = [independent_mistakes(solutions)?, other_causes(solutions)?].concat();
+    let rows = report(solutions, &all, exam)?;
     let mut recognition = Recognition {
         count: rows.len(),
         ..Recognition::default()

@@ -1,5 +1,7 @@
 //! The domains of single fields: their special values, their magnitudes, and how both are drawn.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec3, Vec3};
 use protocol::Interval;
 
@@ -221,4 +223,27 @@ pub fn weights_inside(rng: &mut Rng, least: f64) -> [f64; 3] {
     cuts.sort_by(f64::total_cmp);
     let parts = [cuts[0], cuts[1] - cuts[0], 1.0 - cuts[1]];
     parts.map(|part| least + (1.0 - 3.0 * least) * part)
+}
+
+/// Returns the exponent of the power of two that is nearest to a count, which is not 0.
+pub fn powers_of_two(count: usize) -> usize {
+    (count as f64).log2().round() as usize
+}
+
+/// Returns whether no value occurs twice.
+pub fn without_repetition<T: Ord>(values: impl IntoIterator<Item = T>) -> bool {
+    let mut known = BTreeSet::new();
+    values.into_iter().all(|value| known.insert(value))
+}
+
+/// Draws different numbers of shapes.
+pub fn numbers(rng: &mut Rng, count: usize) -> Vec<u32> {
+    let mut known = BTreeSet::new();
+    let mut fresh = || {
+        rng.retry(|rng| {
+            let number = number(rng);
+            known.insert(number).then_some(number)
+        })
+    };
+    (0..count).map(|_| fresh()).collect()
 }

@@ -7,11 +7,13 @@
 
 mod balance;
 pub mod bbox;
+pub mod build;
 pub mod camera;
 pub mod fields;
 pub mod shape;
 pub mod sphere;
 mod tables;
+pub mod traverse;
 pub mod triangle;
 
 use std::fmt::Debug;

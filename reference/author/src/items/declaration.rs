@@ -1,9 +1,8 @@
 //! The declaration of an item: everything about it, in one place.
 
-use judging::exam::{ExamQuestion, Item, Key};
+use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 
-use super::place::in_a_room;
 use crate::seed::{Rng, Seed};
 
 /// An item whose numbers are not drawn yet.
@@ -51,20 +50,6 @@ impl DeclaredItem {
     /// Returns the item's questions, to which more can be added.
     pub(super) fn questions(&mut self) -> &mut Vec<ExamQuestion> {
         &mut self.item.questions
-    }
-
-    /// Asks the item's first table again about things in a room, if it has a table of rays. A
-    /// path-traced picture is of a room already.
-    pub(super) fn with_a_room(mut self, seed: Seed) -> Self {
-        let mut asked = self.item.questions.iter();
-        if asked.any(|asked| matches!(asked.key, Key::Radiance { .. })) {
-            return self;
-        }
-        let mut rng = seed.rng(&format!("{}.room", self.item.id));
-        let mut asked = self.item.questions.iter();
-        let in_a_room = asked.find_map(|asked| in_a_room(&mut rng, asked));
-        self.item.questions.extend(in_a_room);
-        self
     }
 }
 

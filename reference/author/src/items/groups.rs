@@ -10,6 +10,8 @@ pub(super) const TRIANGLE_HITS: Group = Group("triangle hits");
 pub(super) const TRIANGLE_SURFACE: Group = Group("triangle surface");
 /// The distance and the misses of spheres.
 pub(super) const SPHERE_HITS: Group = Group("sphere hits");
+/// The other quantities of a sphere's hit.
+pub(super) const SPHERE_SURFACE: Group = Group("sphere surface");
 /// Boxes, which decide the nodes that are entered and their order.
 pub(super) const BOXES: Group = Group("boxes");
 /// Building a tree that can be traversed, whatever its cost.

@@ -1,7 +1,7 @@
 //! Lists of shapes for trees. The number of each shape is its index in the list.
 
 use glam::{DVec3, dvec3};
-use protocol::Shape;
+use protocol::{Shape, Vertex};
 
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -12,6 +12,24 @@ pub fn flat_triangle(corners: [DVec3; 3], shape: u32) -> Shape {
         corners: corners.map(|corner| corner.as_vec3()),
         shape,
     }
+}
+
+/// Returns a triangle with these corners, whose normals and texture coordinates are drawn.
+pub fn triangle(rng: &mut Rng, corners: [DVec3; 3]) -> Shape {
+    let across = rng.direction();
+    let vertices = corners.map(|corner| {
+        let normal = (across + rng.point(0.4)).normalize();
+        let uv = glam::dvec2(rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0));
+        Vertex::new(corner.as_vec3(), normal.as_vec3(), uv.as_vec2())
+    });
+    Shape::Triangle { vertices, shape: 0 }
+}
+
+/// Returns such a triangle around `center` in a random orientation. It has no sharp angles, and fits in
+/// a ball of radius `size` around `center`.
+pub fn random_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
+    let corners = random_corners(rng, size);
+    triangle(rng, corners.map(|corner| center + corner))
 }
 
 /// Returns the sphere around this centre.
@@ -25,14 +43,22 @@ pub fn sphere(center: DVec3, radius: f64) -> Shape {
 
 /// Returns the shapes, numbered in order.
 pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
-    let number = |(index, mut numbered): (u32, Shape)| {
+    with_numbers(shapes, 0..)
+}
+
+/// Returns the shapes with these numbers.
+pub fn with_numbers(
+    shapes: impl IntoIterator<Item = Shape>,
+    numbers: impl IntoIterator<Item = u32>,
+) -> Vec<Shape> {
+    let number = |(mut numbered, number): (Shape, u32)| {
         let (Shape::Triangle { shape, .. }
         | Shape::FlatTriangle { shape, .. }
         | Shape::Sphere { shape, .. }) = &mut numbered;
-        *shape = index;
+        *shape = number;
         numbered
     };
-    (0..).zip(shapes).map(number).collect()
+    shapes.into_iter().zip(numbers).map(number).collect()
 }
 
 /// Returns a flat triangle around `center` in a random orientation. It has no sharp angles, and
@@ -67,6 +93,13 @@ pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     number_shapes(triangles)
 }
 
+/// Returns a thin triangle along an axis.
+pub fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
+    let along = 0.5 * length * DVec3::AXES[axis];
+    let across = 0.02 * rng.perpendicular_to(DVec3::AXES[axis]);
+    flat_triangle([center - along, center + along, center + along + across], 0)
+}
+
 /// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
 /// Splitting along the strands' direction gains little, but it is the longest axis of a node in one
 /// region, so a builder that only splits the longest axis builds a poor tree.
@@ -79,13 +112,6 @@ pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
         strand(rng, region + offset, axis, 2.0)
     });
     number_shapes(strands)
-}
-
-/// Returns a thin triangle along an axis.
-fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
-    let along = 0.5 * length * DVec3::AXES[axis];
-    let across = 0.02 * rng.perpendicular_to(DVec3::AXES[axis]);
-    flat_triangle([center - along, center + along, center + along + across], 0)
 }
 
 /// Returns a stack of sheets that consist of long strips. The sheets are longer than the stack is
@@ -105,7 +131,7 @@ pub fn sheets(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(sheets)
 }
 
-/// Returns a few large triangles on the ground, and many small ones in a few crowded spots.
+/// Returns a few large triangles on the ground, and many small primitives in a few crowded spots.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)
         .map(|_| rng.point(10.0) * dvec3(1.0, 0.1, 1.0))
@@ -117,7 +143,11 @@ pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
         } else {
             let spot = spots[rng.index(spots.len())];
             let offset = rng.point(0.4);
-            random_flat_triangle(rng, spot + offset, 0.05)
+            // Spheres take less space in an exam.
+            match rng.index(3) {
+                0 => random_flat_triangle(rng, spot + offset, 0.05),
+                _ => sphere(spot + offset, 0.03),
+            }
         }
     });
     number_shapes(triangles)

@@ -3,13 +3,11 @@
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
-use judging::scene::QuestionScene;
 use protocol::{Interval, Question, Ray, Shape, TreeNode, Value};
 
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
-use crate::tree::{Tree, decoy};
 
 /// A size and a place. Questions are drawn with sizes of about one, near the origin, and then moved
 /// here.
@@ -26,15 +24,6 @@ impl Place {
         Place {
             scale: rng.uniform(60.0, 100.0),
             offset: rng.point(300.0),
-        }
-    }
-
-    /// Returns a place for things that are a hundredth as large. They are so close to the origin
-    /// that coordinates have enough digits for them.
-    pub(super) fn miniature(rng: &mut Rng) -> Self {
-        Place {
-            scale: 0.01,
-            offset: rng.point(0.2),
         }
     }
 
@@ -58,16 +47,53 @@ impl Place {
         }
     }
 
-    /// Returns a place as far from the origin as the Cornell box, for things of this size, which are
-    /// then about as large as it is. Small integers stay exact: the factor is a power of two, and
-    /// the offset consists of integers.
-    pub(super) fn exact_room(rng: &mut Rng, size: f64) -> Self {
-        const SIZE: f64 = 64.0;
-        let mut far = || rng.sign() * rng.uniform(150.0, 400.0).round();
-        Place {
-            scale: (SIZE / size).log2().floor().exp2(),
-            offset: DVec3::new(far(), far(), far()),
+    /// Returns the place for things that are this many times as large, and then moved.
+    pub(super) fn new(scale: f64, offset: DVec3) -> Self {
+        Place { scale, offset }
+    }
+
+    /// Returns the place at which the box around these shapes has this centre, and its largest side is
+    /// twice this size.
+    pub(super) fn around(shapes: &[Shape], size: f64, center: DVec3) -> Self {
+        let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
+        let half_side = 0.5 * (bounds.max - bounds.min).max_element();
+        if half_side <= 0.0 || shapes.is_empty() {
+            return Place {
+                scale: size,
+                offset: center,
+            };
         }
+        let scale = size / half_side;
+        Place {
+            scale,
+            offset: center - scale * bounds.center(),
+        }
+    }
+
+    /// Returns a place near this one at which multiples of 1/128 stay exact: the factor is a power of
+    /// two, and the offset consists of multiples of its 128th part.
+    pub(super) fn exact(self) -> Self {
+        let scale = self.scale.log2().floor().exp2();
+        let step = scale / 128.0;
+        Place {
+            scale,
+            offset: (self.offset / step).round() * step,
+        }
+    }
+
+    /// Returns whether coordinates have enough digits here for the smallest of these shapes.
+    pub(super) fn keeps_digits(self, shapes: &[Shape]) -> bool {
+        /// The largest coordinate, in sizes of the smallest shape.
+        const MOST: f64 = 8000.0;
+        let sides = shapes.iter().map(|shape| {
+            let bounds = scan::bounds(shape);
+            0.5 * (bounds.max - bounds.min).max_element()
+        });
+        let smallest = sides
+            .filter(|side| *side > 0.0)
+            .fold(f64::INFINITY, f64::min);
+        let largest = self.offset.abs().max_element();
+        largest <= MOST * self.scale * smallest
     }
 
     /// Moves a point here.
@@ -186,36 +212,8 @@ pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
     moved(Place::dust(), &asked).expect("the question has a list of rows")
 }
 
-/// Returns the same question about things that are as large and as far from the origin as those of
-/// the Cornell box, whatever their size was. Returns `None` if it is not about a list of rays, or
-/// about nothing.
-pub(super) fn in_a_room(rng: &mut Rng, asked: &ExamQuestion) -> Option<ExamQuestion> {
-    let bounds = scan::extent(asked.question.table()?.subject())?;
-    if bounds.diagonal() <= 0.0 || builds_a_tree(&asked.question) {
-        return None;
-    }
-    // Far from the origin, rounding moves everything a little, and what was only just fair need not be.
-    rng.retry(|rng| {
-        let place = Place::exact_room(rng, bounds.diagonal());
-        let moved = moved(place, asked);
-        moved.as_ref().is_none_or(is_fair).then_some(moved)
-    })
-}
-
-/// Returns whether the submission builds the tree that a question is about.
-fn builds_a_tree(question: &Question) -> bool {
-    let scene = QuestionScene::of(question);
-    scene.is_some_and(|scene| scene.max_leaf_size.is_some())
-}
-
-/// Returns whether a question about a tree is fair.
-fn is_fair(asked: &ExamQuestion) -> bool {
-    let tree = Tree::in_question(&asked.question);
-    tree.is_none_or(|(tree, rays)| decoy::is_fair(&tree, &rays.to_vec()))
-}
-
 /// Returns a question at another place, or `None` if it is about a picture.
-fn moved(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
+pub(super) fn moved(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let change = |value: Value<'_>| place.value(value);
     let question = match (&asked.question, asked.question.table()) {
         (_, Some(table)) => table.changed(&change)?,

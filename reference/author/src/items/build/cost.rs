@@ -3,7 +3,8 @@
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Question, Shape};
 
-use crate::items::place::Place;
+use super::draw::place_of_size;
+use crate::domains::fields;
 use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder, SideRule};
@@ -26,26 +27,31 @@ const MAX_CORRECT_COST: f64 = 1.06;
 /// common mistake.
 const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// Creates questions about two random meshes, one around the origin and one far from it.
-/// For them, correct builders come close to the exact sweep, and builders that compare only adjacent
-/// buckets do not.
-fn cost_questions(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> Vec<ExamQuestion> {
-    let near = question_about(rng, &mesh);
-    let far = question_about(rng, |rng| {
-        let shapes = mesh(rng);
-        Place::elsewhere(rng).shapes(&shapes)
-    });
-    vec![near, far]
-}
-
-fn question_about(rng: &mut Rng, mesh: impl Fn(&mut Rng) -> Vec<Shape>) -> ExamQuestion {
-    rng.retry(|rng| {
-        let shapes = mesh(rng);
-        let question = cost_question(meshes::number_shapes(rng.shuffled(shapes)), 4);
-        (highest_correct_cost(&question) <= MAX_CORRECT_COST
-            && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
-            .then_some(question)
-    })
+/// Creates a question about a random mesh for each of these numbers of primitives and maximum leaf
+/// sizes. Their sizes and places are drawn from the domain. For them, correct builders come close to the
+/// exact sweep, and builders that compare only adjacent buckets do not.
+fn cost_questions(
+    rng: &mut Rng,
+    mesh: fn(&mut Rng, usize) -> Vec<Shape>,
+    sizes: &[(usize, u32)],
+) -> Vec<ExamQuestion> {
+    let question = |&(count, max_leaf_size): &(usize, u32)| {
+        rng.retry(|rng| {
+            let shapes = mesh(rng, count);
+            let shapes = meshes::number_shapes(rng.shuffled(shapes));
+            let question = cost_question(shapes.clone(), max_leaf_size);
+            if highest_correct_cost(&question) > MAX_CORRECT_COST
+                || lowest_adjacent_cost(&question) < MIN_ADJACENT_COST
+            {
+                return None;
+            }
+            let size = rng.index(fields::SIZES.len());
+            let shapes = place_of_size(rng, &shapes, size).shapes(&shapes);
+            let question = cost_question(shapes, max_leaf_size);
+            (highest_correct_cost(&question) <= MAX_CORRECT_COST).then_some(question)
+        })
+    };
+    sizes.iter().map(question).collect()
 }
 
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
@@ -109,7 +115,7 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
            depends on the areas of boxes around whole primitives and on their numbers. The \
            cheapest need not be along the longest axis.",
     section: "building.md#try-all-three-axes-at-every-node",
-    questions: |rng| cost_questions(rng, |rng| meshes::strands(rng, 750)),
+    questions: |rng| cost_questions(rng, meshes::strands, &[(128, 1), (256, 2), (1023, 4)]),
     ..Declaration::ALONE
 };
 
@@ -119,7 +125,7 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
     look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
            buckets from the left and from the right.",
     section: "building.md#areas-and-counts-in-the-cost-formula",
-    questions: |rng| cost_questions(rng, |rng| meshes::sheets(rng, 900)),
+    questions: |rng| cost_questions(rng, meshes::sheets, &[(255, 2), (512, 1), (1024, 8)]),
     ..Declaration::ALONE
 };
 
@@ -130,6 +136,6 @@ pub(super) const COST_TOWN: Declaration = Declaration {
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",
     section: "building.md#keep-track-of-the-best-cost",
-    questions: |rng| cost_questions(rng, |rng| meshes::town(rng, 1200)),
+    questions: |rng| cost_questions(rng, meshes::town, &[(512, 1), (2048, 4), (4500, 8)]),
     ..Declaration::ALONE
 };

@@ -2,6 +2,7 @@
 //! judged separately.
 
 mod cost;
+mod draw;
 mod split;
 mod structure;
 mod unusual_inputs;

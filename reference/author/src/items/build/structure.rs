@@ -4,9 +4,28 @@ use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 
 use super::build_question;
-use crate::items::place::{Place, dust};
+use super::draw::Arrangement::{DifferentSizes, FlatBoxes, Scattered, WithoutArea};
+use super::draw::{self, Arrangement};
+use crate::items::place::Place;
 use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
+
+/// The largest number of primitives of which there are many questions.
+const MOST: usize = 130;
+
+/// Draws questions from the domain about scattered primitives, and others in these arrangements, in
+/// addition to those that are given.
+fn with_domain(
+    mut questions: Vec<ExamQuestion>,
+    rng: &mut Rng,
+    checks: &[TreeCheck],
+    count: usize,
+    arrangements: &[Arrangement],
+) -> Vec<ExamQuestion> {
+    let drawn = draw::questions(rng, checks, count, (arrangements, MOST), |_| true);
+    questions.extend(drawn);
+    questions
+}
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
 /// maximum leaf size. There are up to seven triangles more. Every other question is far from the
@@ -48,7 +67,16 @@ pub(super) const PARTITION: Declaration = Declaration {
            nodes, lead to the leaves. A leaf holds start..start + size of the list that you \
            return, and together the leaves hold each primitive once.",
     section: "building.md#a-leaf-is-a-slice-of-the-list",
-    questions: |rng| soup_questions(rng, &[Partition], &[(37, 1), (90, 2), (200, 4), (120, 8)]),
+    questions: |rng| {
+        let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
+        with_domain(
+            many,
+            rng,
+            &[Partition],
+            8,
+            &[Scattered, WithoutArea, Scattered],
+        )
+    },
     ..Declaration::in_group(groups::TREES)
 };
 
@@ -60,7 +88,10 @@ pub(super) const CONTAINS: Declaration = Declaration {
            start..start + size in the list that you return: compare a leaf's box with them, and \
            the boxes of the nodes above with those of their children.",
     section: "building.md#the-contract",
-    questions: |rng| soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]),
+    questions: |rng| {
+        let many = soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]);
+        with_domain(many, rng, &[Contains], 7, &[Scattered, DifferentSizes])
+    },
     ..Declaration::in_group(groups::TREES)
 };
 
@@ -71,10 +102,8 @@ pub(super) const TIGHT: Declaration = Declaration {
            instead of BBox::EMPTY, or is the parent's box, is too large.",
     section: "building.md#start-each-box-empty",
     questions: |rng| {
-        let tiny = soup_questions(&mut rng.sequence("build.tight.tiny"), &[Tight], &[(24, 1)]);
-        let mut questions = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
-        questions.extend(tiny.into_iter().map(dust));
-        questions
+        let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
+        with_domain(many, rng, &[Tight], 10, &[Scattered, FlatBoxes])
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -96,7 +125,7 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
         let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
         questions.push(crowd);
-        questions
+        with_domain(questions, rng, &[LeafSize], 7, &[Scattered, DifferentSizes])
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -108,15 +137,20 @@ pub(super) const STOPS: Declaration = Declaration {
            every node, the root included, and for every max_leaf_size.",
     section: "building.md#when-a-node-becomes-a-leaf",
     questions: |rng| {
-        let mut small = rng.sequence("build.stops.roots");
-        // The root is a node like any other: as many primitives as fit into a leaf, and one more.
-        let roots = [(1, 1), (2, 2), (3, 4), (2, 1), (5, 4)].map(|(count, max_leaf_size)| {
-            let shapes = meshes::soup(&mut small, count, 3.0, 0.2);
-            build_question(&[Stops, LeafSize], shapes, max_leaf_size)
-        });
-        let mut questions = soup_questions(rng, &[Stops], &[(64, 2), (150, 4), (160, 8)]);
-        questions.extend(roots);
-        questions
+        let checks = [Stops, LeafSize];
+        let mut questions = soup_questions(rng, &[Stops], &[(64, 2), (160, 8)]);
+        // The same primitives are asked again with another maximum leaf size. The root is a node like
+        // any other: as many primitives as fit into a leaf, and one more.
+        let small = rng.integer(5, 10) as usize;
+        for (count, most) in [(small, 130), (rng.integer(300, 999) as usize, 2)] {
+            let balls = (0..count).map(|_| meshes::sphere(rng.point(3.0), 0.1));
+            let balls: Vec<_> = balls.collect();
+            let fits = count as u32;
+            for max_leaf_size in [fits, fits - 1, fits + 1].into_iter().take(most) {
+                questions.push(build_question(&checks, balls.clone(), max_leaf_size));
+            }
+        }
+        with_domain(questions, rng, &checks, 8, &[Scattered, DifferentSizes])
     },
     ..Declaration::in_group(groups::TREES)
 };

@@ -2,11 +2,33 @@
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
-use judging::exam::TreeCheck::{Contains, Partition, Split, Tight};
+use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Split, Tight};
 
 use super::build_question;
+use super::draw::Arrangement::{Concentric, Equal, EqualPair, Outlier, Plane, Row, Scattered};
+use super::draw::{self, Arrangement};
 use crate::items::{Declaration, groups, meshes};
+use crate::oracle::scan;
 use crate::seed::Rng;
+
+/// Draws questions from the domain about primitives in these arrangements, in addition to those that
+/// are given. They are judged by how they are split: by [`Split`], if the exact size of leaves is
+/// another item's idea.
+fn with_domain(
+    mut questions: Vec<ExamQuestion>,
+    rng: &mut Rng,
+    split: TreeCheck,
+    count: usize,
+    arrangements: &[Arrangement],
+) -> Vec<ExamQuestion> {
+    let checks = [Partition, split, Contains];
+    let drawn = draw::questions(rng, &checks, count, (arrangements, 66), |call| {
+        let (all, most) = (call.shapes.len(), call.max_leaf_size as usize);
+        all > 1 && (split != Split || 2 * most < all)
+    });
+    questions.extend(drawn);
+    questions
+}
 
 pub(super) const NEGATIVE: Declaration = Declaration {
     id: "build.negative",
@@ -20,7 +42,19 @@ pub(super) const NEGATIVE: Declaration = Declaration {
             let center = far + rng.point(4.0);
             meshes::random_flat_triangle(rng, center, 0.5)
         });
-        vec![build_question(&[Partition, Contains, Tight], triangles, 2)]
+        let checks = [Partition, Contains, Tight];
+        let mut questions = vec![build_question(&checks, triangles, 2)];
+        questions.extend(draw::questions(
+            rng,
+            &checks,
+            5,
+            (&[Scattered], 40),
+            |call| {
+                let mut shapes = call.shapes.iter().map(scan::bounds);
+                shapes.len() > 1 && shapes.any(|bounds| bounds.min.min_element() < 0.0)
+            },
+        ));
+        questions
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -39,11 +73,12 @@ pub(super) const COINCIDENT: Declaration = Declaration {
         // split.
         let mut some = meshes::soup(rng, 17, 3.0, 0.4);
         some.extend(vec![same; 30]);
-        vec![
+        let questions = vec![
             build_question(&[Partition, Split], all.clone(), 1),
             build_question(&[Partition, Split], all, 4),
             build_question(&[Partition, Split], rng.shuffled(some), 2),
-        ]
+        ];
+        with_domain(questions, rng, LeafSize, 6, &[Equal, EqualPair])
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -58,7 +93,8 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
         let center = rng.point(2.0);
         let step = rng.uniform(0.2, 0.3) as f32;
         let shells = (1..=13).map(|i| meshes::sphere(center, (step * i as f32).into()));
-        vec![build_question(&[Partition, Split, Contains], shells, 2)]
+        let questions = vec![build_question(&[Partition, Split, Contains], shells, 2)];
+        with_domain(questions, rng, LeafSize, 5, &[Concentric])
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -81,7 +117,8 @@ pub(super) const COPLANAR: Declaration = Declaration {
             });
             build_question(&[Partition, Split, Contains], cells, 2)
         };
-        [0, 1, 2].map(question).to_vec()
+        let questions = [0, 1, 2].map(question).to_vec();
+        with_domain(questions, rng, Split, 4, &[Plane])
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -100,7 +137,8 @@ pub(super) const COLLINEAR: Declaration = Declaration {
             let row = (0..40).map(|i| meshes::sphere(center(i), radius));
             build_question(&[Partition, Split, Contains], row, 3)
         };
-        [0, 1, 2].map(question).to_vec()
+        let questions = [0, 1, 2].map(question).to_vec();
+        with_domain(questions, rng, Split, 4, &[Row])
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -132,7 +170,7 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
         meshes::random_flat_triangle(rng, 4.0 * size * DVec3::ONE, size)
     });
     questions.push(build_question(&checks, growing, 1));
-    questions
+    with_domain(questions, rng, Split, 5, &[Outlier])
 }
 
 pub(super) const ONE_OR_NONE: Declaration = Declaration {
@@ -145,13 +183,19 @@ pub(super) const ONE_OR_NONE: Declaration = Declaration {
         let checks = [Partition, Contains];
         let one = meshes::soup(rng, 1, 2.0, 0.5);
         let two = meshes::soup(rng, 2, 2.0, 0.5);
-        vec![
+        let mut questions = vec![
             build_question(&checks, Vec::new(), 4),
             build_question(&checks, Vec::new(), 1),
+            build_question(&checks, Vec::new(), 1000),
             build_question(&checks, one, 1),
             build_question(&checks, two.clone(), 1),
             build_question(&checks, two, 4),
-        ]
+        ];
+        let drawn = draw::questions(rng, &checks, 4, (&[Scattered], 2), |call| {
+            !call.shapes.is_empty()
+        });
+        questions.extend(drawn);
+        questions
     },
     ..Declaration::in_group(groups::TREES)
 };

@@ -5,7 +5,7 @@ use judging::exam::ExamQuestion;
 
 use super::{USUAL, questions};
 use crate::domains::fields::EVERY_SIZE;
-use crate::items::{Declaration, meshes, picture};
+use crate::items::{Declaration, groups, meshes, picture};
 use crate::seed::Rng;
 
 pub(super) const POSITION: Declaration = Declaration {
@@ -15,7 +15,7 @@ pub(super) const POSITION: Declaration = Declaration {
            is in world space, and as far from the centre as the radius.",
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
     questions: |rng| questions(rng, &["position"], USUAL, |_| true),
-    ..Declaration::ALONE
+    ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
 pub(super) const NORMAL: Declaration = Declaration {
@@ -25,7 +25,7 @@ pub(super) const NORMAL: Declaration = Declaration {
            surface, so it is never flipped toward the ray.",
     section: "sphere.md#the-normal-points-away-from-the-centre",
     questions: |rng| questions(rng, &["normal", "unit_normal"], USUAL, |_| true),
-    ..Declaration::ALONE
+    ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
 pub(super) const UV: Declaration = Declaration {
@@ -40,7 +40,7 @@ pub(super) const UV: Declaration = Declaration {
             line.misses() || line.roots[0] > 0.0
         })
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
 pub(super) const UV_RADIUS: Declaration = Declaration {
@@ -50,7 +50,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     questions: |rng| questions(rng, &["uv"], USUAL, |_| true),
-    ..Declaration::ALONE
+    ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
@@ -60,7 +60,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
            shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
     questions: |rng| questions(rng, &["origin", "shape"], EVERY_SIZE, |_| true),
-    ..Declaration::ALONE
+    ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
 pub(super) const PICTURE: Declaration = Declaration {

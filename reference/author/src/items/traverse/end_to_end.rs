@@ -2,15 +2,16 @@
 
 use glam::{DVec3, UVec2};
 use judging::exam::{ExamQuestion, Key};
-use protocol::{Geometry, Question, Rows, Table};
+use protocol::{Geometry, Question, Ray, Rows, Shape, Table};
 
 use super::{
-    FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, ray_from_around, soup_tree,
+    FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, ray_from_around, soup_tree, trace,
     unambiguous_rays,
 };
-use crate::items::{Declaration, groups, hits_key, meshes, picture};
+use crate::items::{Declaration, groups, hits_key, meshes, picture, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
+use crate::tree::{Tree, construction};
 
 pub(super) const OWN_TREE: Declaration = Declaration {
     id: "traverse.own_tree",
@@ -19,26 +20,106 @@ pub(super) const OWN_TREE: Declaration = Declaration {
            closest one or loses its hit. If all other items of both tasks pass, look for something \
            that your tree has and the exam's trees do not.",
     section: "traversal.md#your-own-builder-and-your-own-traversal",
-    questions: |rng| {
-        let tree = soup_tree(rng, 400, 0.5, 4);
-        let rays = unambiguous_rays(rng, &tree, [40, 16], ray_from_around);
-        let key = hits_key(&["distance"], &rays, |ray64| {
-            scan::closest_hit(ray64, &tree.shapes)
-        });
-        let built = Geometry::BuiltTree {
-            shapes: tree.shapes,
-            max_leaf_size: 4,
-        };
-        let question = Question::hits(built, rays);
-        vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
-    },
-    needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::TREES],
+    questions: own_tree,
+    needs: &[
+        groups::TRIANGLE_HITS,
+        groups::BOXES,
+        groups::TREES,
+        groups::TRIANGLE_SURFACE,
+        groups::SPHERE_HITS,
+        groups::SPHERE_SURFACE,
+    ],
     ..TRAVERSAL
 };
 
+fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let mut questions = Vec::new();
+    for (count, max_leaf_size) in [(400, 4), (260, 257)] {
+        let shapes = meshes::soup(rng, count, 2.0, 0.5);
+        let judged = &["distance"];
+        questions.push(own_tree_question(
+            rng,
+            shapes,
+            max_leaf_size,
+            judged,
+            ray_from_around,
+        ));
+    }
+    for (kind, count, max_leaf_size) in [(2, 1, 1), (3, 4, 2), (3, 40, 1), (0, 20, 20)] {
+        let shapes = trace::shapes(rng, kind, count);
+        let judged = &trace::QUANTITIES;
+        let kind = trace::ray_with_range;
+        questions.push(own_tree_question(rng, shapes, max_leaf_size, judged, kind));
+    }
+    questions.push(long_row(rng));
+    let past_nothing = (0..8).map(|_| ray(4.0 * rng.direction(), rng.point(1.0)));
+    let past_nothing = past_nothing.collect();
+    questions.push(built_tree_question(
+        Vec::new(),
+        4,
+        &["distance"],
+        past_nothing,
+    ));
+    questions.push(linear_scan_control(rng));
+    questions
+}
+
+/// Creates a question about the tree that a submission builds.
+fn own_tree_question(
+    rng: &mut Rng,
+    shapes: Vec<Shape>,
+    max_leaf_size: u32,
+    judged: &[&str],
+    kind: impl FnMut(&mut Rng, &Tree) -> Ray,
+) -> ExamQuestion {
+    let tree = construction::median_split(shapes, 4);
+    let rays = unambiguous_rays(rng, &tree, [26, 10], kind);
+    built_tree_question(tree.shapes, max_leaf_size, judged, rays)
+}
+
+fn built_tree_question(
+    shapes: Vec<Shape>,
+    max_leaf_size: u32,
+    judged: &[&str],
+    rays: Vec<Ray>,
+) -> ExamQuestion {
+    let key = hits_key(judged, &rays, |ray64| scan::closest_hit(ray64, &shapes));
+    let built = Geometry::BuiltTree {
+        shapes,
+        max_leaf_size,
+    };
+    ExamQuestion::new(Question::hits(built, rays), key)
+}
+
+/// Creates a question about a row of many spheres. Its rays enter every node, since they meet a corner
+/// of every box, and hit nothing but the larger sphere at the end.
+fn long_row(rng: &mut Rng) -> ExamQuestion {
+    const COUNT: usize = 1200;
+    const STEP: f64 = 0.02;
+    let axis = rng.index(3);
+    let [along, y, z] = [0, 1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
+    let along = rng.sign() * along;
+    let spheres = (0..COUNT).map(|index| {
+        let is_last = index + 1 == COUNT;
+        let center = STEP * index as f64 * along;
+        meshes::sphere(center, if is_last { 1.6 } else { 1.0 })
+    });
+    let rays = (0..34).map(|index| {
+        let mut across = |axis: DVec3| rng.sign() * rng.uniform(0.8, 0.9) * axis;
+        let start = across(y) + across(z) - 2.0 * along;
+        let ray = Ray::new(start.as_vec3(), along.as_vec3());
+        if index % 3 == 0 {
+            ray.within(0.0, 20.0)
+        } else {
+            ray
+        }
+    });
+    let rays = rays.collect();
+    built_tree_question(meshes::number_shapes(spheres), 1, &["distance"], rays)
+}
+
 pub(super) const PICTURE: Declaration = Declaration {
     id: "traverse.picture",
-    points: 2,
     title: "a picture through a tree is correct in hits, depth, normals and uv",
     look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, and which \
            primitives should it test? If a piece is missing there, see whether your code skips it \

@@ -8,6 +8,8 @@
 //! starting at the first or the last node also gives correct answers.
 
 mod end_to_end;
+mod placed;
+mod trace;
 mod unusual_trees;
 mod with_decoys;
 mod without_decoys;
@@ -15,7 +17,9 @@ mod without_decoys;
 use judging::exam::ExamQuestion;
 use protocol::{Question, Ray};
 
+use self::placed::{Mover, is_clear_of_faces};
 use super::meshes;
+use crate::domains::traverse;
 use crate::items::{Declaration, DeclaredItem, draw_items, groups};
 use crate::oracle::Ray64;
 use crate::seed::{Rng, Seed};
@@ -32,6 +36,7 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         without_decoys::DEEP,
         without_decoys::FLAT,
         without_decoys::MIXED,
+        trace::TRACE,
         unusual_trees::NO_NODES,
         with_decoys::SKIPS_MISSED,
         with_decoys::PRUNES,
@@ -41,8 +46,12 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         end_to_end::PICTURE,
         end_to_end::RADIANCE,
     ];
-    let items = draw_items(seed, &all).into_iter();
-    items.map(|item| item.with_a_room(seed)).collect()
+    let mut items = draw_items(seed, &all);
+    let mut mover = Mover::new(seed);
+    for item in &mut items {
+        mover.move_all(item.questions());
+    }
+    items
 }
 
 /// The fields of an item about traversal that is wrong if triangles or boxes are. The others are empty.
@@ -61,12 +70,15 @@ fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
     ExamQuestion::new(Question::hits(tree.geometry(), rays), key)
 }
 
-/// Returns a ray from a point around the tree toward a point in it.
+/// Returns a ray from a point around the tree, or in it, toward a point in it.
 fn ray_from_around(rng: &mut Rng, tree: &Tree) -> Ray {
-    let bounds = tree.bounds(tree.root);
-    let target = bounds.center() + rng.point(0.45) * (bounds.max - bounds.min);
-    let away = rng.direction() * rng.uniform(0.6, 1.0) * bounds.diagonal();
-    super::ray(target + away, target)
+    rng.retry(|rng| {
+        let ray = match rng.index(8) {
+            0 => traverse::ray_from_a_surface(rng, tree),
+            _ => Some(traverse::ray(rng, tree)),
+        };
+        ray.filter(|ray| is_clear_of_faces(tree, ray))
+    })
 }
 
 /// Returns rays of one kind whose answers are unambiguous, in random order: `hits` rays that hit
@@ -110,8 +122,17 @@ fn question_without_decoys(
     kind: impl FnMut(&mut Rng, &Tree) -> Ray,
 ) -> ExamQuestion {
     let rays = unambiguous_rays(rng, &tree, counts, kind);
-    add_unreferenced(rng, &mut tree, &rays);
-    traversal_question(&tree.with_roots_at_both_ends(rng), rays)
+    with_unreferenced(rng, &mut tree, rays)
+}
+
+/// Creates a question about a tree to which unreferenced primitives are added.
+fn with_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: Vec<Ray>) -> ExamQuestion {
+    add_unreferenced(rng, tree, &rays);
+    // A tree of one node stays one.
+    if tree.nodes.len() > 1 {
+        *tree = tree.with_roots_at_both_ends(rng);
+    }
+    traversal_question(tree, rays)
 }
 
 /// Creates a small question that a linear scan gets wrong and every correct traversal gets right.

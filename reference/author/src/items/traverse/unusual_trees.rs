@@ -5,8 +5,8 @@ use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{
-    FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, ray_from_around, soup_tree,
-    traversal_question, unambiguous_rays,
+    FIRST_UNREFERENCED, TRAVERSAL, linear_scan_control, question_without_decoys, ray_from_around,
+    soup_tree, traversal_question, unambiguous_rays,
 };
 use crate::items::{Declaration, ray};
 use crate::seed::Rng;
@@ -102,6 +102,11 @@ fn no_nodes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut empty_question =
         |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(rng)).collect());
     let mut questions = vec![empty_question(&nothing), empty_question(&empty_leaf)];
+    // The smallest trees that are not empty are one leaf.
+    for count in [1, 5] {
+        let tree = soup_tree(rng, count, 1.5, count);
+        questions.push(question_without_decoys(rng, tree, [12, 6], ray_from_around));
+    }
     questions.push(linear_scan_control(rng));
     questions
 }

@@ -7,7 +7,6 @@ use super::{
     TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
 };
 use crate::items::Declaration;
-use crate::items::place::dust;
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 use crate::tree::Tree;
@@ -167,7 +166,7 @@ pub(super) const PRUNES: Declaration = Declaration {
         vec![
             question_with_decoys(rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(rng, &second, SlidesAnswer::Correct),
-            dust(question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
+            question_with_decoys(rng, &fits, SlidesAnswer::Correct),
         ]
     },
     ..TRAVERSAL
@@ -191,10 +190,17 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
             && fits(tree, leaf, ray64)
     };
+    // The middle of the box that the ray enters last is nearer than that of the other.
+    let nearer_center = |tree: &Tree, leaf: usize, ray64: &Ray64| {
+        let fork = decoy::find_fork(tree, leaf, ray64);
+        let distance = |index: usize| tree.bounds(index).center().distance(ray64.origin);
+        fork.is_some_and(|fork| distance(fork.toward_leaf) < distance(fork.toward_hit))
+            && fits(tree, leaf, ray64)
+    };
     vec![
         question_with_decoys(rng, &fits, SlidesAnswer::Wrong),
         question_with_decoys(rng, &left_last, SlidesAnswer::Wrong),
-        dust(question_with_decoys(rng, &fits, SlidesAnswer::Wrong)),
+        question_with_decoys(rng, &nearer_center, SlidesAnswer::Wrong),
     ]
 }
 

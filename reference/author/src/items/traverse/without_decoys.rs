@@ -2,14 +2,19 @@
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
+use protocol::Ray;
 
-use super::{TRAVERSAL, question_without_decoys, ray_from_around, soup_tree};
-use crate::items::place::dust;
+use super::placed::is_clear_of_faces;
+use super::{
+    TRAVERSAL, placed, question_without_decoys, ray_from_around, soup_tree, traversal_question,
+    unambiguous_rays, with_unreferenced,
+};
+use crate::domains::traverse;
 use crate::items::{Declaration, groups, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
-use crate::tree::{Tree, construction};
+use crate::tree::{Tree, construction, decoy};
 
 pub(super) const CLOSEST_HIT: Declaration = Declaration {
     id: "traverse.closest_hit",
@@ -28,14 +33,61 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
             })
         };
         // With large triangles, the boxes of siblings overlap considerably.
-        let mut question = || {
-            let tree = soup_tree(rng, 40, 1.6, 1);
-            question_without_decoys(rng, tree, [24, 8], kind)
-        };
-        vec![question(), dust(question())]
+        let tree = soup_tree(rng, 40, 1.6, 1);
+        let mut questions = vec![question_without_decoys(rng, tree, [24, 10], kind)];
+        for count in [2, 5, 100] {
+            let tree = soup_tree(rng, count, 1.6, 1);
+            questions.push(question_without_decoys(
+                rng,
+                tree,
+                [22, 12],
+                ray_from_around,
+            ));
+        }
+        questions.extend(same_rays_in_two_trees(rng));
+        questions.push(across_the_scene(rng));
+        questions
     },
     ..TRAVERSAL
 };
+
+/// Creates questions about two trees that the same rays are asked of. The last ray of the one is the
+/// first of the other, which answers it differently.
+fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
+    let mut trees = [soup_tree(rng, 24, 1.2, 1), soup_tree(rng, 24, 1.2, 1)];
+    let other = trees[1].clone();
+    let kind = |rng: &mut Rng, tree: &Tree| {
+        rng.retry(|rng| {
+            let ray = ray_from_around(rng, tree);
+            let ray64 = Ray64::from(&ray);
+            let distance = |tree: &Tree| tree.expected_hit(&ray64).map(|hit| hit.distance);
+            (distance(tree) != distance(&other)
+                && decoy::is_fair(&other, &[ray])
+                && is_clear_of_faces(&other, &ray))
+            .then_some(ray)
+        })
+    };
+    let mut rays = unambiguous_rays(rng, &trees[0], [24, 10], kind);
+    let [first, second] = &mut trees;
+    let first = with_unreferenced(rng, first, rays.clone());
+    rays.reverse();
+    [first, with_unreferenced(rng, second, rays)]
+}
+
+/// Creates a question about a few large triangles in one corner of the scene. The rays start in the
+/// opposite corner.
+fn across_the_scene(rng: &mut Rng) -> ExamQuestion {
+    let corner = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
+    let kind = |rng: &mut Rng, tree: &Tree| {
+        let target = tree.bounds(tree.root).center() + rng.point(1.5);
+        ray(-10.0 * corner + rng.point(1.0), target)
+    };
+    rng.retry(|rng| {
+        let tree = soup_tree(rng, 6, 1.8, 1);
+        let rays = unambiguous_rays(rng, &tree, [24, 10], kind);
+        placed::across_the_scene(&traversal_question(&tree, rays))
+    })
+}
 
 /// Returns whether every correct traversal finds a farther hit before the closest one.
 fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
@@ -59,7 +111,7 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     questions: |rng| {
         // Small triangles leave most of a node's box empty.
         let tree = soup_tree(rng, 40, 0.5, 1);
-        let counts = [16, 16];
+        let counts = [17, 17];
         vec![question_without_decoys(rng, tree, counts, ray_from_around)]
     },
     ..TRAVERSAL
@@ -77,11 +129,12 @@ pub(super) const RANGE: Declaration = Declaration {
 };
 
 fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let tree = soup_tree(rng, 40, 1.4, 1);
-    // The range starts between the first two hits, or ends before the first or the second.
+    let mut tree = soup_tree(rng, 40, 1.4, 1);
+    // The range starts before the first hit or between the first two, and ends before, between or
+    // after them, or not at all.
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
-            let ray = ray_from_around(rng, tree);
+            let ray = ray_from_around(rng, tree).within(0.0, f32::INFINITY);
             let ray64 = Ray64::from(&ray);
             let first = tree.expected_hit(&ray64)?.distance;
             let rest = Ray64 {
@@ -89,15 +142,31 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
                 ..ray64
             };
             let second = tree.expected_hit(&rest)?.distance;
-            let (min, max) = match rng.index(3) {
-                0 => (rng.uniform(first, second), second + 9.0),
-                1 => (0.0, rng.uniform(first * 0.5, first)),
-                _ => (0.0, rng.uniform(first, second)),
+            let (before, between) = (rng.uniform(0.5, 1.0) * first, rng.uniform(first, second));
+            let (min, max) = match rng.index(6) {
+                0 => (between, second + 9.0),
+                1 => (between, f64::INFINITY),
+                2 => (0.0, before),
+                3 => (0.0, between),
+                4 => (before, between),
+                _ => (before, f64::INFINITY),
             };
             Some(ray.within(min as f32, max as f32))
         })
     };
-    vec![question_without_decoys(rng, tree, [20, 8], kind)]
+    let rays = unambiguous_rays(rng, &tree, [18, 8], kind);
+    // Every other ray is asked again without an end, before or after.
+    let again = |(index, ray): (usize, &Ray)| {
+        let whole = ray.within(0.0, f32::INFINITY);
+        let is_clear = is_clear_of_faces(&tree, &whole) && decoy::is_fair(&tree, &[whole]);
+        match index % 4 {
+            1 if is_clear => vec![*ray, whole],
+            3 if is_clear => vec![whole, *ray],
+            _ => vec![*ray],
+        }
+    };
+    let rays: Vec<Ray> = rays.iter().enumerate().flat_map(again).collect();
+    vec![with_unreferenced(rng, &mut tree, rays)]
 }
 
 pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
@@ -111,37 +180,57 @@ pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
 };
 
 fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let tree = soup_tree(rng, 48, 1.0, 8);
-    // The closest of several hits in a leaf belongs in turn to the first primitive, to the last
-    // one, and to one in between.
+    let balls = |rng: &mut Rng, count: usize| {
+        let balls = (0..count).map(|_| meshes::sphere(rng.point(2.0), 0.13));
+        meshes::number_shapes(balls)
+    };
+    let trees = [
+        soup_tree(rng, 48, 1.0, 8),
+        soup_tree(rng, 6, 1.0, 6),
+        construction::median_split(balls(rng, 100), 50),
+        construction::median_split(balls(rng, 620), 310),
+    ];
+    let question = |tree| question_without_decoys(rng, tree, [24, 10], ray_to_a_place_in_a_leaf());
+    trees.map(question).to_vec()
+}
+
+/// Returns what draws rays whose hit is, in turn, the closest of several in a leaf that belongs to the
+/// first primitive, to the last one, and to one in between, or none.
+fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
-    let kind = |rng: &mut Rng, tree: &Tree| {
+    move |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
-            let ray = ray_from_around(rng, tree);
-            let ray64 = Ray64::from(&ray);
-            let Some(leaf) = tree.leaf_of_hit(&ray64) else {
-                return Some(ray);
+            let any = traverse::ray(rng, tree);
+            let leaves = tree.leaves();
+            let indices = tree.primitives(leaves[rng.index(leaves.len())]);
+            let index = match count % 3 {
+                0 => indices.start,
+                1 => indices.end - 1,
+                _ => indices.start + rng.index(indices.len()),
             };
-            let indices = tree.primitives(leaf);
-            let hits = indices.clone().filter_map(|index| {
+            let middle = scan::bounds(&tree.shapes[index]).center();
+            let target = middle + rng.point(0.1);
+            let distance = target.distance(any.origin.as_dvec3());
+            let start = target - distance * any.dir.as_dvec3();
+            let aimed = Ray::new(start.as_vec3(), any.dir);
+            let ray = if rng.index(3) > 0 { aimed } else { any };
+            let ray64 = Ray64::from(&ray);
+            if tree.expected_hit(&ray64).is_none() {
+                return is_clear_of_faces(tree, &ray).then_some(ray);
+            }
+            let indices = indices.filter_map(|index| {
                 let hit = scan::intersect(&ray64, &tree.shapes[index])?;
                 Some((hit.distance, index))
             });
-            let hits: Vec<(f64, usize)> = hits.collect();
+            let hits: Vec<(f64, usize)> = indices.collect();
             let &(_, closest) = hits.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let is_in_turn = match count % 3 {
-                0 => closest == indices.start,
-                1 => closest + 1 == indices.end,
-                _ => closest != indices.start && closest + 1 != indices.end,
-            };
-            if hits.len() < 2 || !is_in_turn {
+            if hits.len() < 2 || closest != index || !is_clear_of_faces(tree, &ray) {
                 return None;
             }
             count += 1;
             Some(ray)
         })
-    };
-    vec![question_without_decoys(rng, tree, [24, 8], kind)]
+    }
 }
 
 pub(super) const DEEP: Declaration = Declaration {
@@ -161,6 +250,10 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
         meshes::random_flat_triangle(rng, center, 0.5)
     });
     let tree = construction::chain(meshes::number_shapes(triangles));
+    let mut mirrored = tree.clone();
+    for node in &mut mirrored.nodes {
+        std::mem::swap(&mut node.l, &mut node.r);
+    }
     // Rays along the chain, from both ends, and across it.
     let kind = |rng: &mut Rng, _: &Tree| {
         let target = DVec3::X * rng.uniform(0.0, 30.0) + rng.point(0.4);
@@ -171,7 +264,8 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
         };
         ray(target + 6.0 * away, target)
     };
-    vec![question_without_decoys(rng, tree, [24, 8], kind)]
+    let mut question = |tree| question_without_decoys(rng, tree, [24, 10], kind);
+    vec![question(tree), question(mirrored)]
 }
 
 pub(super) const FLAT: Declaration = Declaration {
@@ -190,7 +284,12 @@ pub(super) const FLAT: Declaration = Declaration {
             meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
         });
         let tree = construction::median_split(meshes::number_shapes(triangles), 1);
-        vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
+        vec![question_without_decoys(
+            rng,
+            tree,
+            [24, 10],
+            ray_from_around,
+        )]
     },
     ..TRAVERSAL
 };
@@ -203,14 +302,19 @@ pub(super) const MIXED: Declaration = Declaration {
     questions: |rng| {
         let shapes = (0..36).map(|i| {
             let center = rng.point(2.0);
-            if i % 2 == 0 {
-                meshes::random_flat_triangle(rng, center, 0.9)
-            } else {
-                meshes::sphere(center, rng.uniform(0.2, 0.5))
+            match i % 4 {
+                0 => meshes::random_triangle(rng, center, 0.9),
+                2 => meshes::random_flat_triangle(rng, center, 0.9),
+                _ => meshes::sphere(center, rng.uniform(0.2, 0.5)),
             }
         });
         let tree = construction::median_split(meshes::number_shapes(shapes), 1);
-        vec![question_without_decoys(rng, tree, [24, 8], ray_from_around)]
+        vec![question_without_decoys(
+            rng,
+            tree,
+            [24, 10],
+            ray_from_around,
+        )]
     },
     needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::SPHERE_HITS],
     ..TRAVERSAL

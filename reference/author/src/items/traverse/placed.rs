@@ -1,0 +1,206 @@
+//! Questions about trees are drawn with sizes of about one, near the origin. Here they are moved to
+//! sizes and places from the domain.
+
+use glam::{DVec3, Vec3};
+use judging::exam::{ExamQuestion, Key};
+use protocol::{Geometry, Question, Ray, Rows, Shape};
+
+use crate::domains::fields::{self, FURTHEST};
+use crate::domains::shape::ShapeCall;
+use crate::domains::sphere::Line;
+use crate::domains::traverse::is_same_line;
+use crate::items::hits_key;
+use crate::items::place::{Place, moved};
+use crate::oracle::bbox::Bounds;
+use crate::oracle::{Intersection, Ray64, scan};
+use crate::seed::{Rng, Seed};
+use crate::tree::{Tree, construction, decoy};
+
+/// Moves the questions of one item after another, so that each size occurs equally often.
+pub(super) struct Mover {
+    rng: Rng,
+    /// The number of places that have been drawn.
+    count: usize,
+}
+
+impl Mover {
+    pub(super) fn new(seed: Seed) -> Self {
+        let mut rng = seed.rng("traverse.places");
+        let count = rng.index(fields::SIZES.len());
+        Mover { rng, count }
+    }
+
+    /// Moves all questions of an item that are about lists of rays. A question that begins with the last
+    /// ray of the one before stays together with it.
+    pub(super) fn move_all(&mut self, questions: &mut [ExamQuestion]) {
+        let together = |a: &ExamQuestion, b: &ExamQuestion| {
+            let (a, b) = (rays(a), rays(b));
+            let ends = a
+                .as_ref()
+                .and_then(|a| a.last())
+                .zip(b.as_ref().and_then(|b| b.first()));
+            ends.is_some_and(|(a, b)| is_same_line(a, b))
+        };
+        for group in questions.chunk_by_mut(together) {
+            let rays = rays(&group[0]);
+            if rays.is_none_or(|rays| rays.iter().any(is_far_away)) {
+                continue;
+            }
+            /// The number of places that are tried at each size.
+            const ATTEMPTS: usize = 1000;
+            let sizes = fields::SIZES.len();
+            let size = self.count % sizes;
+            self.count += 1;
+            // Where a ray starts so far away that there is no place for it at this size, a smaller
+            // size is taken.
+            let placed = (0..=size).rev().find_map(|size| {
+                self.rng.attempt(ATTEMPTS, |rng| {
+                    let place = place(rng, group, size)?;
+                    let moved = group.iter().map(|asked| in_place(place, asked));
+                    moved.collect::<Option<Vec<ExamQuestion>>>()
+                })
+            });
+            group.clone_from_slice(&placed.expect("there is a place for every question"));
+        }
+    }
+}
+
+/// Returns the rays of a question about a list of them.
+fn rays(asked: &ExamQuestion) -> Option<Vec<Ray>> {
+    let Question::Hit(table) = &asked.question else {
+        return None;
+    };
+    match &table.rows {
+        Rows::List(rays) => Some(rays.clone()),
+        Rows::Picture(_) => None,
+    }
+}
+
+/// Returns whether a ray starts at the edge of the scene, so that there is no other place for it.
+fn is_far_away(ray: &Ray) -> bool {
+    f64::from(ray.origin.abs().max_element()) > 0.5 * FURTHEST
+}
+
+/// Returns a question at the largest size for which all rays and shapes are in the scene, or `None` if it
+/// is not fair there.
+pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
+    let starts = rays(asked)?;
+    let starts = starts.iter().map(|ray| {
+        let start = ray.origin.as_dvec3();
+        Bounds::around([start])
+    });
+    let all = Bounds::enclosing(starts.chain(shapes(asked).iter().map(scan::bounds)));
+    let scale = 1.98 * FURTHEST / (all.max - all.min).max_element();
+    in_place(Place::new(scale, -scale * all.center()), asked)
+}
+
+/// Draws a place where no coordinate is too large.
+fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize) -> Option<Place> {
+    let shapes: Vec<Shape> = group.iter().flat_map(shapes).copied().collect();
+    let size = fields::size(rng, size);
+    let place = Place::around(&shapes, size, fields::place(rng, size));
+    let starts = group
+        .iter()
+        .flat_map(|asked| rays(asked).unwrap_or_default());
+    let points = starts.map(|ray| ray.origin);
+    let corners = shapes.iter().flat_map(|shape| {
+        let Bounds { min, max } = scan::bounds(shape);
+        [min.as_vec3(), max.as_vec3()]
+    });
+    let is_near = |point: Vec3| f64::from(place.point(point).abs().max_element()) <= FURTHEST;
+    (place.keeps_digits(&shapes) && points.chain(corners).all(is_near)).then_some(place)
+}
+
+fn shapes(asked: &ExamQuestion) -> &[Shape] {
+    match &asked.question {
+        Question::Hit(table) => table.subject.shapes(),
+        _ => &[],
+    }
+}
+
+/// Returns a question at a place, with a key for its new numbers. Returns `None` if it is not fair
+/// there.
+fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
+    let asked = moved(place, asked)?;
+    let (Question::Hit(table), Key::Table { judged, .. }) = (&asked.question, &asked.key) else {
+        return None;
+    };
+    let judged: Vec<&str> = judged.iter().map(String::as_str).collect();
+    let rays = table.rows.to_vec();
+    let (tree, is_built) = match &table.subject {
+        Geometry::List { .. } => return None,
+        Geometry::Tree { .. } => (Tree::in_question(&asked.question)?.0, false),
+        Geometry::BuiltTree { shapes, .. } if shapes.is_empty() => (Tree::default(), true),
+        Geometry::BuiltTree { shapes, .. } => (construction::median_split(shapes.clone(), 8), true),
+    };
+    let answer = |ray64: &Ray64| match is_built {
+        true => scan::closest_hit(ray64, &tree.shapes),
+        false => tree.expected_hit(ray64),
+    };
+    let is_exact = |ray: &Ray| {
+        let hit = answer(&Ray64::from(ray));
+        judged == ["distance"] || hit.is_none_or(|hit| is_exact(&tree.shapes, ray, &hit))
+    };
+    let is_fair = decoy::is_fair(&tree, &rays)
+        && are_clear_of_faces(&tree, &rays, FACE_MARGIN)
+        && rays.iter().all(is_exact);
+    is_fair.then(|| {
+        let key = hits_key(&judged, &rays, answer);
+        ExamQuestion::new(asked.question.clone(), key)
+    })
+}
+
+/// Returns whether rays along an axis or in a plane of two are not in the plane of any face of a box:
+/// whether they meet that box is not tested. Boxes of decoys do not matter.
+pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool {
+    let ordinary = tree.ordinary_primitives();
+    let shapes = tree.shapes.iter().zip(&ordinary);
+    let shapes = shapes.filter(|(_, ordinary)| **ordinary || tree.nodes.is_empty());
+    let of_nodes = (0..tree.nodes.len()).map(|index| tree.bounds(index));
+    let boxes: Vec<Bounds> = of_nodes
+        .chain(shapes.map(|(shape, _)| scan::bounds(shape)))
+        .collect();
+    let whole = Bounds::enclosing(boxes.iter().copied());
+    let margin = margin * (whole.max - whole.min).max_element();
+    rays.iter().all(|ray| {
+        let (start, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        let mut parallel = (0..3).filter(|&axis| dir[axis] == 0.0);
+        parallel.all(|axis| {
+            let mut faces = boxes.iter().flat_map(|it| [it.min[axis], it.max[axis]]);
+            faces.all(|face| (start[axis] - face).abs() > margin)
+        })
+    })
+}
+
+/// Returns whether a ray is well clear of all faces, so that it still is where the tree is moved.
+pub(super) fn is_clear_of_faces(tree: &Tree, ray: &Ray) -> bool {
+    are_clear_of_faces(tree, &[*ray], 3.0 * FACE_MARGIN)
+}
+
+/// The least distance between the plane of a face and a ray that is parallel to it, in sides of the whole.
+const FACE_MARGIN: f64 = 1e-4;
+
+/// Returns whether all correct formulas compute every quantity of a hit well within its tolerance, here
+/// and as far away as most trees are moved.
+pub(super) fn is_exact_elsewhere(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
+    let place = Place::around(&[], 1.0, DVec3::splat(50.0));
+    let (shapes, ray) = (place.shapes(shapes), place.ray(ray));
+    is_exact(&shapes, &ray, hit)
+}
+
+/// Returns whether all correct formulas compute every quantity of a hit well within its tolerance.
+fn is_exact(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
+    /// The largest coordinate, in sizes of a triangle.
+    const MOST: f64 = 1000.0;
+    let mut shapes = shapes.iter();
+    let shape = *shapes
+        .find(|shape| shape.number() == hit.shape)
+        .expect("the shape that is hit is one of the tree's");
+    if let Some(line) = Line::of(&ShapeCall { shape, ray: *ray }) {
+        let judged = ["distance", "position", "normal", "uv"];
+        return judged.iter().all(|quantity| line.is_exact(quantity));
+    }
+    let Bounds { min, max } = scan::bounds(&shape);
+    let largest: DVec3 = min.abs().max(max.abs()).max(ray.origin.as_dvec3().abs());
+    largest.max_element() <= MOST * 0.5 * (max - min).max_element()
+}

@@ -1,0 +1,84 @@
+//! The item about everything that a hit consists of.
+
+use judging::exam::ExamQuestion;
+use protocol::{Ray, Shape};
+
+use super::placed::is_exact_elsewhere;
+use super::{TRAVERSAL, question_without_decoys, ray_from_around};
+use crate::domains::fields;
+use crate::items::{Declaration, groups, hits_key, meshes};
+use crate::oracle::Ray64;
+use crate::seed::Rng;
+use crate::tree::{Tree, construction};
+
+/// The quantities of a hit.
+pub(super) const QUANTITIES: [&str; 6] =
+    ["distance", "position", "normal", "uv", "origin", "shape"];
+
+pub(super) const TRACE: Declaration = Declaration {
+    id: "traverse.trace",
+    title: "the trace of a hit is that of the primitive, for the ray that was asked",
+    look: "Primitive::hit returns the trace, and you may return it as it is. Its origin is that of \
+           the ray that you were given, and its normal does not depend on where the ray comes from.",
+    section: "traversal.md#the-algorithm",
+    questions: |rng| {
+        let counts = [(1, 1), (3, 3), (24, 1), (33, 6)];
+        let first = rng.index(4);
+        let question = |(index, (count, max_leaf_size))| {
+            question(rng, (first + index) % 4, count, max_leaf_size)
+        };
+        counts.into_iter().enumerate().map(question).collect()
+    },
+    needs: &[
+        groups::TRIANGLE_HITS,
+        groups::BOXES,
+        groups::TRIANGLE_SURFACE,
+        groups::SPHERE_HITS,
+        groups::SPHERE_SURFACE,
+    ],
+    ..TRAVERSAL
+};
+
+/// Creates a question about a tree of primitives of a kind, whose numbers are drawn.
+fn question(rng: &mut Rng, kind: usize, count: usize, max_leaf_size: usize) -> ExamQuestion {
+    let shapes = shapes(rng, kind, count);
+    let tree = construction::median_split(shapes, max_leaf_size);
+    let mut asked = question_without_decoys(rng, tree, [24, 10], ray_with_range);
+    let (tree, rays) = Tree::in_question(&asked.question).expect("it is about a tree");
+    let rays = rays.to_vec();
+    asked.key = hits_key(&QUANTITIES, &rays, |ray64| tree.expected_hit(ray64));
+    asked
+}
+
+/// Returns primitives of a kind: triangles, flat triangles, spheres, or all of them.
+pub(super) fn shapes(rng: &mut Rng, kind: usize, count: usize) -> Vec<Shape> {
+    let shapes: Vec<Shape> = (0..count)
+        .map(|index| {
+            let center = rng.point(2.0);
+            match if kind < 3 { kind } else { index % 3 } {
+                0 => meshes::random_triangle(rng, center, 1.0),
+                1 => meshes::random_flat_triangle(rng, center, 1.0),
+                _ => meshes::sphere(center, rng.uniform(0.3, 0.7)),
+            }
+        })
+        .collect();
+    let numbers = fields::numbers(rng, count);
+    meshes::with_numbers(shapes, numbers)
+}
+
+/// Draws a ray whose range may end, and may start later. All correct formulas agree on its hit.
+pub(super) fn ray_with_range(rng: &mut Rng, tree: &Tree) -> Ray {
+    rng.retry(|rng| {
+        let ray = ray_from_around(rng, tree);
+        let is_limited = ray.range.min > 0.0 || rng.coin();
+        let range = if is_limited {
+            ray.range
+        } else {
+            fields::range(rng, 2.0 * tree.bounds(tree.root).diagonal())
+        };
+        let ray = Ray { range, ..ray };
+        let hit = tree.expected_hit(&Ray64::from(&ray));
+        let is_exact = hit.is_none_or(|hit| is_exact_elsewhere(&tree.shapes, &ray, &hit));
+        is_exact.then_some(ray)
+    })
+}

@@ -302,3 +302,76 @@ fn extent_without_farthest(points: &[DVec3]) -> f64 {
     sorted.pop();
     half_side(&Bounds::around(sorted))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    fn sphere(center: [f32; 3], radius: f32) -> Shape {
+        Shape::Sphere {
+            center: Vec3::from_array(center),
+            radius,
+            shape: 0,
+        }
+    }
+
+    fn classes(shapes: Vec<Shape>, max_leaf_size: u32) -> Vec<Option<&'static str>> {
+        let question = Question::Build {
+            shapes,
+            max_leaf_size,
+        };
+        let classes = BuildDomain.classes(&question).remove(0);
+        let aspects = BuildDomain.aspects().into_iter().zip(classes);
+        aspects
+            .map(|((_, names), class)| Some(names[class?]))
+            .collect()
+    }
+
+    #[test]
+    fn every_aspect_has_the_class_of_a_call() {
+        let row = (0..17).map(|index| sphere([2.0 * index as f32 + 5.0, 3.0, 4.0], 1.0));
+        let expected = [
+            "about 16",
+            "9 to 32",
+            "one more",
+            "10",
+            "1 size away",
+            "+++",
+            "spheres",
+            "centres in a row along x",
+        ];
+        assert_eq!(classes(row.collect(), 16), expected.map(Some));
+    }
+
+    #[test]
+    fn nothing_has_a_number_and_no_place() {
+        let none = classes(Vec::new(), 1000);
+        assert_eq!(none[0], Some("0"));
+        assert_eq!(none[1], Some("256 to 1,000"));
+        assert_eq!(none[3..], [None; 5]);
+    }
+
+    #[test]
+    fn arrangements_are_told_apart() {
+        let arrangement = |shapes: Vec<Shape>| *classes(shapes, 1).last().unwrap();
+        let [a, b, c] = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 0.0]];
+        let of = |radii: [f32; 3], centers: [[f32; 3]; 3]| {
+            let spheres = centers.into_iter().zip(radii);
+            arrangement(
+                spheres
+                    .map(|(center, radius)| sphere(center, radius))
+                    .collect(),
+            )
+        };
+        assert_eq!(of([1.0, 2.0, 1.0], [a, a, a]), Some("equal primitives"));
+        assert_eq!(of([1.0, 2.0, 3.0], [a, a, a]), Some("all centres coincide"));
+        let plane = of([1.0; 3], [a, b, c]);
+        assert_eq!(plane, Some("centres in a plane across z"));
+        let far = of([1.0; 3], [a, [3.0, 1.0, 2.0], [90.0, 80.0, 70.0]]);
+        assert_eq!(far, Some("one far from the others"));
+        let sizes = of([0.01, 2.0, 1.0], [a, b, [1.0, 2.0, 3.0]]);
+        assert_eq!(sizes, Some("of very different sizes"));
+    }
+}

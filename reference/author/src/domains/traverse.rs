@@ -388,3 +388,77 @@ pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let ray = Ray::new(hit.position.as_vec3(), direction(rng).as_vec3());
     Some(ray.within(later as f32, f32::INFINITY))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec3, vec3};
+
+    use super::*;
+    use crate::items::meshes;
+    use crate::seed::Seed;
+    use crate::tree::construction;
+
+    fn row_of_spheres() -> Tree {
+        let spheres = (0..3).map(|index| meshes::sphere(4.0 * f64::from(index) * DVec3::X, 1.0));
+        construction::median_split(meshes::number_shapes(spheres), 1)
+    }
+
+    #[test]
+    fn every_aspect_has_the_class_of_a_call() {
+        let ray = Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X);
+        let rays = vec![ray, ray.within(1.0, 9.0)];
+        let question = Question::hits(row_of_spheres().geometry(), rays);
+        let calls = TraverseDomain.classes(&question);
+        let names = calls.into_iter().map(|classes| {
+            let aspects = TraverseDomain.aspects().into_iter().zip(classes);
+            let names = aspects.map(|((_, names), class)| Some(names[class?]));
+            names.collect::<Vec<_>>()
+        });
+        let names: Vec<_> = names.collect();
+        let expected = [
+            Some("the exam's"),
+            Some("5 to 19"),
+            Some("2 to 5"),
+            Some("1"),
+            Some("last"),
+            Some("3"),
+            Some("1"),
+            Some("around the origin"),
+            None,
+            Some("spheres"),
+            Some("outside the root's box"),
+            Some("along +x"),
+            Some("from 0 to ∞"),
+            Some("first call of a tree"),
+        ];
+        assert_eq!(names[0], expected);
+        let history = "after the same ray with another range";
+        assert_eq!(
+            names[1][12..],
+            [Some("from later to an end"), Some(history)]
+        );
+    }
+
+    #[test]
+    fn rays_lead_toward_the_tree_from_not_too_far_away() {
+        let tree = row_of_spheres();
+        let mut rng = Seed(1).rng("domains.traverse");
+        for _ in 0..100 {
+            let ray = ray(&mut rng, &tree);
+            let span = tree.bounds(tree.root).span(&Ray64::from(&ray));
+            assert!(span.is_some(), "{ray:?}");
+            assert!(ray.origin.length() < 30.0 + 8.0, "{ray:?}");
+        }
+    }
+
+    #[test]
+    fn a_ray_from_a_surface_starts_where_another_one_hits() {
+        let tree = row_of_spheres();
+        let mut rng = Seed(2).rng("domains.traverse");
+        let ray = rng.retry(|rng| ray_from_a_surface(rng, &tree));
+        let start = ray.origin.as_dvec3();
+        let mut centers = (0..3).map(|index| 4.0 * f64::from(index) * DVec3::X);
+        assert!(centers.any(|center| (start.distance(center) - 1.0).abs() < 1e-5));
+        assert!(ray.range.min > 0.0);
+    }
+}

@@ -15,7 +15,7 @@ impl Bvh {
 }
 
 /// The least number of primitives that is worth a thread.
-const WORTH_A_THREAD: usize = 256;
+const WORTH_A_THREAD: usize = 1024;
 
 /// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
 fn build_subtree(primitives: &mut [Primitive], start: usize, max_leaf_size: usize) -> Vec<Node> {

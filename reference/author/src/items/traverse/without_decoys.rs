@@ -176,6 +176,7 @@ pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
            it that of the first primitive, of the last one or of one in between.",
     section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
     questions: leaf_of_several,
+    needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::SPHERE_HITS],
     ..TRAVERSAL
 };
 

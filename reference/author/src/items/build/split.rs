@@ -200,7 +200,12 @@ fn stack(rng: &mut Rng, axis: usize) -> Vec<Shape> {
         let strips = (0..12).map(|index| {
             let level = if index < 6 { 0.0 } else { 0.08 };
             let height = level + rng.uniform(0.0, 0.01);
-            let center = start + rng.uniform(-1.0, 1.0) * along + height * DVec3::AXES[axis];
+            let at = match index {
+                0 => -1.3,
+                11 => 1.3,
+                _ => rng.uniform(-1.3, 1.3),
+            };
+            let center = start + at * along + height * DVec3::AXES[axis];
             let (half, width) = (rng.uniform(4.5, 5.5) * along, 0.02 * across);
             meshes::flat_triangle([center - half, center + half, center + half + width], 0)
         });

@@ -16,7 +16,8 @@ use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
 
-/// Moves the questions of one item after another, so that each size occurs equally often.
+/// Moves the questions of one item after another, so that each size and each octant occurs equally
+/// often.
 pub(super) struct Mover {
     rng: Rng,
     /// The number of places that have been drawn.
@@ -50,12 +51,13 @@ impl Mover {
             const ATTEMPTS: usize = 1000;
             let sizes = fields::SIZES.len();
             let size = self.count % sizes;
+            let octant = (self.count / sizes + self.count) % fields::OCTANTS.len();
             self.count += 1;
             // Where a ray starts so far away that there is no place for it at this size, a smaller
             // size is taken.
             let placed = (0..=size).rev().find_map(|size| {
                 self.rng.attempt(ATTEMPTS, |rng| {
-                    let place = place(rng, group, size)?;
+                    let place = place(rng, group, size, octant)?;
                     let moved = group.iter().map(|asked| in_place(place, asked));
                     moved.collect::<Option<Vec<ExamQuestion>>>()
                 })
@@ -94,11 +96,13 @@ pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     in_place(Place::new(scale, -scale * all.center()), asked)
 }
 
-/// Draws a place where no coordinate is too large.
-fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize) -> Option<Place> {
+/// Draws a place in an octant, where no coordinate is too large.
+fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize, octant: usize) -> Option<Place> {
     let shapes: Vec<Shape> = group.iter().flat_map(shapes).copied().collect();
     let size = fields::size(rng, size);
-    let place = Place::around(&shapes, size, fields::place(rng, size));
+    let signs = [0, 1, 2].map(|axis| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 });
+    let center = fields::place(rng, size).abs() * DVec3::from_array(signs);
+    let place = Place::around(&shapes, size, center);
     let starts = group
         .iter()
         .flat_map(|asked| rays(asked).unwrap_or_default());

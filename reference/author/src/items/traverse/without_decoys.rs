@@ -186,7 +186,7 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
         meshes::number_shapes(balls)
     };
     let trees = [
-        soup_tree(rng, 48, 1.0, 8),
+        soup_tree(rng, 48, 1.0, 12),
         soup_tree(rng, 6, 1.0, 6),
         construction::median_split(balls(rng, 100), 50),
         construction::median_split(balls(rng, 620), 310),
@@ -250,7 +250,10 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
         let center = DVec3::X * (0.5 * i as f64) + rng.point(0.3);
         meshes::random_flat_triangle(rng, center, 0.5)
     });
-    let tree = construction::chain(meshes::number_shapes(triangles));
+    let triangles = meshes::number_shapes(triangles);
+    let fewer = rng.integer(20, 59) as usize;
+    let less_deep = construction::chain(triangles[LEVELS - fewer..].to_vec());
+    let tree = construction::chain(triangles);
     let mut mirrored = tree.clone();
     for node in &mut mirrored.nodes {
         std::mem::swap(&mut node.l, &mut node.r);
@@ -266,7 +269,7 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
         ray(target + 6.0 * away, target)
     };
     let mut question = |tree| question_without_decoys(rng, tree, [24, 10], kind);
-    vec![question(tree), question(mirrored)]
+    vec![question(tree), question(mirrored), question(less_deep)]
 }
 
 pub(super) const FLAT: Declaration = Declaration {

@@ -8,7 +8,7 @@ use protocol::{Question, Shape};
 use super::fields::{
     OCTANTS, PLACES, SIZES, octant, place_class, powers_of_two, size_class, without_repetition,
 };
-use super::{Aspect, Domain};
+use super::{Aspect, FunctionDomain};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 
@@ -57,42 +57,21 @@ fn half_side(bounds: &Bounds) -> f64 {
 }
 
 /// The domain of `Bvh::build`.
-#[derive(Debug)]
-pub struct BuildDomain;
-
-/// The aspects of calls of `Bvh::build`.
-pub const ASPECTS: &[Aspect<BuildCall>] = &[
-    COUNT,
-    LEAF_SIZE,
-    LEAVES,
-    SIZE,
-    PLACE,
-    OCTANT,
-    KIND,
-    ARRANGEMENT,
-];
-
-impl Domain for BuildDomain {
-    fn function(&self) -> &'static str {
-        "Bvh::build"
-    }
-
-    fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
-        let aspects = ASPECTS.iter();
-        aspects
-            .map(|aspect| (aspect.name, aspect.classes))
-            .collect()
-    }
-
-    fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
-        let calls = BuildCall::of(question).into_iter();
-        let classes = calls.map(|call| {
-            let aspects = ASPECTS.iter();
-            aspects.map(|aspect| (aspect.class)(&call)).collect()
-        });
-        classes.collect()
-    }
-}
+pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
+    function: "Bvh::build",
+    aspects: &[
+        COUNT,
+        LEAF_SIZE,
+        LEAVES,
+        SIZE,
+        PLACE,
+        OCTANT,
+        KIND,
+        ARRANGEMENT,
+    ],
+    pairs: &[],
+    calls: |question| BuildCall::of(question).into_iter().collect(),
+};
 
 /// The number of primitives: each from 0 to 10, and then powers of two and what is near them.
 const COUNT: Aspect<BuildCall> = Aspect {
@@ -308,6 +287,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::domains::Domain;
 
     fn sphere(center: [f32; 3], radius: f32) -> Shape {
         Shape::Sphere {
@@ -322,8 +302,8 @@ mod tests {
             shapes,
             max_leaf_size,
         };
-        let classes = BuildDomain.classes(&question).remove(0);
-        let aspects = BuildDomain.aspects().into_iter().zip(classes);
+        let classes = BUILD.classes(&question).remove(0);
+        let aspects = BUILD.aspects().into_iter().zip(classes);
         aspects
             .map(|((_, names), class)| Some(names[class?]))
             .collect()

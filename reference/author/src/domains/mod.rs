@@ -31,6 +31,8 @@ pub static FUNCTIONS: &[&dyn Domain] = &[
     &triangle::TRIANGLE,
     &sphere::SPHERE,
     &bbox::BOX,
+    &build::BUILD,
+    &traverse::TRAVERSE,
 ];
 
 /// One way in which calls differ, divided into classes.

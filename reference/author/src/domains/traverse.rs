@@ -11,7 +11,7 @@ use super::fields::{
     DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, direction, direction_class, octant, place_class,
     powers_of_two, range_class, size_class,
 };
-use super::{Aspect, Domain};
+use super::{Aspect, FunctionDomain};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -100,46 +100,31 @@ impl Subject {
 }
 
 /// The domain of `Bvh::hit`.
-#[derive(Debug)]
-pub struct TraverseDomain;
+pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
+    function: "Bvh::hit",
+    aspects: &[
+        WAY, NODES, LEVELS, LEAF_SIZE, ROOT, COUNT, SIZE, PLACE, OCTANT, KIND, START, DIRECTION,
+        RANGE, HISTORY,
+    ],
+    pairs: &[],
+    calls,
+};
 
-const ASPECTS: &[Aspect<TraverseCall>] = &[
-    WAY, NODES, LEVELS, LEAF_SIZE, ROOT, COUNT, SIZE, PLACE, OCTANT, KIND, START, DIRECTION, RANGE,
-    HISTORY,
-];
-
-impl Domain for TraverseDomain {
-    fn function(&self) -> &'static str {
-        "Bvh::hit"
-    }
-
-    fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
-        let aspects = ASPECTS.iter();
-        aspects
-            .map(|aspect| (aspect.name, aspect.classes))
-            .collect()
-    }
-
-    fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
-        let Question::Hit(table) = question else {
-            return Vec::new();
-        };
-        let Some(subject) = Subject::of(&table.subject).map(Arc::new) else {
-            return Vec::new();
-        };
-        let mut previous = None;
-        let rays = table.rows.to_vec();
-        let classes = rays.iter().map(|&ray| {
-            let call = TraverseCall {
-                subject: Arc::clone(&subject),
-                previous: previous.replace(ray),
-                ray,
-            };
-            let aspects = ASPECTS.iter();
-            aspects.map(|aspect| (aspect.class)(&call)).collect()
-        });
-        classes.collect()
-    }
+fn calls(question: &Question) -> Vec<TraverseCall> {
+    let Question::Hit(table) = question else {
+        return Vec::new();
+    };
+    let Some(subject) = Subject::of(&table.subject).map(Arc::new) else {
+        return Vec::new();
+    };
+    let mut previous = None;
+    let rays = table.rows.to_vec();
+    let calls = rays.iter().map(|&ray| TraverseCall {
+        subject: Arc::clone(&subject),
+        previous: previous.replace(ray),
+        ray,
+    });
+    calls.collect()
 }
 
 /// Where the tree comes from.
@@ -394,6 +379,7 @@ mod tests {
     use glam::{Vec3, vec3};
 
     use super::*;
+    use crate::domains::Domain;
     use crate::items::meshes;
     use crate::seed::Seed;
     use crate::tree::construction;
@@ -408,9 +394,9 @@ mod tests {
         let ray = Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X);
         let rays = vec![ray, ray.within(1.0, 9.0)];
         let question = Question::hits(row_of_spheres().geometry(), rays);
-        let calls = TraverseDomain.classes(&question);
+        let calls = TRAVERSE.classes(&question);
         let names = calls.into_iter().map(|classes| {
-            let aspects = TraverseDomain.aspects().into_iter().zip(classes);
+            let aspects = TRAVERSE.aspects().into_iter().zip(classes);
             let names = aspects.map(|((_, names), class)| Some(names[class?]));
             names.collect::<Vec<_>>()
         });

@@ -5,7 +5,7 @@ use judging::exam::{ExamQuestion, TreeCheck};
 use protocol::Shape;
 
 use crate::domains::Balance;
-use crate::domains::build::{ASPECTS, BuildCall};
+use crate::domains::build::{BUILD, BuildCall};
 use crate::domains::fields::{self, FURTHEST};
 use crate::items::meshes;
 use crate::items::place::Place;
@@ -45,7 +45,7 @@ pub(super) fn questions(
     (arrangements, most): (&[Arrangement], usize),
     belongs: impl Fn(&BuildCall) -> bool,
 ) -> Vec<ExamQuestion> {
-    let mut balance = Balance::new(ASPECTS);
+    let mut balance = Balance::new(BUILD.aspects);
     let calls = (0..count).map(|index| {
         let arrangement = arrangements[index % arrangements.len()];
         let chosen = balance.choose(rng, |rng| {

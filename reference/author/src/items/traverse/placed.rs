@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Geometry, Question, Ray, Rows, Shape};
 
+use crate::domains::Call;
 use crate::domains::fields::{self, FURTHEST};
 use crate::domains::shape::ShapeCall;
 use crate::domains::sphere::Line;
@@ -200,7 +201,7 @@ fn is_exact(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
     let shape = *shapes
         .find(|shape| shape.number() == hit.shape)
         .expect("the shape that is hit is one of the tree's");
-    if let Some(line) = Line::of(&ShapeCall { shape, ray: *ray }) {
+    if let Some(line) = Line::of(&ShapeCall::new(shape, *ray)) {
         let judged = ["distance", "position", "normal", "uv"];
         return judged.iter().all(|quantity| line.is_exact(quantity));
     }

@@ -18,7 +18,8 @@
 //! | solutions, and how they are built and run | [`solutions`] |
 //! | assignments as data | [`authoring`] |
 //! | an exam's items | [`items`] |
-//! | trees with decoys; what the contract allows; other generated files | [`tree`], [`domains`], [`starter`] |
+//! | what the contract allows | [`domains`] |
+//! | trees with decoys; other generated files | [`tree`], [`starter`] |
 //! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
 pub mod authoring;

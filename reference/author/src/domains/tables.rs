@@ -21,7 +21,7 @@ pub struct Generator<'a, C: Call> {
 }
 
 /// The number of pairs of a hit and a miss in a table.
-const PAIRS: usize = 7;
+const PAIRS: usize = 8;
 
 impl<C: Call> Generator<'_, C> {
     /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class

@@ -385,8 +385,12 @@ mod tests {
     use crate::tree::construction;
 
     fn row_of_spheres() -> Tree {
-        let spheres = (0..3).map(|index| meshes::sphere(4.0 * f64::from(index) * DVec3::X, 1.0));
-        construction::median_split(meshes::number_shapes(spheres), 1)
+        let spheres = (0..3).map(|index| Shape::Sphere {
+            center: 4.0 * index as f32 * Vec3::X,
+            radius: 1.0,
+            shape: index,
+        });
+        construction::median_split(spheres.collect(), 1)
     }
 
     #[test]

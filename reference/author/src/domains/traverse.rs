@@ -380,7 +380,6 @@ mod tests {
 
     use super::*;
     use crate::domains::Domain;
-    use crate::items::meshes;
     use crate::seed::Seed;
     use crate::tree::construction;
 

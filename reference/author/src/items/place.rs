@@ -18,15 +18,6 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Returns a place like that of the Cornell box: coordinates of several hundred, and sizes of
-    /// about a hundred.
-    pub(super) fn room(rng: &mut Rng) -> Self {
-        Place {
-            scale: rng.uniform(60.0, 100.0),
-            offset: rng.point(300.0),
-        }
-    }
-
     /// Returns a place far from the origin for things of the same size, whose coordinates have the
     /// same sign on each axis.
     pub(super) fn elsewhere(rng: &mut Rng) -> Self {
@@ -34,16 +25,6 @@ impl Place {
         Place {
             scale: 1.0,
             offset: DVec3::new(far(), far(), far()),
-        }
-    }
-
-    /// Returns a place at the origin for things that are a quarter of a millionth as large. The
-    /// factor is a power of two, so code without an absolute number computes the same digits, and is
-    /// as far from any decision as before.
-    pub(super) fn dust() -> Self {
-        Place {
-            scale: 1.0 / f64::from(1 << 22),
-            offset: DVec3::ZERO,
         }
     }
 
@@ -131,17 +112,6 @@ impl Place {
         shapes.iter().map(|shape| self.shape(shape)).collect()
     }
 
-    /// Moves a shape and its rays here.
-    pub(super) fn table(self, (shape, rays): &(Shape, Vec<Ray>)) -> (Shape, Vec<Ray>) {
-        let rays = rays.iter().map(|ray| self.ray(ray));
-        (self.shape(shape), rays.collect())
-    }
-
-    /// Moves a query of a box here.
-    pub(super) fn query(self, (ray, times): &(Ray, Interval)) -> (Ray, Interval) {
-        (self.ray(ray), self.interval(*times))
-    }
-
     /// Moves a ray here.
     pub(super) fn ray(self, ray: &Ray) -> Ray {
         Ray {
@@ -154,15 +124,6 @@ impl Place {
     /// Scales times along a ray.
     pub(super) fn interval(self, times: Interval) -> Interval {
         Interval::new(self.length(times.min), self.length(times.max))
-    }
-
-    /// Moves a box here. Its corners stay exact in single precision.
-    pub(super) fn bounds(self, bounds: &Bounds) -> Bounds {
-        let moved = |corner: DVec3| self.point(corner.as_vec3()).as_dvec3();
-        Bounds {
-            min: moved(bounds.min),
-            max: moved(bounds.max),
-        }
     }
 
     /// Moves a node here. A sphere's centre and its box are rounded separately, so the box gets
@@ -201,15 +162,6 @@ impl Place {
             Value::Offset(offset) => Value::Offset(offset),
         }
     }
-}
-
-/// Returns the same question about dust.
-///
-/// # Panics
-///
-/// If the question is about a picture.
-pub(super) fn dust(asked: ExamQuestion) -> ExamQuestion {
-    moved(Place::dust(), &asked).expect("the question has a list of rows")
 }
 
 /// Returns a question at another place, or `None` if it is about a picture.

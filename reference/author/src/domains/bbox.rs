@@ -60,6 +60,7 @@ const OCTANT: Aspect<BoxCall> = Aspect {
 const FORM: Aspect<BoxCall> = Aspect {
     name: "form",
     classes: &[
+        "about a cube",
         "ordinary",
         "thin",
         "flat along x",
@@ -69,8 +70,12 @@ const FORM: Aspect<BoxCall> = Aspect {
     class: |call| {
         let sides = call.bounds.max - call.bounds.min;
         let flat = (0..3).find(|&axis| sides[axis] == 0.0);
-        let is_thin = sides.min_element() < 0.02 * sides.max_element();
-        Some(flat.map_or(usize::from(is_thin), |axis| 2 + axis))
+        let class = match sides.min_element() / sides.max_element() {
+            0.75.. => 0,
+            0.02.. => 1,
+            _ => 2,
+        };
+        Some(flat.map_or(class, |axis| 3 + axis))
     },
 };
 
@@ -310,7 +315,8 @@ const EPSILON: f64 = 6e-8;
 /// Draws a box of this size, which may be thin or flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     let size = fields::size(rng, size);
-    let mut half = size * rng.vector(0.3, 1.0);
+    let least = if rng.coin() { 0.3 } else { 0.8 };
+    let mut half = size * rng.vector(least, 1.0);
     let (axis, other) = (rng.index(3), rng.integer(1, 2) as usize);
     half[(axis + other) % 3] = size;
     match rng.index(4) {

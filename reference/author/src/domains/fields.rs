@@ -79,23 +79,20 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
     }
 }
 
-/// Draws a position for a thing of this size. No coordinate is much larger than a thousand, or than
-/// 5,000 sizes.
+/// Draws a position for a thing of this size, which ends within the largest coordinate of a scene. It is
+/// at most 5,000 sizes away.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
-    let furthest = (FURTHEST / size).min(5000.0);
-    let far = match rng.index(PLACES.len()) {
-        0 => {
-            return if rng.coin() {
-                DVec3::ZERO
-            } else {
-                rng.point(0.9 * size)
-            };
+    let furthest = (FURTHEST - size).min(5000.0 * size);
+    let position = match rng.index(PLACES.len()) {
+        0 if rng.coin() => DVec3::ZERO,
+        0 => rng.point(0.9 * size),
+        class => {
+            let sizes = 10f64.powi(class as i32 - 1) * rng.log_uniform(1.1, 9.0);
+            let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
+            (size * sizes).min(furthest) * rng.vector(0.3, 1.0) * signs
         }
-        class => 10f64.powi(class as i32 - 1),
     };
-    let sizes = far.min(0.5 * furthest) * rng.log_uniform(1.1, 9.0);
-    let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
-    size * sizes.min(furthest) * rng.vector(0.3, 1.0) * signs
+    position.clamp(DVec3::splat(-furthest), DVec3::splat(furthest))
 }
 
 /// The octants, by the signs of x, y and z.

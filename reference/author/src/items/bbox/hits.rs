@@ -58,9 +58,8 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
            is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     questions: |rng| {
-        let parallel = questions(rng, EVERY_SIZE, |call| {
-            !call.is_flat() && call.is_parallel()
-        });
+        let sizes = [EVERY_SIZE, USUAL, USUAL].concat();
+        let parallel = questions(rng, &sizes, |call| !call.is_flat() && call.is_parallel());
         [parallel, vec![almost_parallel::question(rng)]].concat()
     },
     ..Declaration::in_group(groups::BOXES)

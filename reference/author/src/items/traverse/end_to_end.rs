@@ -26,8 +26,6 @@ pub(super) const OWN_TREE: Declaration = Declaration {
         groups::BOXES,
         groups::TREES,
         groups::TRIANGLE_SURFACE,
-        groups::SPHERE_HITS,
-        groups::SPHERE_SURFACE,
     ],
     ..TRAVERSAL
 };
@@ -45,7 +43,7 @@ fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
             ray_from_around,
         ));
     }
-    for (kind, count, max_leaf_size) in [(2, 1, 1), (3, 4, 2), (3, 40, 1), (0, 20, 20)] {
+    for (kind, count, max_leaf_size) in [(0, 1, 1), (1, 4, 2), (1, 40, 1), (0, 20, 20)] {
         let shapes = trace::shapes(rng, kind, count);
         let judged = &trace::QUANTITIES;
         let kind = trace::ray_with_range;
@@ -91,22 +89,29 @@ fn built_tree_question(
     ExamQuestion::new(Question::hits(built, rays), key)
 }
 
-/// Creates a question about a row of many spheres. Its rays enter every node, since they meet a corner
-/// of every box, and hit nothing but the larger sphere at the end.
+/// Creates a question about a row of many triangles. Its rays enter every node, since they meet a corner
+/// of every box, and hit nothing but the larger triangle at the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
     const COUNT: usize = 1200;
     const STEP: f64 = 0.02;
     let axis = rng.index(3);
-    let [along, y, z] = [0, 1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
-    let along = rng.sign() * along;
-    let spheres = (0..COUNT).map(|index| {
-        let is_last = index + 1 == COUNT;
-        let center = STEP * index as f64 * along;
-        meshes::sphere(center, if is_last { 1.6 } else { 1.0 })
+    let axes = [0, 1, 2].map(|next| rng.sign() * DVec3::AXES[(axis + next) % 3]);
+    let [along, y, z] = axes;
+    let triangles = (0..COUNT).map(|index| {
+        let size = if index + 1 == COUNT { 9.0 } else { 1.0 };
+        let corner =
+            |ahead: f64, across: DVec3| STEP * (index as f64 + ahead) * along + across - (y + z);
+        let corners = [
+            corner(0.3, DVec3::ZERO),
+            corner(0.0, 2.0 * size * y),
+            corner(0.0, 2.0 * size * z),
+        ];
+        meshes::flat_triangle(corners, 0)
     });
     let rays = (0..34).map(|index| {
-        let mut across = |axis: DVec3| rng.sign() * rng.uniform(0.8, 0.9) * axis;
-        let start = across(y) + across(z) - 2.0 * along;
+        let ahead = rng.uniform(1.5, 2.5);
+        let mut across = |axis: DVec3| rng.uniform(0.8, 0.9) * axis;
+        let start = across(y) + across(z) - ahead * along;
         let ray = Ray::new(start.as_vec3(), along.as_vec3());
         if index % 3 == 0 {
             ray.within(0.0, 20.0)
@@ -115,7 +120,7 @@ fn long_row(rng: &mut Rng) -> ExamQuestion {
         }
     });
     let rays = rays.collect();
-    built_tree_question(meshes::number_shapes(spheres), 1, &["distance"], rays)
+    built_tree_question(meshes::number_shapes(triangles), 1, &["distance"], rays)
 }
 
 pub(super) const PICTURE: Declaration = Declaration {

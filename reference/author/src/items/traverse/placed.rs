@@ -55,7 +55,7 @@ impl Mover {
             let octant = (self.count / sizes + self.count) % fields::OCTANTS.len();
             self.count += 1;
             // Where a ray starts so far away that there is no place for it at this size, a smaller
-            // size is taken.
+            // size is taken. A question that is fair nowhere else stays.
             let placed = (0..=size).rev().find_map(|size| {
                 self.rng.attempt(ATTEMPTS, |rng| {
                     let place = place(rng, group, size, octant)?;
@@ -63,7 +63,9 @@ impl Mover {
                     moved.collect::<Option<Vec<ExamQuestion>>>()
                 })
             });
-            group.clone_from_slice(&placed.expect("there is a place for every question"));
+            if let Some(placed) = placed {
+                group.clone_from_slice(&placed);
+            }
         }
     }
 }

@@ -5,6 +5,7 @@ use judging::exam::ExamQuestion;
 use protocol::Ray;
 
 use super::placed::is_clear_of_faces;
+use super::trace;
 use super::{
     TRAVERSAL, placed, question_without_decoys, ray_from_around, soup_tree, traversal_question,
     unambiguous_rays, with_unreferenced,
@@ -176,20 +177,15 @@ pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
            it that of the first primitive, of the last one or of one in between.",
     section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
     questions: leaf_of_several,
-    needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::SPHERE_HITS],
     ..TRAVERSAL
 };
 
 fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let balls = |rng: &mut Rng, count: usize| {
-        let balls = (0..count).map(|_| meshes::sphere(rng.point(2.0), 0.13));
-        meshes::number_shapes(balls)
-    };
     let trees = [
         soup_tree(rng, 48, 1.0, 12),
         soup_tree(rng, 6, 1.0, 6),
-        construction::median_split(balls(rng, 100), 50),
-        construction::median_split(balls(rng, 620), 310),
+        soup_tree(rng, 100, 0.4, 50),
+        soup_tree(rng, 620, 0.3, 310),
     ];
     let question = |tree| question_without_decoys(rng, tree, [24, 10], ray_to_a_place_in_a_leaf());
     trees.map(question).to_vec()
@@ -313,13 +309,18 @@ pub(super) const MIXED: Declaration = Declaration {
             }
         });
         let tree = construction::median_split(meshes::number_shapes(shapes), 1);
-        vec![question_without_decoys(
-            rng,
-            tree,
-            [24, 10],
-            ray_from_around,
-        )]
+        let distances = question_without_decoys(rng, tree, [24, 10], ray_from_around);
+        // Spheres, and then all kinds.
+        let traces = [(2, 5, 1), (3, 24, 2)]
+            .map(|(kind, count, max_leaf_size)| trace::question(rng, kind, count, max_leaf_size));
+        [vec![distances], traces.to_vec()].concat()
     },
-    needs: &[groups::TRIANGLE_HITS, groups::BOXES, groups::SPHERE_HITS],
+    needs: &[
+        groups::TRIANGLE_HITS,
+        groups::BOXES,
+        groups::SPHERE_HITS,
+        groups::TRIANGLE_SURFACE,
+        groups::SPHERE_SURFACE,
+    ],
     ..TRAVERSAL
 };

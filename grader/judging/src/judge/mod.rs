@@ -112,6 +112,15 @@ pub fn judge(question: &ExamQuestion, answer: &Answer) -> Judgement {
     }
 }
 
+/// Returns whether the correct answer to the first row is correct in every other row.
+pub fn one_row_answers_all(asked: &ExamQuestion) -> bool {
+    let Some(answer) = asked.single(0).key.answer() else {
+        return false;
+    };
+    let mut others = (1..asked.question.count()).map(|row| asked.single(row));
+    others.all(|other| judge(&other, &answer).credit == Credit::FULL)
+}
+
 /// Returns the deviations of the answer to one question. [`judge`] bases its decision on the same
 /// numbers.
 pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {

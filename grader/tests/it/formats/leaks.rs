@@ -54,7 +54,7 @@ fn the_search_finds_revealed_text() {
     let secrets = secrets(&KNOWN_MISTAKE);
     let revealed = secrets.iter().filter(|secret| read.contains(*secret));
     let count = revealed.count();
-    assert!(count >= 2, "questions of the practice exam are shown");
+    assert!(count >= 1, "questions of the practice exam are shown");
     let staff = secrets.iter();
     let staff = staff.filter(|secret| secret.starts_with("answers like"));
     let staff: Vec<&String> = staff.collect();

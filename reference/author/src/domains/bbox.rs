@@ -94,7 +94,7 @@ const START: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// What happens to the ray's line in the box, and what of it is in the times.
+/// How the ray's line crosses the box, and which part of that is in the times.
 const OUTCOME: Aspect<BoxCall> = Aspect {
     name: "outcome",
     classes: &[

@@ -38,7 +38,7 @@ pub static FUNCTIONS: &[&dyn Domain] = &[
 /// One way in which calls differ, divided into classes.
 #[derive(Debug)]
 pub struct Aspect<C: 'static> {
-    /// What differs, such as `size`.
+    /// The property that differs, such as `size`.
     pub name: &'static str,
     /// The names of the classes.
     pub classes: &'static [&'static str],

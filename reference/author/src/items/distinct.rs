@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use judging::exam::{ExamQuestion, Item, Key};
-use judging::judge::{Credit, judge};
+use judging::judge::{Credit, judge, one_row_answers_all};
 use protocol::Answer;
 
 use crate::items::{Declaration, DeclaredItem};
@@ -62,15 +62,6 @@ pub fn shares_a_question(item: &Item, other: &Item) -> bool {
         let mut credits = answers.iter().map(|answer| judge(question, answer).credit);
         credits.any(|credit: Credit| credit.apply(item.points) > 0)
     })
-}
-
-/// Returns whether the correct answer to the first row is correct in every other row.
-fn one_row_answers_all(asked: &ExamQuestion) -> bool {
-    let Some(answer) = asked.single(0).key.answer() else {
-        return false;
-    };
-    let mut others = (1..asked.question.count()).map(|row| asked.single(row));
-    others.all(|other| judge(&other, &answer).credit.apply(1) == 1)
 }
 
 #[cfg(test)]

@@ -23,8 +23,9 @@ pub const SIZES: &[&str] = &[
     "500",
 ];
 
-/// All classes of lengths, the small ones twice.
-pub const EVERY_SIZE: &[usize] = &[0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 1, 2, 3];
+/// All classes of lengths, the small ones twice. Lengths of about one come first, since a report shows
+/// the first wrong answer.
+pub const EVERY_SIZE: &[usize] = &[5, 4, 6, 3, 7, 2, 8, 1, 0, 3, 2, 1, 0];
 /// The classes of lengths that are so small that an absolute number could decide about them.
 pub const TINY: &[usize] = &[0, 1, 2];
 

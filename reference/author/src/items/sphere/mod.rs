@@ -10,7 +10,7 @@ use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
 
 /// The sizes of most spheres. Smaller ones are asked where an absolute number could decide.
-const USUAL: &[usize] = &[3, 4, 5, 6, 7, 8, 4, 5, 6, 7];
+const USUAL: &[usize] = &[5, 4, 6, 3, 7, 8, 5, 4, 6, 7];
 
 /// Returns the items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {

@@ -55,8 +55,11 @@ const REFLECTS: Declaration = Declaration {
     look: "Which components of the direction change, and which one stays?",
     section: "sphere.md#the-figure",
     questions: |rng| {
-        let above = |dir: DVec3| DVec3::new(dir.x, dir.y, dir.z.abs());
-        let directions: Vec<DVec3> = (0..2 * OF_EACH).map(|_| above(rng.direction())).collect();
+        // A direction in each quadrant in turn.
+        let sign = |is_negative: bool| if is_negative { -1.0 } else { 1.0 };
+        let signs = |number: usize| DVec3::new(sign(number & 1 > 0), sign(number & 2 > 0), 1.0);
+        let directions = (0..2 * OF_EACH).map(|number| rng.direction().abs() * signs(number));
+        let directions: Vec<DVec3> = directions.collect();
         let reflected = directions.iter().map(|dir| 2.0 * dir.z * DVec3::Z - dir);
         let rows = ExpectedRows::Directions(reflected.map(local).collect());
         let key = Key::table(&["direction", "unit_direction"], rows);

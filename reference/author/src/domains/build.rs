@@ -6,7 +6,8 @@ use glam::DVec3;
 use protocol::{Question, Shape};
 
 use super::fields::{
-    OCTANTS, PLACES, SIZES, octant, place_class, powers_of_two, size_class, without_repetition,
+    OCTANTS, PLACES, SIZES, class_up_to, octant, place_class, powers_of_two, size_class,
+    without_repetition,
 };
 use super::{Aspect, FunctionDomain};
 use crate::oracle::bbox::Bounds;
@@ -119,15 +120,8 @@ const LEAF_SIZE: Aspect<BuildCall> = Aspect {
         "256 to 1,000",
     ],
     class: |call| {
-        Some(match call.max_leaf_size {
-            ..=1 => 0,
-            2 => 1,
-            ..=4 => 2,
-            ..=8 => 3,
-            ..=32 => 4,
-            ..=255 => 5,
-            _ => 6,
-        })
+        let limits = [1, 2, 4, 8, 32, 255];
+        Some(class_up_to(&limits, call.max_leaf_size as usize))
     },
 };
 
@@ -144,13 +138,11 @@ const LEAVES: Aspect<BuildCall> = Aspect {
     ],
     class: |call| {
         let (count, leaf) = (call.shapes.len(), call.max_leaf_size as usize);
-        Some(match count.div_ceil(leaf) {
+        Some(match count {
             _ if count < leaf => 0,
             _ if count == leaf => 1,
             _ if count == leaf + 1 => 2,
-            ..=2 => 3,
-            ..=8 => 4,
-            _ => 5,
+            _ => 3 + class_up_to(&[2, 8], count.div_ceil(leaf)),
         })
     },
 };

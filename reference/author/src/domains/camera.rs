@@ -3,6 +3,7 @@
 use glam::{Vec2, uvec2};
 use protocol::{PinholeCamera, Question, Sample};
 
+use super::fields::class_up_to;
 use super::{Aspect, FunctionDomain};
 use crate::seed::Rng;
 
@@ -130,13 +131,7 @@ fn part(parts: &[(f64, f64)], number: f64) -> Option<usize> {
 }
 
 fn side_class(side: u32) -> usize {
-    match side {
-        ..=1 => 0,
-        ..=10 => 1,
-        ..=255 => 2,
-        ..=4095 => 3,
-        _ => 4,
-    }
+    class_up_to(&[1, 10, 255, 4095], side as usize)
 }
 
 fn position_class(position: u32, count: u32) -> Option<usize> {

@@ -48,6 +48,11 @@ pub fn size(rng: &mut Rng, class: usize) -> f64 {
     }
 }
 
+/// Returns the class of a number, where each class but the last goes up to one of these limits.
+pub fn class_up_to(limits: &[usize], number: usize) -> usize {
+    limits.iter().take_while(|&&limit| number > limit).count()
+}
+
 /// The classes of distances along a ray.
 pub const DISTANCES: &[&str] = &["below 1e-2", "1e-2", "1", "100", "2000"];
 

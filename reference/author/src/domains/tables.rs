@@ -6,6 +6,9 @@ use crate::seed::Rng;
 /// A subject, and the arguments of its calls.
 pub type Drawn<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 
+/// Draws the arguments of a call. Returns `None` if the contract does not allow them.
+type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C as Call>::Input>;
+
 /// How the calls of a function are drawn.
 pub struct Generator<'a, C: Call> {
     /// How calls differ.
@@ -15,7 +18,7 @@ pub struct Generator<'a, C: Call> {
     /// Draws a subject of a size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
-    pub input: &'a dyn Fn(&mut Rng, &C::Subject) -> Option<C::Input>,
+    pub input: DrawInput<'a, C>,
     /// Returns whether a call belongs to the idea of an item, and all correct formulas agree about it.
     pub fits: &'a dyn Fn(&C) -> bool,
 }

@@ -8,8 +8,8 @@ use protocol::{Geometry, Question, Ray, Shape};
 
 use super::build::kind;
 use super::fields::{
-    DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, direction, direction_class, octant, place_class,
-    powers_of_two, range_class, size_class,
+    DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction, direction_class, octant,
+    place_class, powers_of_two, range_class, size_class,
 };
 use super::{Aspect, FunctionDomain};
 use crate::oracle::bbox::Bounds;
@@ -166,13 +166,9 @@ const NODES: Aspect<TraverseCall> = Aspect {
 const LEVELS: Aspect<TraverseCall> = Aspect {
     name: "levels",
     classes: &["1", "2 to 5", "6 to 12", "13 to 59", "60"],
-    class: |call| match call.subject.levels {
-        0 => None,
-        1 => Some(0),
-        ..=5 => Some(1),
-        ..=12 => Some(2),
-        ..60 => Some(3),
-        _ => Some(4),
+    class: |call| {
+        let levels = call.subject.levels;
+        (levels > 0).then(|| class_up_to(&[1, 5, 12, 59], levels))
     },
 };
 
@@ -183,15 +179,8 @@ const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let leaves = call.subject.leaves.iter();
         let sizes = leaves.map(|&leaf| call.subject.tree.primitives(leaf).len());
-        match sizes.max()? {
-            0 => None,
-            1 => Some(0),
-            2 => Some(1),
-            ..=8 => Some(2),
-            ..=32 => Some(3),
-            ..=255 => Some(4),
-            _ => Some(5),
-        }
+        let largest = sizes.max().filter(|&size| size > 0)?;
+        Some(class_up_to(&[1, 2, 8, 32, 255], largest))
     },
 };
 

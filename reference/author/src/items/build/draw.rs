@@ -130,11 +130,12 @@ fn arranged(
 ) -> Vec<Shape> {
     let size = rng.log_uniform(0.03, 0.4);
     let mut axes = DVec3::ONE;
-    match arrangement {
-        Arrangement::Plane | Arrangement::FlatBoxes => axes[axis] = 0.0,
-        Arrangement::Row => axes = DVec3::AXES[axis],
-        Arrangement::Concentric => axes = DVec3::ZERO,
-        _ => {}
+    if matches!(arrangement, Arrangement::Plane | Arrangement::FlatBoxes) {
+        axes[axis] = 0.0;
+    } else if arrangement == Arrangement::Row {
+        axes = DVec3::AXES[axis];
+    } else if arrangement == Arrangement::Concentric {
+        axes = DVec3::ZERO;
     }
     // Spheres have the centres that they are given; boxes of triangles may have others.
     let has_centers = matches!(
@@ -160,14 +161,20 @@ fn arranged(
                     primitive(rng, kind, center, size)
                 }
                 Arrangement::WithoutArea if index % 3 == 0 => without_area(rng, center, size),
-                _ => primitive(rng, kind, center, size),
+                Arrangement::Scattered
+                | Arrangement::Plane
+                | Arrangement::Row
+                | Arrangement::Equal
+                | Arrangement::EqualPair
+                | Arrangement::Outlier
+                | Arrangement::WithoutArea => primitive(rng, kind, center, size),
             }
         })
         .collect();
-    match arrangement {
-        Arrangement::Equal if count > 0 => shapes = vec![shapes[0]; count],
-        Arrangement::EqualPair if count > 1 => shapes[0] = shapes[1],
-        _ => {}
+    if arrangement == Arrangement::Equal && count > 0 {
+        shapes = vec![shapes[0]; count];
+    } else if arrangement == Arrangement::EqualPair && count > 1 {
+        shapes[0] = shapes[1];
     }
     rng.shuffled(shapes)
 }

@@ -79,7 +79,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
     section: "sphere.md#the-near-root-can-be-out-of-range",
     questions: |rng| {
         questions(rng, &["distance"], USUAL, |line| {
-            line.is_unlimited() && !(line.roots[0] > 0.0)
+            line.is_unlimited() && (line.misses() || line.roots[0] < 0.0)
         })
     },
     ..Declaration::in_group(groups::SPHERE_HITS)

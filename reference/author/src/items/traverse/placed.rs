@@ -119,9 +119,10 @@ fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize, octant: usize) -> O
 }
 
 fn shapes(asked: &ExamQuestion) -> &[Shape] {
-    match &asked.question {
-        Question::Hit(table) => table.subject.shapes(),
-        _ => &[],
+    if let Question::Hit(table) = &asked.question {
+        table.subject.shapes()
+    } else {
+        &[]
     }
 }
 
@@ -140,9 +141,12 @@ fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
         Geometry::BuiltTree { shapes, .. } if shapes.is_empty() => (Tree::default(), true),
         Geometry::BuiltTree { shapes, .. } => (construction::median_split(shapes.clone(), 8), true),
     };
-    let answer = |ray64: &Ray64| match is_built {
-        true => scan::closest_hit(ray64, &tree.shapes),
-        false => tree.expected_hit(ray64),
+    let answer = |ray64: &Ray64| {
+        if is_built {
+            scan::closest_hit(ray64, &tree.shapes)
+        } else {
+            tree.expected_hit(ray64)
+        }
     };
     let is_exact = |ray: &Ray| {
         let hit = answer(&Ray64::from(ray));

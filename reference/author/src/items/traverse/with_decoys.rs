@@ -3,6 +3,7 @@
 use judging::exam::ExamQuestion;
 use protocol::Ray;
 
+use super::placed::as_dust;
 use super::{
     TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
 };
@@ -166,7 +167,7 @@ pub(super) const PRUNES: Declaration = Declaration {
         vec![
             question_with_decoys(rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(rng, &second, SlidesAnswer::Correct),
-            question_with_decoys(rng, &fits, SlidesAnswer::Correct),
+            as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
         ]
     },
     ..TRAVERSAL
@@ -201,6 +202,7 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         question_with_decoys(rng, &fits, SlidesAnswer::Wrong),
         question_with_decoys(rng, &left_last, SlidesAnswer::Wrong),
         question_with_decoys(rng, &nearer_center, SlidesAnswer::Wrong),
+        as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Wrong)),
     ]
 }
 

@@ -226,7 +226,6 @@ fn letter(index: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-
     use judging::exam::Item;
 
     use super::*;

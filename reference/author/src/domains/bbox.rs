@@ -5,7 +5,7 @@ use protocol::{Interval, Query, Question, Ray};
 
 use super::fields::{
     self, DIRECTIONS, DISTANCES, OCTANTS, PLACES, RANGES, SIZES, direction_class, distance_class,
-    octant, place_class, range_class, size_class,
+    history_class, octant, place_class, range_class, size_class,
 };
 use super::{Aspect, Call, FunctionDomain, Generator};
 use crate::oracle::Ray64;
@@ -156,11 +156,8 @@ const HISTORY: Aspect<BoxCall> = Aspect {
     name: "call before",
     classes: &["none", "another ray", "the same ray with other times"],
     class: |call| {
-        Some(match call.before {
-            None => 0,
-            Some((ray, _)) if (ray.origin, ray.dir) == (call.ray.origin, call.ray.dir) => 2,
-            Some(_) => 1,
-        })
+        let before = call.before.as_ref();
+        Some(history_class(before.map(|(ray, _)| ray), &call.ray))
     },
 };
 
@@ -356,15 +353,7 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
             4 => rng.uniform(-0.5, 0.5),
             _ => -rng.uniform(2.0, 28.0),
         };
-    let mut origin = target - ahead * dir;
-    let mut dir = dir;
-    if rng.index(8) == 0 {
-        origin = fields::start_far_away(rng, target, size)?;
-        dir = (target - origin).normalize();
-    }
-    if origin.abs().max_element() > fields::FURTHEST {
-        return None;
-    }
+    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
     let furthest = ahead.max(0.0) + 2.0 * size;
     let mut times = fields::range(rng, furthest);
     if rng.index(8) == 0 {

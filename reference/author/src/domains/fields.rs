@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::{DVec3, Vec3};
-use protocol::Interval;
+use protocol::{Interval, Ray};
 
 use crate::seed::Rng;
 
@@ -162,10 +162,38 @@ pub fn direction(rng: &mut Rng) -> DVec3 {
     dir.normalize()
 }
 
+/// Returns the start and the direction of a ray toward a target that is so far ahead. Some rays start far
+/// away instead. Returns `None` if the ray would start outside of the scene.
+pub fn ray_toward(
+    rng: &mut Rng,
+    target: DVec3,
+    dir: DVec3,
+    ahead: f64,
+    size: f64,
+) -> Option<(DVec3, DVec3)> {
+    let (start, dir) = if rng.index(8) == 0 {
+        let start = start_far_away(rng, target, size)?;
+        (start, (target - start).normalize())
+    } else {
+        (target - ahead * dir, dir)
+    };
+    (start.abs().max_element() <= FURTHEST).then_some((start, dir))
+}
+
 /// Draws the start of a ray toward a target, up to 30 sizes away.
-pub fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
+fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     let start = rng.vector(0.5, 1.0) * FURTHEST * -target.signum();
     (start.distance(target) < 29.0 * size).then_some(start)
+}
+
+/// Returns whether two rays differ in their ranges only.
+pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
+    a.origin == b.origin && a.dir == b.dir
+}
+
+/// Returns the class of the call before: none, one with another ray, or one with the same ray.
+pub fn history_class(before: Option<&Ray>, ray: &Ray) -> usize {
+    before.map_or(0, |before| 1 + usize::from(is_same_line(before, ray)))
 }
 
 /// The classes of ranges.

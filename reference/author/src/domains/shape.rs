@@ -5,7 +5,7 @@ use protocol::{Geometry, Question, Ray, Shape};
 
 use super::fields::{
     self, DIRECTIONS, DISTANCES, NUMBERS, OCTANTS, PLACES, RANGES, SIZES, direction_class,
-    distance_class, number_class, octant, place_class, range_class, size_class,
+    distance_class, history_class, number_class, octant, place_class, range_class, size_class,
 };
 use super::{Aspect, Call};
 use crate::oracle::{Ray64, scan};
@@ -90,13 +90,7 @@ pub const RANGE: Aspect<ShapeCall> = Aspect {
 pub const HISTORY: Aspect<ShapeCall> = Aspect {
     name: "call before",
     classes: &["none", "another ray", "the same ray with another range"],
-    class: |call| {
-        Some(match call.before {
-            None => 0,
-            Some(before) if (before.origin, before.dir) == (call.ray.origin, call.ray.dir) => 2,
-            Some(_) => 1,
-        })
-    },
+    class: |call| Some(history_class(call.before.as_ref(), &call.ray)),
 };
 
 impl Call for ShapeCall {

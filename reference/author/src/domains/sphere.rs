@@ -213,15 +213,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
         4 => half_chord * rng.sign(),
         _ => -radius * rng.log_uniform(1.2, 29.0),
     };
-    let mut origin = closest - ahead * dir;
-    let mut dir = dir;
-    if rng.index(8) == 0 {
-        origin = fields::start_far_away(rng, closest, radius)?;
-        dir = (closest - origin).normalize();
-    }
-    if origin.abs().max_element() > fields::FURTHEST {
-        return None;
-    }
+    let (origin, dir) = fields::ray_toward(rng, closest, dir, ahead, radius)?;
     let Interval { min, max } = fields::range(rng, ahead.max(0.0) + 2.0 * radius);
     Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(min, max))
 }

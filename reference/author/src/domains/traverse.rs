@@ -8,8 +8,8 @@ use protocol::{Geometry, Question, Ray, Shape};
 
 use super::build::kind;
 use super::fields::{
-    DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction, direction_class, octant,
-    place_class, powers_of_two, range_class, size_class,
+    DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction, direction_class,
+    history_class, octant, place_class, powers_of_two, range_class, size_class,
 };
 use super::{Aspect, FunctionDomain};
 use crate::oracle::bbox::Bounds;
@@ -316,19 +316,8 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
         "after another ray",
         "after the same ray with another range",
     ],
-    class: |call| {
-        Some(match &call.previous {
-            None => 0,
-            Some(other) if is_same_line(other, &call.ray) => 2,
-            Some(_) => 1,
-        })
-    },
+    class: |call| Some(history_class(call.previous.as_ref(), &call.ray)),
 };
-
-/// Returns whether two rays differ in their ranges only.
-pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
-    a.origin == b.origin && a.dir == b.dir
-}
 
 /// Draws a ray toward a point in a tree. It starts outside, far away or inside. No shape is farther away
 /// than 30 of its sizes.

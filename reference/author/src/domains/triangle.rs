@@ -403,15 +403,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
             4 => 0.0,
             _ => -rng.log_uniform(0.05, 28.0),
         };
-    let mut origin = target - ahead * dir;
-    let mut dir = dir;
-    if rng.index(8) == 0 {
-        origin = fields::start_far_away(rng, target, size)?;
-        dir = (target - origin).normalize();
-    }
-    if origin.abs().max_element() > fields::FURTHEST {
-        return None;
-    }
+    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
     let range = fields::range(rng, ahead.max(0.0) + 2.0 * size);
     Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(range.min, range.max))
 }

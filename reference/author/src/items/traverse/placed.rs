@@ -6,10 +6,9 @@ use judging::exam::{ExamQuestion, Key};
 use protocol::{Geometry, Question, Ray, Rows, Shape};
 
 use crate::domains::Call;
-use crate::domains::fields::{self, FURTHEST};
+use crate::domains::fields::{self, FURTHEST, is_same_line};
 use crate::domains::shape::ShapeCall;
 use crate::domains::sphere::Line;
-use crate::domains::traverse::is_same_line;
 use crate::items::hits_key;
 use crate::items::place::{Place, moved};
 use crate::oracle::bbox::Bounds;

@@ -1,10 +1,12 @@
 //! Draws calls so that each class occurs about equally often.
 
+use std::collections::BTreeMap;
+
 use super::Aspect;
 use crate::seed::Rng;
 
 /// How many suitable calls are compared.
-const CANDIDATES: usize = 12;
+const CANDIDATES: usize = 24;
 /// How many calls are drawn at most to find them.
 const ATTEMPTS: usize = 1000;
 
@@ -14,27 +16,26 @@ pub struct Balance<C: 'static> {
     aspects: &'static [Aspect<C>],
     /// For each aspect, how often each of its classes has been chosen.
     counts: Vec<Vec<u32>>,
-    /// The same for one subject.
-    of_subject: Vec<Vec<u32>>,
+    /// The same within each group of calls.
+    of_groups: BTreeMap<usize, Vec<Vec<u32>>>,
+    /// The group of the next call.
+    group: usize,
 }
 
 impl<C> Balance<C> {
     /// Creates a balance in which nothing has been chosen yet.
     pub fn new(aspects: &'static [Aspect<C>]) -> Self {
-        let zeros = aspects.iter().map(|aspect| vec![0; aspect.classes.len()]);
-        let zeros: Vec<Vec<u32>> = zeros.collect();
         Balance {
             aspects,
-            counts: zeros.clone(),
-            of_subject: zeros,
+            counts: zeros(aspects),
+            of_groups: BTreeMap::new(),
+            group: 0,
         }
     }
 
-    /// Begins the calls of another subject. Each class shall occur for each subject, too.
-    pub fn next_subject(&mut self) {
-        for count in self.of_subject.iter_mut().flatten() {
-            *count = 0;
-        }
+    /// Says to which group the next calls belong. Each class shall occur in each group, too.
+    pub fn begin(&mut self, group: usize) {
+        self.group = group;
     }
 
     /// Draws some calls, and chooses the one whose classes have been chosen least often. Returns `None`
@@ -44,20 +45,23 @@ impl<C> Balance<C> {
         rng: &mut Rng,
         mut draw: impl FnMut(&mut Rng) -> Option<C>,
     ) -> Option<C> {
+        let group = self.of_groups.entry(self.group);
+        let mut of_group = group.or_insert_with(|| zeros(self.aspects)).clone();
         let drawn = (0..ATTEMPTS).filter_map(|_| draw(rng));
         let rarity = |call: &C| -> f64 {
             let classes = self.classes(call);
-            classes
-                .map(|(aspect, class)| self.rarity(aspect, class))
-                .sum()
+            let counts = classes
+                .flat_map(|(aspect, class)| [self.counts[aspect][class], of_group[aspect][class]]);
+            counts.map(|count| (1.0 + f64::from(count)).powi(-2)).sum()
         };
         let rated = drawn.take(CANDIDATES).map(|call| (rarity(&call), call));
         let (_, call) = rated.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
         let classes: Vec<(usize, usize)> = self.classes(&call).collect();
         for (aspect, class) in classes {
             self.counts[aspect][class] += 1;
-            self.of_subject[aspect][class] += 1;
+            of_group[aspect][class] += 1;
         }
+        self.of_groups.insert(self.group, of_group);
         Some(call)
     }
 
@@ -66,14 +70,12 @@ impl<C> Balance<C> {
         let aspects = self.aspects.iter().enumerate();
         aspects.filter_map(|(index, aspect)| Some((index, (aspect.class)(call)?)))
     }
+}
 
-    fn rarity(&self, aspect: usize, class: usize) -> f64 {
-        let counts = [&self.counts, &self.of_subject].map(|counts| counts[aspect][class]);
-        counts
-            .map(|count| (1.0 + f64::from(count)).powi(-2))
-            .iter()
-            .sum()
-    }
+/// Returns a count of 0 for each class of each aspect.
+fn zeros<C>(aspects: &[Aspect<C>]) -> Vec<Vec<u32>> {
+    let counts = aspects.iter().map(|aspect| vec![0; aspect.classes.len()]);
+    counts.collect()
 }
 
 #[cfg(test)]

@@ -190,12 +190,6 @@ impl Call for BoxCall {
         }
     }
 
-    fn other_subject(&self) -> Bounds {
-        let half = 0.75 * 0.5 * (self.bounds.max - self.bounds.min);
-        let center = self.bounds.center();
-        Bounds::new((center - half).as_vec3(), (center + half).as_vec3())
-    }
-
     fn subject(&self) -> Bounds {
         self.bounds
     }
@@ -280,7 +274,11 @@ impl BoxCall {
                 margins[axis] < 8.0 * EPSILON * coordinates.max_element()
             }
         };
-        if (0..3).any(is_lost) {
+        let distance = (origin - self.bounds.center()).abs().max_element();
+        if distance > fields::FURTHEST_SIZES * size
+            || (0..3).any(is_lost)
+            || self.is_decided_by_rounding(coordinates.max_element())
+        {
             return false;
         }
         let hits_with = |sign: f64, margin: f64| {
@@ -297,6 +295,25 @@ impl BoxCall {
             bounds.span(&ray64).is_some()
         };
         hits_with(1.0, longer) == hits_with(-1.0, shorter)
+    }
+
+    /// Returns whether the ray enters or leaves the box through a side that it is almost parallel to, so
+    /// that rounding changes the time.
+    fn is_decided_by_rounding(&self, coordinates: f64) -> bool {
+        /// The largest part of a tolerance that errors may take.
+        const PART: f64 = 0.3;
+        let ray64 = self.ray64();
+        let Some((enter, leave)) = self.bounds.span(&ray64) else {
+            return false;
+        };
+        (0..3).any(|axis| {
+            let speed = ray64.dir[axis];
+            let sides = [self.bounds.min, self.bounds.max];
+            let times = sides.map(|side| (side - ray64.origin)[axis] / speed);
+            let error = 4.0 * EPSILON * coordinates / speed.abs();
+            let decides = |end: f64| times.iter().any(|time| (time - end).abs() <= 4.0 * error);
+            speed != 0.0 && error > PART * 1e-4 * coordinates && (decides(enter) || decides(leave))
+        })
     }
 
     /// Returns by how much the times can be shortened at each end.
@@ -364,6 +381,13 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some((ray, times))
 }
 
+/// Returns a smaller box with the same centre.
+fn smaller(bounds: &Bounds) -> Bounds {
+    let half = 0.75 * 0.5 * (bounds.max - bounds.min);
+    let center = bounds.center();
+    Bounds::new((center - half).as_vec3(), (center + half).as_vec3())
+}
+
 /// Draws boxes of these sizes, each with calls that belong to an idea, every other one a hit.
 pub fn tables(
     rng: &mut Rng,
@@ -375,6 +399,7 @@ pub fn tables(
         subject_aspects: 4,
         subject: &drawn_box,
         input: &query,
+        similar: &|call| BoxCall::new(smaller(&call.bounds), call.input()),
         fits: &|call: &BoxCall| call.is_clear() && belongs(call),
     };
     generator.tables(rng, sizes)

@@ -1,6 +1,6 @@
 //! The domain of `Camera::sample_ray`.
 
-use glam::{Vec2, uvec2};
+use glam::{UVec2, Vec2, uvec2};
 use protocol::{PinholeCamera, Question, Sample};
 
 use super::fields::class_up_to;
@@ -19,8 +19,16 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ROW,
         OFFSET_X,
         OFFSET_Y,
+        ANGLE,
+        SENSOR,
     ],
-    pairs: &[],
+    pairs: &[
+        ["angle", "aspect ratio"],
+        ["angle", "rows of the film"],
+        ["sensor", "field of view"],
+        ["sensor", "columns of the film"],
+        ["sensor", "rows of the film"],
+    ],
     calls,
 };
 
@@ -120,6 +128,45 @@ const OFFSET_Y: Aspect<CameraCall> = Aspect {
     class: |call| Some(offset_class(call.sample.offset.y)),
 };
 
+/// The angles of view.
+const ANGLE: Aspect<CameraCall> = Aspect {
+    name: "angle",
+    classes: &["narrow", "usual", "wide"],
+    class: |call| {
+        Some(class_up_to(
+            &[15, 120],
+            call.camera.vertical_fov.round() as usize,
+        ))
+    },
+};
+
+/// Parts of the vertical fields of view for each class of [`ANGLE`].
+const ANGLES: [[(f64, f64); 3]; 3] = [
+    [(1.0, 1.0), (1.0, 10.0), (10.0, 15.0)],
+    [(16.0, 30.0), (30.0, 60.0), (60.0, 120.0)],
+    [(121.0, 150.0), (150.0, 175.0), (175.0, 175.0)],
+];
+
+/// Parts of the aspect ratios for each class of [`SENSOR`].
+const SENSORS: [&[(f64, f64)]; 3] = [
+    &[(0.1, 0.1), (0.1, 0.3), (0.3, 0.89)],
+    &[(0.9, 1.1)],
+    &[(1.11, 3.0), (3.0, 10.0), (10.0, 10.0)],
+];
+
+/// The form of the sensor.
+const SENSOR: Aspect<CameraCall> = Aspect {
+    name: "sensor",
+    classes: &["upright", "about square", "wide"],
+    class: |call| {
+        Some(match call.camera.aspect_ratio {
+            ..0.9 => 0,
+            ..1.1 => 1,
+            _ => 2,
+        })
+    },
+};
+
 /// Returns the first part that contains a number, but for rounding.
 fn part(parts: &[(f64, f64)], number: f64) -> Option<usize> {
     let fits = |(from, to): (f64, f64)| {
@@ -194,15 +241,66 @@ pub fn side(rng: &mut Rng, class: usize) -> u32 {
     }
 }
 
+/// Draws cameras with all angles of view, sensors and films. Most differ from the one before in one field
+/// only and are asked for the same samples, so that a method that keeps something fails.
+pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let (classes, forms) = (
+        rng.shuffled((0..SIDES.len()).collect()),
+        rng.shuffled((0..SENSORS.len()).collect()),
+    );
+    let mut asked = [[0; SENSORS.len()]; ANGLES.len()];
+    let mut cameras = Vec::new();
+    for (pair, classes) in classes.chunks(2).enumerate() {
+        let [first, second, third] = [0, 1, 2].map(|it| forms[(pair + it) % forms.len()]);
+        // The first form comes at both ends, so that only the film changes when it is turned.
+        let ends = [first, second, second, third, third, first];
+        let film = uvec2(side(rng, classes[0]), side(rng, classes[classes.len() - 1]));
+        let mut camera = PinholeCamera {
+            vertical_fov: 0.0,
+            aspect_ratio: 0.0,
+            film,
+        };
+        let mut samples = samples_of_both(rng, film);
+        let (mut last_angle, mut last_form) = (None, None);
+        for turn in 0..classes.len() {
+            for (step, &form) in ends.iter().enumerate() {
+                let angle = if turn == 0 { step / 2 } else { 2 - step / 2 };
+                let times = &mut asked[angle][form];
+                if last_angle.replace(angle) != Some(angle) {
+                    camera.vertical_fov = drawn(ANGLES[angle][*times % 3], rng) as f32;
+                }
+                if last_form.replace(form) != Some(form) {
+                    let ratios = SENSORS[form];
+                    camera.aspect_ratio = drawn(ratios[*times % ratios.len()], rng) as f32;
+                }
+                *times += 1;
+                cameras.push((camera, samples.clone()));
+                // The last sample of a camera is the first of the next one.
+                samples.reverse();
+            }
+            camera.film = uvec2(film.y, film.x);
+            samples.retain(|sample| sample.pixel.cmplt(camera.film).all());
+        }
+    }
+    cameras
+}
+
+/// Draws samples of a film. Those at both ends are in the turned film as well.
+fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
+    let square = UVec2::splat(film.min_element());
+    let films = [square, square, film, film, film, film, square, square];
+    films.map(|film| sample(rng, film)).to_vec()
+}
+
 /// Draws a pixel of a film, often one at an edge, and a position in it.
-pub fn sample(rng: &mut Rng, camera: &PinholeCamera) -> Sample {
+pub fn sample(rng: &mut Rng, film: UVec2) -> Sample {
     let mut position = |count: u32| match rng.index(4) {
         0 => 0,
         1 => count - 1,
         _ => rng.index(count as usize) as u32,
     };
     Sample {
-        pixel: uvec2(position(camera.film.x), position(camera.film.y)),
+        pixel: uvec2(position(film.x), position(film.y)),
         offset: Vec2::new(offset(rng), offset(rng)),
     }
 }

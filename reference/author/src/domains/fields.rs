@@ -10,6 +10,9 @@ use crate::seed::Rng;
 /// The largest coordinate of a scene.
 pub const FURTHEST: f64 = 1000.0;
 
+/// The distance from which a thing is seen at most, in its sizes: half of its longest side, or its radius.
+pub const FURTHEST_SIZES: f64 = 30.0;
+
 /// The classes of lengths: decades, named by their beginnings.
 pub const SIZES: &[&str] = &[
     "below 1e-4",
@@ -23,9 +26,12 @@ pub const SIZES: &[&str] = &[
     "500",
 ];
 
-/// All classes of lengths, the small ones twice. Lengths of about one come first, since a report shows
-/// the first wrong answer.
-pub const EVERY_SIZE: &[usize] = &[5, 4, 6, 3, 7, 2, 8, 1, 0, 3, 2, 1, 0];
+/// All classes of lengths. Lengths of about one come first, since a report shows the first wrong answer.
+pub const EVERY_SIZE: &[usize] = &[5, 4, 6, 3, 7, 2, 8, 1, 0];
+/// The classes of most lengths. Others are asked where an absolute number could decide.
+pub const USUAL: &[usize] = &[5, 4, 6, 7, 8];
+/// The classes of lengths below one tenth.
+pub const SMALL: &[usize] = &[3, 2, 1, 0];
 /// The classes of lengths that are so small that an absolute number could decide about them.
 pub const TINY: &[usize] = &[0, 1, 2];
 
@@ -73,6 +79,7 @@ pub const PLACES: &[&str] = &[
     "1 size away",
     "10 sizes away",
     "100 sizes away",
+    "1,000 sizes away",
 ];
 
 /// Returns the class of a position.
@@ -81,7 +88,8 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
         ..1.0 => 0,
         ..10.0 => 1,
         ..100.0 => 2,
-        _ => 3,
+        ..1000.0 => 3,
+        _ => 4,
     }
 }
 
@@ -129,13 +137,23 @@ pub const DIRECTIONS: &[&str] = &[
     "-+-",
     "+--",
     "---",
+    "almost along an axis",
+    "almost in a plane",
 ];
+
+/// The largest component of a direction that is almost 0.
+const ALMOST_ZERO: f32 = 0.01;
 
 /// Returns the class of a direction.
 pub fn direction_class(dir: Vec3) -> Option<usize> {
-    let is_zero = dir.to_array().map(|component| component == 0.0);
+    let components = dir.to_array();
+    let is_zero = components.map(|component| component == 0.0);
     let zeros = is_zero.iter().filter(|zero| **zero).count();
+    let small = components
+        .iter()
+        .filter(|component| component.abs() < ALMOST_ZERO);
     match zeros {
+        _ if small.clone().count() > zeros => Some(if small.count() == 2 { 17 } else { 18 }),
         0 => Some(9 + octant(dir.as_dvec3())?),
         1 => Some(6 + is_zero.iter().position(|zero| *zero)?),
         2 => {
@@ -146,18 +164,26 @@ pub fn direction_class(dir: Vec3) -> Option<usize> {
     }
 }
 
-/// Draws a direction: along an axis, in a plane of two axes, or any. Zeros have either sign.
+/// Draws a direction: along an axis, in a plane of two axes, almost so, or any. Zeros have either sign.
 pub fn direction(rng: &mut Rng) -> DVec3 {
-    let (kind, axis) = (rng.index(3), rng.index(3));
-    let mut dir = rng.retry(|rng| {
+    let dir = rng.retry(|rng| {
         let dir = rng.direction();
-        (dir.abs().min_element() > 0.01).then_some(dir)
+        (dir.abs().min_element() > 2.0 * f64::from(ALMOST_ZERO)).then_some(dir)
     });
-    if kind < 2 {
-        dir[axis] = 0.0 * rng.sign();
+    let axis = rng.index(3);
+    let zeros = &[axis, (axis + 1) % 3][..rng.index(3)];
+    let size = if rng.index(4) > 0 {
+        0.0
+    } else {
+        rng.log_uniform(1e-5, 0.5 * f64::from(ALMOST_ZERO))
+    };
+    let mut dir = dir;
+    for &zero in zeros {
+        dir[zero] = 0.0;
     }
-    if kind < 1 {
-        dir[(axis + 1) % 3] = 0.0 * rng.sign();
+    dir = dir.normalize();
+    for &zero in zeros {
+        dir[zero] = size * rng.sign();
     }
     dir.normalize()
 }
@@ -202,12 +228,21 @@ pub const RANGES: &[&str] = &[
     "from 0 to an end",
     "from later to ∞",
     "from later to an end",
+    "from 0 to a far end",
+    "from later to a far end",
 ];
+
+/// The end of a range beyond which nothing in a scene is.
+const FAR: f32 = 1e4;
 
 /// Returns the class of a range.
 pub fn range_class(range: Interval) -> Option<usize> {
-    let (starts_later, ends) = (range.min > 0.0, range.max < f32::INFINITY);
-    Some(usize::from(ends) + 2 * usize::from(starts_later))
+    let starts_later = usize::from(range.min > 0.0);
+    Some(match range.max {
+        f32::INFINITY => 2 * starts_later,
+        FAR.. => 4 + starts_later,
+        _ => 1 + 2 * starts_later,
+    })
 }
 
 /// Draws a range whose ends are at distances up to `furthest`.
@@ -217,10 +252,10 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     } else {
         rng.uniform(0.0, furthest)
     };
-    let max = if rng.coin() {
-        f64::INFINITY
-    } else {
-        rng.uniform(min, 1.2 * furthest)
+    let max = match rng.index(6) {
+        0..=1 => f64::INFINITY,
+        2 => rng.log_uniform(f64::from(FAR), 1e30),
+        _ => rng.uniform(min, 1.2 * furthest),
     };
     Interval::new(min as f32, max as f32)
 }

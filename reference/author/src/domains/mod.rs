@@ -56,9 +56,6 @@ pub trait Call: Copy + 'static {
     /// Creates a call that no other precedes.
     fn new(subject: Self::Subject, input: Self::Input) -> Self;
 
-    /// Returns a value much like the one that the function is called on.
-    fn other_subject(&self) -> Self::Subject;
-
     /// Returns the value that the function is called on.
     fn subject(&self) -> Self::Subject;
 

@@ -1,6 +1,6 @@
 //! Calls of `hit` of a single shape, and what all shapes have in common.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::fields::{
@@ -23,6 +23,35 @@ pub struct ShapeCall {
 }
 
 impl ShapeCall {
+    /// Returns the call of a smaller shape with the same centre.
+    pub fn smaller(&self) -> Self {
+        const FACTOR: f32 = 0.75;
+        let middle = self.middle().as_vec3();
+        let scaled = |point: Vec3| middle + FACTOR * (point - middle);
+        let mut call = ShapeCall::new(moved(&self.shape, scaled), self.ray);
+        if let Shape::Sphere { radius, .. } = &mut call.shape {
+            *radius *= FACTOR;
+        }
+        call
+    }
+
+    /// Returns the call with everything moved, so that this point of the shape is the origin.
+    pub fn moved_to_origin(&self, point: Vec3) -> Self {
+        let shape = moved(&self.shape, |corner| corner - point);
+        let origin = self.ray.origin - point;
+        ShapeCall::new(shape, Ray { origin, ..self.ray })
+    }
+
+    /// Returns the call of a shape that differs in its number only.
+    pub fn with_other_number(&self) -> Self {
+        let mut call = ShapeCall::new(self.shape, self.ray);
+        let (Shape::Sphere { shape, .. }
+        | Shape::Triangle { shape, .. }
+        | Shape::FlatTriangle { shape, .. }) = &mut call.shape;
+        *shape ^= 1;
+        call
+    }
+
     /// Returns half of the largest side of the shape's box.
     pub fn size(&self) -> f64 {
         let bounds = scan::bounds(&self.shape);
@@ -93,6 +122,21 @@ pub const HISTORY: Aspect<ShapeCall> = Aspect {
     class: |call| Some(history_class(call.before.as_ref(), &call.ray)),
 };
 
+/// Returns a shape with its centre or its corners moved.
+fn moved(shape: &Shape, to: impl Fn(Vec3) -> Vec3) -> Shape {
+    let mut shape = *shape;
+    match &mut shape {
+        Shape::Sphere { center, .. } => *center = to(*center),
+        Shape::Triangle { vertices, .. } => {
+            for vertex in vertices {
+                vertex.position = to(vertex.position);
+            }
+        }
+        Shape::FlatTriangle { corners, .. } => *corners = corners.map(to),
+    }
+    shape
+}
+
 impl Call for ShapeCall {
     type Subject = Shape;
     type Input = Ray;
@@ -103,24 +147,6 @@ impl Call for ShapeCall {
             ray,
             before: None,
         }
-    }
-
-    fn other_subject(&self) -> Shape {
-        const FACTOR: f32 = 0.75;
-        let middle = self.middle().as_vec3();
-        let mut shape = self.shape;
-        match &mut shape {
-            Shape::Sphere { radius, .. } => *radius *= FACTOR,
-            Shape::Triangle { vertices, .. } => {
-                for vertex in vertices {
-                    vertex.position = middle + FACTOR * (vertex.position - middle);
-                }
-            }
-            Shape::FlatTriangle { corners, .. } => {
-                *corners = corners.map(|corner| middle + FACTOR * (corner - middle));
-            }
-        }
-        shape
     }
 
     fn subject(&self) -> Shape {

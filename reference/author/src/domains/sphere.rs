@@ -1,12 +1,15 @@
 //! The domain of `Sphere::hit`.
 
+use std::f64::consts::TAU;
+
+use glam::DVec3;
 use protocol::{Interval, Ray, Shape};
 
-use super::fields;
+use super::fields::{self, FURTHEST_SIZES};
 use super::shape::{
     self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
 };
-use super::{Aspect, FunctionDomain, Generator};
+use super::{Aspect, Call, FunctionDomain, Generator};
 use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -17,7 +20,8 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     calls: shape::calls,
     function: "Sphere::hit",
     aspects: &[
-        SIZE, PLACE, OCTANT, NUMBER, START, DISTANCE, LINE, DIRECTION, RANGE, HISTORY,
+        SIZE, PLACE, OCTANT, NUMBER, START, DISTANCE, LINE, LATITUDE, DIRECTION, RANGE, END,
+        HISTORY,
     ],
 };
 
@@ -31,16 +35,26 @@ const START: Aspect<ShapeCall> = Aspect {
         "at the centre",
         "on the surface",
         "behind",
+        "just in front",
+        "just inside",
+        "almost at the centre",
     ],
     class: |call| {
-        let Line { sphere, ray64, .. } = Line::of(call)?;
-        let distance = ray64.origin.distance(sphere.center) / sphere.radius;
+        let line = Line::of(call)?;
+        let Line { sphere, ray64, .. } = line;
         let leads_away = ray64.dir.dot(sphere.center - ray64.origin) < 0.0;
-        Some(match distance {
+        let is_near = line
+            .roots
+            .into_iter()
+            .any(|root| root > 0.0 && root < NEAR * sphere.radius);
+        Some(match line.start() {
             ..1e-6 => 3,
-            ..0.99 => 2,
-            ..1.01 => 4,
+            ..0.05 => 8,
+            0.999..1.001 => 4,
+            ..1.0 if is_near => 7,
+            ..1.0 => 2,
             _ if leads_away => 5,
+            _ if is_near => 6,
             ..10.0 => 0,
             _ => 1,
         })
@@ -65,6 +79,35 @@ const LINE: Aspect<ShapeCall> = Aspect {
             ..1.15 => 3,
             _ => 4,
         })
+    },
+};
+
+/// The distance from a root that counts as near, in radii.
+const NEAR: f64 = 0.1;
+
+/// The distance of the hit from the axis through the poles.
+const LATITUDE: Aspect<ShapeCall> = Aspect {
+    name: "latitude",
+    classes: &["near a pole", "anywhere"],
+    class: |call| {
+        let line = Line::of(call)?;
+        Some(usize::from(line.from_pole(line.hits().next()?) > NEAR))
+    },
+};
+
+/// The ends of the range, seen from the roots.
+const END: Aspect<ShapeCall> = Aspect {
+    name: "end of the range",
+    classes: &["just before or behind a root", "anywhere"],
+    class: |call| {
+        let line = Line::of(call)?;
+        let ends = [line.ray64.min, line.ray64.max];
+        let mut distances = ends
+            .iter()
+            .flat_map(|end| line.roots.map(|root| (root - end).abs()));
+        Some(usize::from(
+            !distances.any(|it| it < 0.02 * line.sphere.radius),
+        ))
     },
 };
 
@@ -99,6 +142,17 @@ impl Line {
             approach: line.closest_approach,
             roots: line.roots,
         })
+    }
+
+    /// Returns the distance of the ray's start from the centre, in radii.
+    fn start(&self) -> f64 {
+        self.ray64.origin.distance(self.sphere.center) / self.sphere.radius
+    }
+
+    /// Returns how far a point of the ray on the sphere is from the axis through the poles, in radii.
+    fn from_pole(&self, distance: f64) -> f64 {
+        let radial = (self.ray64.at(distance) - self.sphere.center) / self.sphere.radius;
+        radial.x.hypot(radial.z)
     }
 
     /// Returns whether the line misses the sphere.
@@ -142,10 +196,12 @@ impl Line {
         /// The least difference between the squares of the approach and of 1.
         const TANGENT_MARGIN: f64 = 0.01;
         /// The least difference between a distance and an end of the range, in radii.
-        const END_MARGIN: f64 = 0.02;
-        let distance = self.ray64.origin.distance(self.sphere.center) / self.sphere.radius;
+        const END_MARGIN: f64 = 0.01;
+        let distance = self.start();
         let squared = (self.approach * self.approach - 1.0).abs();
-        if squared < TANGENT_MARGIN.max(64.0 * EPSILON * distance * distance) {
+        if distance > FURTHEST_SIZES
+            || squared < TANGENT_MARGIN.max(64.0 * EPSILON * distance * distance)
+        {
             return false;
         }
         let margin = (END_MARGIN * self.sphere.radius).max(2.0 * self.distance_error());
@@ -166,13 +222,12 @@ impl Line {
         let error = self.distance_error();
         let position = error + 2.0 * EPSILON * coordinates;
         let normal = position / self.sphere.radius;
-        let height = (self.ray64.at(distance) - self.sphere.center).y / self.sphere.radius;
-        let from_pole = (1.0 - height * height).max(0.0).sqrt();
+        let from_pole = self.from_pole(distance);
         match quantity {
             "distance" => error <= PART * 1e-4 * coordinates.max(distance),
             "position" => position <= PART * 1e-4 * coordinates.max(distance),
             "normal" | "unit_normal" => normal <= PART * 1e-3,
-            "uv" => from_pole > 0.05 && normal / from_pole <= PART * 2e-3,
+            "uv" => from_pole > 0.012 && normal / from_pole <= PART * 2e-3,
             _ => true,
         }
     }
@@ -203,19 +258,48 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
         4 => rng.uniform(1.005, 1.15),
         _ => rng.uniform(1.15, 3.0),
     };
-    let closest = center + approach * radius * rng.perpendicular_to(dir);
     let half_chord = radius * (1.0 - approach * approach).max(0.0).sqrt();
-    let ahead = match rng.index(6) {
+    let beside = radius * rng.log_uniform(0.012, NEAR);
+    let ahead = match rng.index(9) {
         0 => radius * rng.uniform(1.2, 10.0),
         1 => radius * rng.uniform(10.0, 29.0),
         2 => half_chord * rng.uniform(-0.9, 0.9),
         3 => 0.0,
         4 => half_chord * rng.sign(),
+        5 => half_chord + beside,
+        6 => (half_chord - beside) * rng.sign(),
+        7 => radius * rng.log_uniform(1e-4, 0.04) * rng.sign(),
         _ => -radius * rng.log_uniform(1.2, 29.0),
     };
-    let (origin, dir) = fields::ray_toward(rng, closest, dir, ahead, radius)?;
-    let Interval { min, max } = fields::range(rng, ahead.max(0.0) + 2.0 * radius);
-    Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(min, max))
+    let target = if rng.index(8) > 0 {
+        center + approach * radius * rng.perpendicular_to(dir)
+    } else {
+        // Near a pole.
+        let from_pole = rng.log_uniform(0.012, NEAR);
+        let height = rng.sign() * (1.0 - from_pole * from_pole).sqrt();
+        let turn = rng.uniform(0.0, TAU);
+        let pole = DVec3::new(from_pole * turn.cos(), height, from_pole * turn.sin());
+        center + radius * pole
+    };
+    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, radius)?;
+    let ray = Ray::new(origin.as_vec3(), dir.as_vec3());
+    let range = match rng.index(8) {
+        0 => range_from_a_root(rng, &Line::of(&ShapeCall::new(*shape, ray))?)?,
+        _ => fields::range(rng, ahead.max(0.0) + 2.0 * radius),
+    };
+    Some(ray.within(range.min, range.max))
+}
+
+/// Draws a range that begins or ends just before or behind a root.
+fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
+    let beside = line.sphere.radius * rng.log_uniform(0.0101, 0.02);
+    let end = (line.roots[rng.index(2)] + rng.sign() * beside) as f32;
+    let range = if rng.coin() {
+        Interval::new(end, f32::INFINITY)
+    } else {
+        Interval::new(0.0, end)
+    };
+    (end >= 0.0).then_some(range)
 }
 
 /// Draws spheres of these sizes, each with rays that belong to an idea, every other one a hit. All
@@ -232,15 +316,29 @@ pub fn tables(
         subject_aspects: 4,
         subject: &drawn_shape,
         input: &ray,
+        similar: &|call| similar(call, judged),
         fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),
     };
     generator.tables(rng, sizes)
 }
 
+/// Returns a call whose answer differs in what is judged: another sphere is hit, or at another place.
+fn similar(call: &ShapeCall, judged: &[&str]) -> ShapeCall {
+    let Shape::Sphere { center, .. } = call.shape else {
+        return *call;
+    };
+    if judged.contains(&"shape") {
+        call.with_other_number()
+    } else if judged.contains(&"position") {
+        call.moved_to_origin(center)
+    } else {
+        call.smaller()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::domains::Call;
     use crate::seed::Seed;
 
     /// The quadratic formula in full, in single precision.

@@ -19,12 +19,14 @@ pub struct Generator<'a, C: Call> {
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
     pub input: DrawInput<'a, C>,
+    /// Returns a call of another subject, which shows whether anything is kept from the call before.
+    pub similar: &'a dyn Fn(&C) -> C,
     /// Returns whether a call belongs to the idea of an item, and all correct formulas agree about it.
     pub fits: &'a dyn Fn(&C) -> bool,
 }
 
 /// The number of pairs of a hit and a miss in a table.
-const PAIRS: usize = 8;
+const PAIRS: usize = 10;
 
 impl<C: Call> Generator<'_, C> {
     /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class
@@ -33,8 +35,12 @@ impl<C: Call> Generator<'_, C> {
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
         let (of_subject, of_row) = self.aspects.split_at(self.subject_aspects);
         let mut balances = (Balance::new(of_subject), Balance::new(of_row));
-        let table = |&size: &usize| rng.retry(|rng| self.table(rng, size, &mut balances));
-        let mut tables: Vec<Drawn<C>> = sizes.iter().map(table).collect();
+        let table = |(index, &size): (usize, &usize)| {
+            balances.0.begin(size);
+            balances.1.begin(index);
+            rng.retry(|rng| self.table(rng, size, &mut balances))
+        };
+        let mut tables: Vec<Drawn<C>> = sizes.iter().enumerate().map(table).collect();
         let again = tables.last().and_then(|last| self.with_other_subject(last));
         tables.extend(again);
         tables
@@ -42,13 +48,13 @@ impl<C: Call> Generator<'_, C> {
 
     /// Returns those calls that also fit another subject, or `None` if only hits or only misses do.
     fn with_other_subject(&self, (subject, inputs): &Drawn<C>) -> Option<Drawn<C>> {
-        let other = C::new(*subject, *inputs.first()?).other_subject();
         // The first call is the one before it again.
-        let calls = inputs.iter().rev().map(|&input| C::new(other, input));
+        let calls = inputs.iter().rev().map(|&input| C::new(*subject, input));
+        let calls = calls.map(|call| (self.similar)(&call));
         let calls: Vec<C> = calls.filter(|call| (self.fits)(call)).collect();
         let hits = calls.iter().filter(|call| call.is_hit()).count();
         let inputs = calls.iter().map(C::input).collect();
-        (0 < hits && hits < calls.len()).then_some((other, inputs))
+        (0 < hits && hits < calls.len()).then_some((calls[0].subject(), inputs))
     }
 
     /// Draws a subject and its calls. Returns `None` if few calls of the subject fit.
@@ -66,7 +72,6 @@ impl<C: Call> Generator<'_, C> {
             rng.attempt(ATTEMPTS, |rng| self.call(rng, &subject))
         })?;
         let subject = subject.subject();
-        of_row.next_subject();
         let pairs = (0..PAIRS).map(|_| {
             let hit = of_row.choose(rng, |rng| self.call_of(rng, &subject, true))?;
             let miss = rng.coin().then(|| self.miss_by_range(rng, &hit)).flatten();

@@ -1,9 +1,11 @@
 //! The domain of `Triangle::hit`.
 
-use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+use glam::{BVec2, BVec3, DVec2, DVec3, Vec2, Vec3};
 use protocol::{Ray, Shape, Vertex};
 
-use super::fields;
+use super::fields::{self, FURTHEST, FURTHEST_SIZES};
 use super::shape::{
     self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
 };
@@ -14,7 +16,7 @@ use crate::seed::Rng;
 
 /// The domain of `Triangle::hit`.
 pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
-    pairs: &[["size", "direction"], ["size", "start"]],
+    pairs: &[["size", "axis"], ["size", "start"]],
     calls: shape::calls,
     function: "Triangle::hit",
     aspects: &[
@@ -22,19 +24,32 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         PLACE,
         OCTANT,
         NUMBER,
+        PLANE,
         FACING,
         FORM,
+        EDGE_ALONG,
         TILES,
         NORMALS,
+        SPREAD,
         START,
         DISTANCE,
         COSINE,
         CROSSING,
         LEAST_WEIGHT,
         DIRECTION,
+        AXIS,
         RANGE,
         HISTORY,
     ],
+};
+
+/// The triangle's plane.
+const PLANE: Aspect<ShapeCall> = Aspect {
+    name: "plane",
+    classes: &["across x", "across y", "across z", "any"],
+    class: |call| {
+        Some((FACING.class)(call).map_or(3, |facing| if facing < 6 { facing % 3 } else { 3 }))
+    },
 };
 
 /// The direction in which the triangle faces.
@@ -66,34 +81,77 @@ const FACING: Aspect<ShapeCall> = Aspect {
 /// The form of the triangle.
 const FORM: Aspect<ShapeCall> = Aspect {
     name: "form",
-    classes: &["wide", "narrow at p0", "narrow at p1", "narrow at p2"],
+    classes: &[
+        "wide",
+        "narrow at p0",
+        "narrow at p1",
+        "narrow at p2",
+        "flat at p0",
+        "flat at p1",
+        "flat at p2",
+    ],
     class: |call| {
         let corners = scan::corners(&call.shape)?;
-        let narrow = (0..3).find(|&corner| {
+        let angle = |corner: usize| {
             let side = |other: usize| corners[(corner + other) % 3] - corners[corner];
-            let (a, b) = (side(1).normalize(), side(2).normalize());
-            a.cross(b).length() < NARROW && a.dot(b) > 0.0
-        });
-        Some(narrow.map_or(0, |corner| 1 + corner))
+            side(1).angle_between(side(2))
+        };
+        let narrow = (0..3).find(|&corner| angle(corner) < NARROW);
+        let flat = (0..3).find(|&corner| angle(corner) > PI - 2.0 * NARROW);
+        Some(match (flat, narrow) {
+            (Some(corner), _) => 4 + corner,
+            (None, Some(corner)) => 1 + corner,
+            (None, None) => 0,
+        })
     },
 };
 
-/// The sine of the angles that count as narrow.
+/// The edges of the triangle.
+const EDGE_ALONG: Aspect<ShapeCall> = Aspect {
+    name: "edges",
+    classes: &[
+        "one along x",
+        "one along y",
+        "one along z",
+        "none along an axis",
+    ],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        let is_along = |axis: usize, from: usize| {
+            let edge = corners[(from + 1) % 3] - corners[from];
+            (0..3).all(|other| other == axis || edge[other] == 0.0)
+        };
+        let axis = (0..3).find(|&axis| (0..3).any(|from| is_along(axis, from)));
+        Some(axis.unwrap_or(3))
+    },
+};
+
+/// The largest angle that counts as narrow, in radians.
 const NARROW: f64 = 0.045;
 
 /// The texture coordinates of the corners.
 const TILES: Aspect<ShapeCall> = Aspect {
     name: "uv of the corners",
-    classes: &["in [0, 1]", "beyond"],
+    classes: &["in [0, 1]", "beyond", "all equal", "with the same v"],
     class: |call| {
         let Shape::Triangle { vertices, .. } = call.shape else {
             return None;
         };
         let unit = 0.0..=1.0;
-        let is_inside = |vertex: &Vertex| vertex.uv.to_array().iter().all(|it| unit.contains(it));
-        Some(usize::from(!vertices.iter().all(is_inside)))
+        let uvs = vertices.map(|vertex| vertex.uv);
+        let is_inside = |uv: &Vec2| uv.to_array().iter().all(|it| unit.contains(it));
+        let (same_u, same_v) = (all_equal(uvs.map(|uv| uv.x)), all_equal(uvs.map(|uv| uv.y)));
+        Some(match (same_u, same_v) {
+            (true, true) => 2,
+            (false, true) => 3,
+            _ => usize::from(!uvs.iter().all(is_inside)),
+        })
     },
 };
+
+fn all_equal(values: [f32; 3]) -> bool {
+    values.iter().all(|value| *value == values[0])
+}
 
 /// The side to which the normals of the corners point.
 const NORMALS: Aspect<ShapeCall> = Aspect {
@@ -109,6 +167,40 @@ const NORMALS: Aspect<ShapeCall> = Aspect {
     },
 };
 
+/// The axis that the ray is parallel to. A triangle across an axis is seldom seen from both sides.
+const AXIS: Aspect<ShapeCall> = Aspect {
+    name: "axis",
+    classes: &["along x", "along y", "along z", "any"],
+    class: |call| {
+        let direction = (DIRECTION.class)(call)?;
+        Some(if direction < 6 { direction % 3 } else { 3 })
+    },
+};
+
+/// The largest angle between the normals of two corners.
+const SPREAD: Aspect<ShapeCall> = Aspect {
+    name: "spread of the normals",
+    classes: &["none", "to 45°", "to 90°", "beyond"],
+    class: |call| {
+        let normals = corner_normals(&call.shape)?;
+        let cosine = |from: usize| normals[from].dot(normals[(from + 1) % 3]);
+        let least = (0..3).map(cosine).fold(f64::INFINITY, f64::min);
+        Some(match least {
+            _ if normals[0] == normals[1] && normals[1] == normals[2] => 0,
+            FRAC_1_SQRT_2.. => 1,
+            0.0.. => 2,
+            _ => 3,
+        })
+    },
+};
+
+fn corner_normals(shape: &Shape) -> Option<[DVec3; 3]> {
+    let Shape::Triangle { vertices, .. } = shape else {
+        return None;
+    };
+    Some(vertices.map(|vertex| vertex.normal.as_dvec3()))
+}
+
 /// The start of the ray, seen from the triangle. Its size is half of its box's longest side.
 const START: Aspect<ShapeCall> = Aspect {
     name: "start",
@@ -119,6 +211,7 @@ const START: Aspect<ShapeCall> = Aspect {
         "behind, up to 30 sizes away",
         "on the surface",
         "leads away",
+        "just in front or behind",
     ],
     class: |call| {
         let Plane {
@@ -129,11 +222,15 @@ const START: Aspect<ShapeCall> = Aspect {
         Some(match sizes {
             ..-0.01 => 5,
             ..0.01 => 4,
+            ..NEAR => 6,
             ..3.0 => side,
             _ => side + 1,
         })
     },
 };
+
+/// The distance from the plane that counts as near, in sizes.
+const NEAR: f64 = 0.05;
 
 /// The cosine between the ray and the triangle's normal.
 const COSINE: Aspect<ShapeCall> = Aspect {
@@ -196,6 +293,10 @@ pub struct Plane {
     /// The ray's direction times the normal (p1 − p0) × (p2 − p0), which has length one. Negative if
     /// the ray comes from the front.
     pub slope: f64,
+    /// The length of the sum of the corners' normals, times the weights.
+    normal_length: f64,
+    /// The distance of the ray's start from the triangle, in sizes.
+    start: f64,
     /// The smallest altitude.
     altitude: f64,
     /// The longest side.
@@ -215,7 +316,15 @@ impl Plane {
         let normal = (p1 - p0).cross(p2 - p0);
         let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
         let points = corners.into_iter().chain([ray64.origin]);
+        let weighted = corner_normals(&call.shape).map(|[n0, n1, n2]| {
+            let [w0, w1, w2] = crossing.weights;
+            w0 * n0 + w1 * n1 + w2 * n2
+        });
+        let bounds = scan::bounds(&call.shape);
+        let beside = ray64.origin - ray64.origin.clamp(bounds.min, bounds.max);
         Some(Plane {
+            normal_length: weighted.map_or(1.0, DVec3::length),
+            start: beside.length() / call.size(),
             ray64,
             distance: crossing.distance,
             weights: crossing.weights,
@@ -270,13 +379,16 @@ impl Plane {
         /// The least distance from an edge of a ray at a smaller cosine, in altitudes.
         const GRAZING_MARGIN: f64 = 0.1;
         /// The least difference between a distance and an end of the range, in sizes.
-        const END_MARGIN: f64 = 0.02;
+        const END_MARGIN: f64 = 0.0101;
         let margin = if self.slope.abs() < EDGE_COSINE {
             GRAZING_MARGIN
         } else {
             EDGE_MARGIN
         };
         let margin = margin.max(4.0 * self.weight_error());
+        if self.start > FURTHEST_SIZES || self.coordinates > FURTHEST {
+            return false;
+        }
         if self.slope.abs() < 3.5e-3 || self.least_weight().abs() < margin {
             return false;
         }
@@ -296,7 +408,12 @@ impl Plane {
         let scale = self.coordinates.max(self.distance);
         match quantity {
             "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
-            "normal" => 2.0 * self.weight_error() <= PART * 1e-3,
+            "normal" => {
+                /// The least length of a sum whose direction is well known.
+                const LEAST: f64 = 0.3;
+                let error = 2.0 * self.weight_error() / self.normal_length;
+                self.normal_length > LEAST && error <= PART * 1e-3
+            }
             // Corners may differ by five tiles.
             "uv" => 5.0 * self.weight_error() <= PART * 2e-3,
             _ => true,
@@ -322,15 +439,49 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let corners = corners.map(|corner| (start + factor * corner).as_vec3());
     let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());
     let side = rng.sign() * (p1 - p0).cross(p2 - p0).normalize();
-    let (least, most) = if rng.coin() { (0.0, 1.0) } else { (-2.0, 3.0) };
-    let vertices = corners.map(|corner| {
-        let normal = (side + 0.7 * rng.direction()).normalize();
-        let uv = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
-        Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
-    });
+    let vertices = with_attributes(rng, corners, side);
     Shape::Triangle {
         vertices,
         shape: fields::number(rng),
+    }
+}
+
+/// Draws normals, which more or less point to a side, and texture coordinates.
+fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
+    let common = (side + 0.7 * rng.direction()).normalize();
+    let spread = [0.0, 0.4, 0.8, 2.0, 2.0][rng.index(5)];
+    let (least, most) = if rng.coin() { (0.0, 1.0) } else { (-2.0, 3.0) };
+    let tile = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+    let (same_u, same_v) =
+        [(true, true), (false, true), (false, false), (false, false)][rng.index(4)];
+    corners.map(|corner| {
+        let normal = (common + spread * rng.direction()).normalize();
+        let uv = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+        let uv = DVec2::select(BVec2::new(same_u, same_v), tile, uv);
+        Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
+    })
+}
+
+/// Returns a call whose answer differs in what is judged: another triangle is hit, or at another place.
+fn similar(call: &ShapeCall, judged: &[&str]) -> ShapeCall {
+    let Shape::Triangle { vertices, .. } = call.shape else {
+        return *call;
+    };
+    let of_corners = ["normal", "uv", "shape"];
+    if of_corners.iter().any(|name| judged.contains(name)) {
+        let mut similar = call.with_other_number();
+        if let Shape::Triangle { vertices, .. } = &mut similar.shape {
+            // Each corner has what another one had.
+            let [a, b, c] = vertices.map(|vertex| (vertex.normal, vertex.uv));
+            for (vertex, (normal, uv)) in vertices.iter_mut().zip([b, c, a]) {
+                (vertex.normal, vertex.uv) = (normal, uv + Vec2::splat(0.25));
+            }
+        }
+        similar
+    } else if judged.contains(&"position") {
+        call.moved_to_origin(vertices[0].position)
+    } else {
+        call.smaller()
     }
 }
 
@@ -342,24 +493,41 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
         2 => rng.log_uniform(1e-6, 1e-3),
         _ => 1.0,
     };
-    let corners = rng.retry(|rng| {
-        let corners @ [p0, p1, p2] = [(); 3].map(|()| {
+    // Often, one edge is along an axis in the triangle's plane.
+    let (from, along) = (rng.index(3), (axis + 1 + rng.index(2)) % 3);
+    let has_edge_along = rng.index(3) == 0;
+    let mut corners = rng.retry(|rng| {
+        let mut corners = [(); 3].map(|()| {
             let mut corner = rng.point(1.0);
             corner[axis] *= tilt;
             corner
         });
+        if has_edge_along {
+            let start = corners[from];
+            let end = &mut corners[(from + 1) % 3];
+            *end = DVec3::select(
+                BVec3::from_array([0, 1, 2].map(|it| it == along)),
+                *end,
+                start,
+            );
+        }
+        let [p0, p1, p2] = corners;
         let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
         let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
         (altitude > 0.3 * longest && longest > 0.5).then_some(corners)
     });
-    if rng.index(4) > 0 {
-        return corners;
-    }
-    // The side opposite a corner is so short that the corner is narrow.
     let corner = rng.index(3);
     let (second, third) = ((corner + 1) % 3, (corner + 2) % 3);
-    let mut corners = corners;
-    corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03));
+    match rng.index(6) {
+        // The side opposite a corner is so short that the corner is narrow.
+        0 => corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03)),
+        // A corner is so close to the side opposite it that the triangle is flat there.
+        1 => {
+            let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
+            corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, 0.04));
+        }
+        _ => {}
+    }
     corners
 }
 
@@ -398,7 +566,8 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     };
     let ahead = size
         * match rng.index(6) {
-            0 | 1 => rng.log_uniform(0.05, 3.0),
+            0 => rng.log_uniform(NEAR, 3.0),
+            1 => rng.log_uniform(0.0102, NEAR),
             2 | 3 => rng.uniform(3.0, 28.0),
             4 => 0.0,
             _ => -rng.log_uniform(0.05, 28.0),
@@ -419,9 +588,10 @@ pub fn tables(
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
     let generator = Generator {
         aspects: TRIANGLE.aspects,
-        subject_aspects: 8,
+        subject_aspects: 11,
         subject: &drawn_shape,
         input: &ray,
+        similar: &|call| similar(call, judged),
         fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),
     };
     generator.tables(rng, sizes)

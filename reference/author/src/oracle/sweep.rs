@@ -81,7 +81,11 @@ impl SweepBuilder<'_> {
     /// Returns the cost of the subtree over the primitives `indices`. `start` is the number of
     /// primitives to the left of the subtree.
     fn node_cost(&mut self, indices: &mut [usize], level: u32, start: usize) -> f64 {
-        let relative_area = bounds_of(self.boxes, indices).area() / self.root_area;
+        let relative_area = match self.root_area {
+            // All primitives lie on a line.
+            0.0 => 1.0,
+            root_area => bounds_of(self.boxes, indices).area() / root_area,
+        };
         let is_leaf = indices.len() <= self.max_leaf_size;
         let own = if is_leaf {
             relative_area * indices.len() as f64
@@ -219,6 +223,8 @@ mod tests {
             node(1, 1, 3, true, 3.0 * 14.0 / root),
         ];
         assert_eq!(sweep.nodes, expected);
+        let point = Bounds::around([DVec3::ZERO]);
+        assert_eq!(upper_levels(&[point], 1).nodes, [node(0, 0, 1, true, 1.0)]);
         // Halfway between the first and the second centre.
         assert_eq!(sweep.plane, Some((0, 10.5)));
         assert_eq!(upper_levels(&cubes, 4).plane, None);

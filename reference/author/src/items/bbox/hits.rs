@@ -1,8 +1,8 @@
 //! Items about hits and misses of rays from all sides.
 
-use super::{USUAL, almost_parallel, is_ordinary, questions};
+use super::{almost_parallel, is_ordinary, questions};
 use crate::domains::bbox::BoxCall;
-use crate::domains::fields::EVERY_SIZE;
+use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::items::{Declaration, groups};
 
 /// Returns whether the box is not behind the ray, which starts outside.
@@ -58,7 +58,7 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
            is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     questions: |rng| {
-        let sizes = [EVERY_SIZE, USUAL, USUAL].concat();
+        let sizes = [EVERY_SIZE, EVERY_SIZE].concat();
         let parallel = questions(rng, &sizes, |call| !call.is_flat() && call.is_parallel());
         [parallel, vec![almost_parallel::question(rng)]].concat()
     },

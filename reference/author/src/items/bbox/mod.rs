@@ -15,9 +15,6 @@ use crate::seed::{Rng, Seed};
 
 type Query = (Ray, Interval);
 
-/// The sizes of most boxes. Smaller ones are asked where an absolute number could decide.
-const USUAL: &[usize] = &[5, 4, 6, 7, 8];
-
 /// Returns the items of the task `bbox`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     let all = [

@@ -1,7 +1,7 @@
 //! Items about the times that count.
 
-use super::{USUAL, is_ordinary, questions};
-use crate::domains::fields::EVERY_SIZE;
+use super::{is_ordinary, questions};
+use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::items::{Declaration, groups};
 use crate::oracle::Ray64;
 

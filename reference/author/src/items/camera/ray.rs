@@ -2,10 +2,10 @@
 
 use glam::{UVec2, uvec2};
 use judging::exam::ExamQuestion;
-use protocol::{PinholeCamera, Rows, Sample};
+use protocol::{Rows, Sample};
 
 use super::{camera, camera_question, direction_question, middle_of, random_below};
-use crate::domains::camera::{ASPECT_RATIOS, FIELDS_OF_VIEW, drawn, offset, sample, side};
+use crate::domains::camera::{ASPECT_RATIOS, FIELDS_OF_VIEW, cameras, drawn, offset, sample, side};
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
 
@@ -58,11 +58,13 @@ pub(super) const OFFSET_AXES: Declaration = Declaration {
                 offset: pairs[i % pairs.len()].into(),
             }
         });
-        let single = direction_question(camera(90.0, 1.0, UVec2::ONE), samples);
+        let samples: Vec<Sample> = samples.collect();
+        let aspect = drawn(ASPECT_RATIOS[[2, 4][rng.index(2)]], rng);
+        let single = direction_question(camera(90.0, aspect, UVec2::ONE), samples);
         let films = [uvec2(1, rng.integer(2, 9)), uvec2(rng.integer(2, 9), 1)];
         let line = |film: UVec2| {
             let camera = camera(rng.uniform(60.0, 100.0), 1.0, film);
-            let samples: Vec<Sample> = (0..12).map(|_| sample(rng, &camera)).collect();
+            let samples: Vec<Sample> = (0..12).map(|_| sample(rng, camera.film)).collect();
             direction_question(camera, samples)
         };
         [vec![single], films.map(line).to_vec()].concat()
@@ -79,26 +81,12 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
     questions: |rng| {
         let film = uvec2(3840, 2160);
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
-        let films = [
-            (4096, 4096),
-            (4096, side(rng, 1)),
-            (side(rng, 3), 4096),
-            (side(rng, 3), side(rng, 2)),
-        ];
-        let mut cameras = vec![usual];
-        for (x, y) in films {
-            let part = ASPECT_RATIOS[rng.index(ASPECT_RATIOS.len())];
-            cameras.push(camera(
-                rng.uniform(20.0, 100.0),
-                drawn(part, rng),
-                uvec2(x, y),
-            ));
-        }
-        let question = |camera: PinholeCamera| {
-            let samples: Vec<Sample> = (0..24).map(|_| sample(rng, &camera)).collect();
-            direction_question(camera, samples)
-        };
-        cameras.into_iter().map(question).collect()
+        let usual_samples = (0..24).map(|_| sample(rng, film)).collect();
+        let mut all = vec![(usual, usual_samples)];
+        all.extend(cameras(rng));
+        let all = all.into_iter();
+        all.map(|(camera, samples)| direction_question(camera, samples))
+            .collect()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -116,10 +104,12 @@ fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
 fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuestion> {
     let parts = FIELDS_OF_VIEW.into_iter().enumerate();
     let question = |(index, part)| {
-        let aspect = drawn(ASPECT_RATIOS[index % ASPECT_RATIOS.len()], rng);
+        // Narrow angles of wide sensors: there a direction is longest.
+        let ratio = (2 * ASPECT_RATIOS.len() - 1 - index) % ASPECT_RATIOS.len();
+        let aspect = drawn(ASPECT_RATIOS[ratio], rng);
         let film = uvec2(side(rng, index), side(rng, 3 * index + 4));
         let camera = camera(drawn(part, rng), aspect, film);
-        let samples = (0..8).map(|_| sample(rng, &camera));
+        let samples = (0..8).map(|_| sample(rng, camera.film));
         let samples = Rows::List(samples.collect());
         camera_question(judged, camera, samples)
     };

@@ -9,9 +9,6 @@ use crate::domains::sphere::{Line, tables};
 use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
 
-/// The sizes of most spheres. Smaller ones are asked where an absolute number could decide.
-const USUAL: &[usize] = &[5, 4, 6, 3, 7, 8, 5, 4, 6, 7];
-
 /// Returns the items of the task `sphere`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     let all = [

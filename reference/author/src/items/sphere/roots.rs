@@ -1,7 +1,7 @@
 //! Items about which of the two roots counts, if any.
 
-use super::{USUAL, questions};
-use crate::domains::fields::{EVERY_SIZE, TINY};
+use super::questions;
+use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
 use crate::domains::sphere::Line;
 use crate::items::{Declaration, groups};
 

@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
 
-use super::{USUAL, questions};
-use crate::domains::fields::EVERY_SIZE;
+use super::questions;
+use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::items::{Declaration, groups, meshes, picture};
 use crate::seed::Rng;
 
@@ -14,7 +14,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
-    questions: |rng| questions(rng, &["position"], USUAL, |_| true),
+    questions: |rng| questions(rng, &["position"], EVERY_SIZE, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
@@ -24,7 +24,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
            surface, so it is never flipped toward the ray.",
     section: "sphere.md#the-normal-points-away-from-the-centre",
-    questions: |rng| questions(rng, &["normal", "unit_normal"], USUAL, |_| true),
+    questions: |rng| questions(rng, &["normal", "unit_normal"], EVERY_SIZE, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
@@ -49,7 +49,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
     look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
-    questions: |rng| questions(rng, &["uv"], USUAL, |_| true),
+    questions: |rng| questions(rng, &["uv"], EVERY_SIZE, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 

@@ -4,8 +4,8 @@ use glam::{Vec2, Vec3, vec3};
 use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape, Vertex};
 
-use super::{USUAL, is_steep, is_well_inside, questions};
-use crate::domains::fields::{self, EVERY_SIZE};
+use super::{is_steep, is_well_inside, questions};
+use crate::domains::fields::{EVERY_SIZE, SMALL, USUAL};
 use crate::domains::triangle::Plane;
 use crate::items::{Declaration, groups, shape_question};
 use crate::seed::Rng;
@@ -110,7 +110,7 @@ pub(super) const TINY: Declaration = Declaration {
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     questions: |rng| {
         let all = ["distance", "position", "normal", "uv", "origin", "shape"];
-        questions(rng, &all, &[EVERY_SIZE, fields::TINY].concat(), |plane| {
+        questions(rng, &all, &[SMALL; 3].concat(), |plane| {
             is_steep(plane) && is_well_inside(plane)
         })
     },
@@ -149,7 +149,7 @@ pub(super) const GRAZING: Declaration = Declaration {
            for a miss: only zero is.",
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     questions: |rng| {
-        let all = ["distance", "position", "uv", "origin", "shape"];
+        let all = ["distance", "position", "normal", "uv", "origin", "shape"];
         questions(rng, &all, USUAL, |plane| !is_steep(plane))
     },
     ..Declaration::ALONE

@@ -10,9 +10,6 @@ use crate::domains::triangle::{Plane, tables};
 use crate::items::{DeclaredItem, draw_items, shape_question};
 use crate::seed::{Rng, Seed};
 
-/// The sizes of most triangles. Smaller ones, whose determinants are tiny, are the idea of an item.
-const USUAL: &[usize] = &[5, 4, 6, 7, 8];
-
 /// Returns the items of the task `triangle`.
 pub fn items(seed: Seed) -> Vec<DeclaredItem> {
     let all = [

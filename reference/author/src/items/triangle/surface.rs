@@ -1,6 +1,7 @@
 //! Items about the quantities of a hit.
 
-use super::{USUAL, is_steep, is_well_inside, questions};
+use super::{is_steep, is_well_inside, questions};
+use crate::domains::fields::USUAL;
 use crate::domains::triangle::Plane;
 use crate::items::{Declaration, groups};
 

@@ -20,15 +20,11 @@ impl Sphere {
             return None;
         }
 
-        let position = ray.at(t);
-        let normal = (position - self.center) / self.radius;
+        let normal = (ray.at(t) - self.center) / self.radius;
         Some(Trace {
-            distance: t,
-            position,
             normal,
             uv: Sphere::uv(normal),
-            origin: ray.origin,
-            shape: self.shape,
+            ..self.trace_at(ray, t)
         })
     }
 }

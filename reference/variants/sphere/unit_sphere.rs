@@ -18,12 +18,10 @@ impl Sphere {
         let t = [near, far].into_iter().find(|t| ray.range.contains(*t))?;
         let normal = (origin + t * dir).normalize();
         Some(Trace {
-            distance: t,
             position: self.center + self.radius * normal,
             normal,
             uv: Sphere::uv(normal),
-            origin: ray.origin,
-            shape: self.shape,
+            ..self.trace_at(ray, t)
         })
     }
 }

@@ -38,16 +38,15 @@ impl Triangle {
         if determinant == 0.0 {
             return None;
         }
-        let inverse = 1.0 / determinant;
         let s = ray.origin - self.p0.position;
-        let t = self.face.dot(s) * inverse;
+        let t = self.face.dot(s) / determinant;
         if !ray.range.contains(t) {
             return None;
         }
 
         let s_x_d = s.cross(ray.dir);
-        let u = self.e2.dot(s_x_d) * inverse;
-        let v = -self.e1.dot(s_x_d) * inverse;
+        let u = self.e2.dot(s_x_d) / determinant;
+        let v = -self.e1.dot(s_x_d) / determinant;
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| self.trace_at(ray, t, u, v))
     }
 }

@@ -22,12 +22,9 @@ impl Triangle {
 
         let Triangle { p0, p1, p2, .. } = self;
         Some(Trace {
-            distance: t,
-            position: ray.at(t),
             normal: p0.normal + u * (p1.normal - p0.normal) + v * (p2.normal - p0.normal),
             uv: p0.uv + u * (p1.uv - p0.uv) + v * (p2.uv - p0.uv),
-            origin: ray.origin,
-            shape: self.shape,
+            ..self.trace_at(ray, t, u, v)
         })
     }
 }

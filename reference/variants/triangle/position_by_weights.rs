@@ -1,8 +1,6 @@
 // Computes the position as the weighted sum of the corners, like normal and uv, so that it is in
 // the plane even if the ray starts far away.
 
-use glam::{Vec2, Vec3};
-
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let e1 = self.p1.position - self.p0.position;
@@ -24,20 +22,11 @@ impl Triangle {
             return None;
         }
 
-        let mut trace = Trace {
-            distance: t,
-            position: Vec3::ZERO,
-            normal: Vec3::ZERO,
-            uv: Vec2::ZERO,
-            origin: ray.origin,
-            shape: self.shape,
-        };
-        for (weight, corner) in weights.into_iter().zip([self.p0, self.p1, self.p2]) {
-            trace.position += weight * corner.position;
-            trace.normal += weight * corner.normal;
-            trace.uv += weight * corner.uv;
-        }
-        trace.normal = trace.normal.normalize();
-        Some(trace)
+        let corners = [self.p0, self.p1, self.p2].map(|corner| corner.position);
+        let weighted = weights.into_iter().zip(corners);
+        Some(Trace {
+            position: weighted.map(|(weight, corner)| weight * corner).sum(),
+            ..self.trace_at(ray, t, u, v)
+        })
     }
 }

@@ -1,20 +1,15 @@
 /// Partitions the primitives in place by the split between buckets with the least `cost` of its two
-/// sides. The `count` buckets divide the box `over` along each axis. Returns the size of the left side.
+/// sides. `bucket` returns the bucket of a primitive along an axis, less than `count`. Returns the size
+/// of the left side.
 fn split_by_bucket_costs(
     primitives: &mut [Primitive],
-    over: BBox,
     count: usize,
+    bucket: impl Fn(&Primitive, usize) -> usize,
     cost: impl Fn(Bucket, Bucket) -> f32,
 ) -> usize {
-    let bucket = |primitive: &Primitive, axis: usize| {
-        let offset = primitive.bbox().center()[axis] - over.min[axis];
-        let part = offset / (over.max[axis] - over.min[axis]);
-        ((part * count as f32) as usize).min(count - 1)
-    };
-
     let mut best = None;
     let mut least = f32::INFINITY;
-    for axis in (0..3).filter(|&axis| over.min[axis] < over.max[axis]) {
+    for axis in 0..3 {
         let mut buckets = vec![Bucket::EMPTY; count];
         for primitive in primitives.iter() {
             let bucket = &mut buckets[bucket(primitive, axis)];
@@ -48,11 +43,6 @@ impl Bucket {
         bbox: BBox::EMPTY,
         size: 0,
     };
-
-    /// Returns this side's contribution to the cost, without the constants.
-    fn cost(self) -> f32 {
-        self.bbox.surface_area() * self.size as f32
-    }
 }
 
 /// Merges several buckets into one.

@@ -6,7 +6,7 @@ use super::Aspect;
 use crate::seed::Rng;
 
 /// How many suitable calls are compared.
-const CANDIDATES: usize = 24;
+const CANDIDATES: usize = 48;
 /// How many calls are drawn at most to find them.
 const ATTEMPTS: usize = 1000;
 

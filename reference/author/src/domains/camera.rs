@@ -23,9 +23,8 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         SENSOR,
     ],
     pairs: &[
-        ["angle", "aspect ratio"],
+        ["angle", "sensor"],
         ["angle", "rows of the film"],
-        ["sensor", "field of view"],
         ["sensor", "columns of the film"],
         ["sensor", "rows of the film"],
     ],

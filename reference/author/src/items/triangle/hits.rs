@@ -149,8 +149,18 @@ pub(super) const GRAZING: Declaration = Declaration {
            for a miss: only zero is.",
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     questions: |rng| {
-        let all = ["distance", "position", "normal", "uv", "origin", "shape"];
-        questions(rng, &all, USUAL, |plane| !is_steep(plane))
+        let all = ["distance", "position", "origin", "shape", "normal", "uv"];
+        // At the smallest cosines, rounding spoils the weights.
+        let quantities = [&all[..4], &all[..]].into_iter();
+        let questions = quantities.map(|judged| {
+            let sizes = if judged.len() < all.len() {
+                USUAL
+            } else {
+                SMALL
+            };
+            questions(rng, judged, sizes, |plane| !is_steep(plane))
+        });
+        questions.flatten().collect()
     },
     ..Declaration::ALONE
 };

@@ -1,7 +1,7 @@
 //! Items about the quantities of a hit.
 
 use super::{is_steep, is_well_inside, questions};
-use crate::domains::fields::USUAL;
+use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::domains::triangle::Plane;
 use crate::items::{Declaration, groups};
 
@@ -20,7 +20,7 @@ pub(super) const POSITION: Declaration = Declaration {
     title: "position is the point where the ray hits the triangle",
     look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
     section: "triangle.md#what-to-return",
-    questions: |rng| questions(rng, &["position"], USUAL, is_from_the_front),
+    questions: |rng| questions(rng, &["position"], EVERY_SIZE, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 
@@ -52,8 +52,13 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
     section: "triangle.md#each-weight-belongs-to-its-corner",
     questions: |rng| {
         questions(rng, &["uv"], USUAL, |plane| {
-            is_from_the_front(plane)
-                && (!plane.is_inside() || plane.weights.iter().any(|&weight| weight > 0.8))
+            // Close to an edge, too, where small weights count.
+            if plane.is_inside() {
+                let is_near_a_corner = plane.weights.iter().any(|&weight| weight > 0.8);
+                is_near_a_corner && is_steep(plane) && plane.slope < 0.0
+            } else {
+                is_from_the_front(plane)
+            }
         })
     },
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
@@ -74,6 +79,6 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     title: "the trace holds the ray's origin and the triangle's shape",
     look: "Copy both: the origin from the ray, and the shape's number from the triangle.",
     section: "triangle.md#what-to-return",
-    questions: |rng| questions(rng, &["origin", "shape"], USUAL, is_from_either_side),
+    questions: |rng| questions(rng, &["origin", "shape"], EVERY_SIZE, is_from_either_side),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };

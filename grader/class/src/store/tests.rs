@@ -44,10 +44,6 @@ pub(crate) fn store() -> (tempfile::TempDir, Store) {
     (folder, store)
 }
 
-fn points(score: Result<Option<ScoreSummary>, Error>) -> Option<u32> {
-    score.unwrap().map(|score| score.points)
-}
-
 pub(crate) fn run() -> Run {
     Run::first_round(Settings {
         exam: "practice".to_owned(),
@@ -99,25 +95,6 @@ fn a_damaged_file_is_an_error_that_names_it() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_listed_is_not_an_empty_one() {
-    let (_folder, store) = store();
-    fs::write(store.folder().join("students"), "a file").unwrap();
-    assert!(store.ids().is_err());
-}
-
-/// The run ends while the files of an earlier result are removed.
-#[test]
-fn a_stamp_is_never_left_without_its_score() {
-    let (_folder, store) = store();
-    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-    fs::create_dir(store.entry_folder("a").join(REPORT)).unwrap();
-    let replaced = store.save_result(&result("a", &["Ann"], nothing()), "key", 1);
-    assert!(replaced.is_err(), "a folder is not removed like a file");
-    store.set_score_aside("a", 1).unwrap();
-    assert_eq!(store.result("a").unwrap(), None);
-}
-
-#[test]
 fn a_state_is_compared_with_its_reason() {
     let (_folder, store) = store();
     let is_stored = |why| store.has_nothing_to_grade("a", why);
@@ -157,46 +134,6 @@ fn both_pages_say_what_counts() {
     for name in [REPORT, FEEDBACK] {
         let page = fs::read_to_string(folder.join(name)).unwrap();
         assert!(page.contains("45 of 50"), "{name}: {page}");
-    }
-}
-
-#[test]
-fn only_a_score_of_this_round_is_set_aside() {
-    let (_folder, store) = store();
-    store.set_score_aside("a", 1).unwrap();
-    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-    store.set_score_aside("a", 2).unwrap();
-    assert_eq!(points(store.replaced_score("a")), None);
-    store.set_score_aside("a", 1).unwrap();
-    assert_eq!(points(store.replaced_score("a")), Some(80));
-    // Without a score, there is none to set aside, and the one before stays.
-    store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
-    store.set_score_aside("a", 1).unwrap();
-    assert_eq!(points(store.replaced_score("a")), Some(80));
-}
-
-#[test]
-fn the_scores_from_before_a_regrade_are_kept() {
-    let (_folder, store) = store();
-    let save = |id: &str, outcome| store.save_graded(&result(id, &["Ann"], outcome), "", 1);
-    for id in ["graded", "nothing", "fault"] {
-        save(id, graded(80));
-        store.set_score_aside(id, 1).unwrap();
-    }
-    save("graded", graded(70));
-    save("nothing", nothing());
-    fs::write(store.entry_folder("nothing").join(PREVIOUS), "{}").unwrap();
-    save("fault", fault());
-    // Doing it again, after an interruption, changes nothing.
-    for _ in 0..2 {
-        store.save_previous_scores().unwrap();
-        assert_eq!(points(store.previous_score("graded")), Some(70));
-        assert_eq!(points(store.previous_score("nothing")), None);
-        assert_eq!(points(store.previous_score("fault")), Some(80));
-        assert_eq!(points(store.previous_score("new")), None);
-        for id in ["graded", "nothing", "fault"] {
-            assert_eq!(points(store.replaced_score(id)), None, "{id}");
-        }
     }
 }
 

@@ -8,7 +8,7 @@ use fuzz::{TARGETS, Target};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use tar::Archive;
+use tar::{Archive, Entry};
 
 /// The number of random inputs per target, about half of them changes to the corpus and half noise.
 /// `cargo fuzz` runs millions.
@@ -22,7 +22,11 @@ fn corpus(target: &Target) -> Vec<Vec<u8>> {
     let file = folder.join(target.name).with_extension("tar");
     let mut archive = Archive::new(File::open(file).expect("each target has a corpus"));
     let entries = archive.entries().expect("the corpus can be read");
-    let inputs = entries.map(|entry| entry.and_then(|entry| entry.bytes().collect()));
+    let input = |mut entry: Entry<File>| {
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes).map(|_| bytes)
+    };
+    let inputs = entries.map(|entry| entry.and_then(input));
     inputs.collect::<Result<_, _>>().unwrap()
 }
 

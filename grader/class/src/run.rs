@@ -154,6 +154,42 @@ mod tests {
     use crate::store::tests::{other_settings, run};
 
     #[test]
+    fn a_regrade_is_compared_with_the_last_finished_round() {
+        let first = Run {
+            state: RoundState::Finished,
+            entries: vec!["a".to_owned()],
+            ..run()
+        };
+        assert!(!first.is_unfinished_regrade());
+        assert!(!run().is_unfinished_regrade(), "there is nothing before it");
+        let second = first.next_round(other_settings());
+        assert_eq!((second.round, second.state), (2, RoundState::SavesPrevious));
+        assert_eq!(second.before, Some(first.settings.clone()));
+        assert_eq!(second.settings, other_settings());
+        assert!(second.is_unfinished_regrade());
+        assert!(second.entries.is_empty());
+
+        // It is stopped, after the scores were saved: those scores stay.
+        let saved = Run {
+            state: RoundState::Started,
+            ..second.clone()
+        };
+        let third = saved.next_round(first.settings.clone());
+        assert_eq!((third.round, third.state), (3, RoundState::Started));
+        assert_eq!(third.before, Some(first.settings.clone()));
+
+        // It is finished, so that the next regrade is compared with it.
+        let finished = Run {
+            state: RoundState::Resumed,
+            ..saved
+        };
+        assert!(!finished.is_unfinished_regrade());
+        let third = finished.next_round(first.settings);
+        assert_eq!((third.round, third.state), (3, RoundState::SavesPrevious));
+        assert_eq!(third.before, Some(other_settings()));
+    }
+
+    #[test]
     fn settings_that_differ_are_named() {
         let own = run().settings;
         assert_eq!(own.differences(&own), Vec::<&str>::new());

@@ -259,4 +259,17 @@ mod tests {
         assert!(sphere.is_starter(&sphere.starter.replace('\n', "\r\n")));
         assert!(!sphere.is_starter(&sphere.starter.replace("todo!", "panic!")));
     }
+
+    #[test]
+    fn starter_has_every_required_declaration() {
+        for file in RAYS.files {
+            let mut required = file.required_declarations.iter();
+            let missing = required.find(|part| !file.starter.contains(**part));
+            assert_eq!(missing, None, "{}", file.name);
+        }
+        // And each task is in a task file.
+        for task in RAYS.assignment.tasks {
+            assert!(RAYS.task_file(task.file).is_some(), "{}", task.id);
+        }
+    }
 }

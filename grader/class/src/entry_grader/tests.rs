@@ -1,15 +1,107 @@
-//! Tests of what a stored score depends on. What is graded, kept and tried again is tested with whole
-//! runs, in `tests/histories` and `tests/it`.
+//! Tests of what is graded, what is taken from earlier runs, and what becomes of faults.
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::io;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use grader::handed_out::RAYS;
+use grader::error::Error;
+use grader::handed_out::{HandedOut, RAYS};
+use grader::score::Score;
+use tempfile::TempDir;
 
 use super::*;
 use crate::entry::{Person, Source};
-use crate::graded_class::tests::policy as policy_of;
+use crate::graded_class::tests::{graded, policy as policy_of, result};
+use crate::run::Settings;
 use crate::store::tests::run;
+
+/// A grader that cannot start the program of any submission.
+#[derive(Default)]
+struct FailingGrader {
+    policy: Policy,
+    /// How often it was asked.
+    asked: AtomicUsize,
+    /// The store that it searches for a result of entry `a` while grading.
+    watched: Option<Store>,
+    has_seen_result: AtomicBool,
+}
+
+impl SubmissionGrader for FailingGrader {
+    fn handed_out(&self) -> &'static HandedOut {
+        &RAYS
+    }
+
+    fn policy(&self) -> &Policy {
+        &self.policy
+    }
+
+    fn settings(&self) -> Result<Settings, Error> {
+        Ok(run().settings)
+    }
+
+    fn task_points(&self) -> BTreeMap<String, u32> {
+        BTreeMap::new()
+    }
+
+    fn grade(
+        &self,
+        _: &Submission,
+        _: &mut ReportFiles,
+        _: &dyn Fn(&str),
+    ) -> Result<(Score, String), Error> {
+        self.asked.fetch_add(1, Ordering::Relaxed);
+        let has_result = |store: &Store| store.result("a").unwrap().is_some();
+        let has_result = self.watched.as_ref().is_some_and(has_result);
+        self.has_seen_result.fetch_or(has_result, Ordering::Relaxed);
+        Err(io::Error::other("no\u{1b} program").into())
+    }
+}
+
+/// A folder for submissions, a store in it, and a grader.
+struct Folder {
+    folder: TempDir,
+    store: Store,
+    grader: FailingGrader,
+}
+
+impl Folder {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(&folder.path().join("out"));
+        let grader = FailingGrader {
+            watched: Some(store.clone()),
+            ..FailingGrader::default()
+        };
+        Folder {
+            folder,
+            store,
+            grader,
+        }
+    }
+
+    /// Calls a function with what grades the folder's entries.
+    fn with<T>(&self, call: impl FnOnce(&EntryGrader) -> T) -> T {
+        call(&EntryGrader {
+            grader: &self.grader,
+            store: &self.store,
+            run: &run(),
+        })
+    }
+
+    fn is_done(&self, entry: &Entry) -> bool {
+        self.with(|grader| grader.is_done(entry))
+    }
+
+    fn grade(&self, entry: &Entry) -> EntryResult {
+        self.with(|grader| grader.grade(entry, &|_| {}).unwrap().0)
+    }
+
+    fn asked(&self) -> usize {
+        self.grader.asked.load(Ordering::Relaxed)
+    }
+}
 
 /// Returns an entry with a task file in this folder.
 fn written(id: &str, folder: &Path) -> Entry {
@@ -17,6 +109,33 @@ fn written(id: &str, folder: &Path) -> Entry {
     fs::write(&path, "new").unwrap();
     let source = Source::Files(vec![("sphere.rs".to_owned(), path)]);
     Entry::new(id, Person::named("Ann"), "", source)
+}
+
+#[test]
+fn a_submission_that_cannot_be_graded_is_tried_again_and_then_a_fault() {
+    let folder = Folder::new();
+    let entry = written("a", folder.folder.path());
+    let found = folder.grade(&entry);
+    let EntryOutcome::Fault(why) = &found.outcome else {
+        panic!("{found:?}");
+    };
+    assert!(why.ends_with("no\\u{1b} program"), "{why}");
+    assert_eq!(folder.asked(), ATTEMPTS);
+    assert_eq!(folder.store.result("a").unwrap(), Some(found));
+    assert!(!folder.is_done(&entry));
+}
+
+/// Otherwise a run that is killed between two files of an entry would leave an old stamp beside a new
+/// score, which would count if the submission became the old one again.
+#[test]
+fn an_entry_has_no_result_while_it_is_graded_again() {
+    let folder = Folder::new();
+    let graded = result("a", &["Ann"], graded(80));
+    folder.store.save_graded(&graded, "old key", 1);
+    assert!(folder.store.result("a").unwrap().is_some());
+    folder.grade(&written("a", folder.folder.path()));
+    assert_eq!(folder.asked(), ATTEMPTS);
+    assert!(!folder.grader.has_seen_result.load(Ordering::Relaxed));
 }
 
 #[test]

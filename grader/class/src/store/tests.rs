@@ -44,6 +44,10 @@ pub(crate) fn store() -> (tempfile::TempDir, Store) {
     (folder, store)
 }
 
+fn points(score: Result<Option<ScoreSummary>, Error>) -> Option<u32> {
+    score.unwrap().map(|score| score.points)
+}
+
 pub(crate) fn run() -> Run {
     Run::first_round(Settings {
         exam: "practice".to_owned(),
@@ -94,6 +98,18 @@ fn a_damaged_file_is_an_error_that_names_it() {
     assert_eq!(store.cached_score("a", "key"), None);
 }
 
+/// The run ends while the files of an earlier result are removed.
+#[test]
+fn a_stamp_is_never_left_without_its_score() {
+    let (_folder, store) = store();
+    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
+    fs::create_dir(store.entry_folder("a").join(REPORT)).unwrap();
+    let replaced = store.save_result(&result("a", &["Ann"], nothing()), "key", 1);
+    assert!(replaced.is_err(), "a folder is not removed like a file");
+    store.set_score_aside("a", 1).unwrap();
+    assert_eq!(store.result("a").unwrap(), None);
+}
+
 #[test]
 fn a_state_is_compared_with_its_reason() {
     let (_folder, store) = store();
@@ -134,6 +150,31 @@ fn both_pages_say_what_counts() {
     for name in [REPORT, FEEDBACK] {
         let page = fs::read_to_string(folder.join(name)).unwrap();
         assert!(page.contains("45 of 50"), "{name}: {page}");
+    }
+}
+
+#[test]
+fn the_scores_from_before_a_regrade_are_kept() {
+    let (_folder, store) = store();
+    let save = |id: &str, outcome| store.save_graded(&result(id, &["Ann"], outcome), "", 1);
+    for id in ["graded", "nothing", "fault"] {
+        save(id, graded(80));
+        store.set_score_aside(id, 1).unwrap();
+    }
+    save("graded", graded(70));
+    save("nothing", nothing());
+    fs::write(store.entry_folder("nothing").join(PREVIOUS), "{}").unwrap();
+    save("fault", fault());
+    // Doing it again, after an interruption, changes nothing.
+    for _ in 0..2 {
+        store.save_previous_scores().unwrap();
+        assert_eq!(points(store.previous_score("graded")), Some(70));
+        assert_eq!(points(store.previous_score("nothing")), None);
+        assert_eq!(points(store.previous_score("fault")), Some(80));
+        assert_eq!(points(store.previous_score("new")), None);
+        for id in ["graded", "nothing", "fault"] {
+            assert_eq!(points(store.replaced_score(id)), None, "{id}");
+        }
     }
 }
 

@@ -1,14 +1,14 @@
-//! Meshes in OBJ files.
+//! Meshes in OBJ files, parsed by `tobj`.
 //!
-//! The crate `tobj` reports errors without their lines, accepts NaN, and splits concave faces wrongly.
-//! A scene needs only positions, uvs, normals and faces, so this module reads them itself.
+//! `tobj` reports errors without their lines, accepts NaN, and splits concave faces wrongly. So this
+//! module checks each line first, and splits the faces into triangles itself.
 
 #[cfg(test)]
 mod tests;
 
 use std::path::Path;
 
-use glam::{DVec3, Vec2, Vec3, vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::error::{SceneError, TextPosition};
 use super::mesh::Face;
@@ -32,8 +32,8 @@ pub(super) fn load(path: &Path) -> Result<Vec<Face>, SceneError> {
 /// so everything else is ignored.
 fn parse(text: &str) -> Result<Vec<Face>, SceneError> {
     let text = &text.replace("\r\n", "\n").replace('\r', "\n");
-    let read = read(&statements(text));
-    let mesh = read.and_then(|(elements, faces)| triangles(&elements, &faces));
+    let checked = check(&statements(text));
+    let mesh = checked.and_then(|(text, faces)| triangles(&text, &faces));
     mesh.map_err(|(line, message)| {
         let position = line.map(|line| TextPosition::new(text, line, 0));
         SceneError::new(position, message)
@@ -65,69 +65,71 @@ fn statements(text: &str) -> Vec<(usize, Vec<&str>)> {
     statements
 }
 
-/// The elements that faces refer to: the positions, the uvs and the normals. The third number of a uv
-/// is not used.
-type Elements = [Vec<Vec3>; 3];
-
 /// A face that is known to be valid.
-struct ObjFace {
+struct CheckedFace {
     line: usize,
-    /// The indices of each corner's position, uv and normal.
-    corners: Vec<[usize; 3]>,
+    corners: usize,
     has_uv: bool,
     has_normal: bool,
 }
 
-/// Reads the elements and the faces, and leaves out everything else.
-fn read(statements: &[(usize, Vec<&str>)]) -> Result<(Elements, Vec<ObjFace>), ObjError> {
+/// Checks the numbers and the faces. Returns them in the form that `tobj` parses, without anything
+/// else.
+fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>), ObjError> {
     let kinds = || statements.iter().filter_map(|(_, words)| words.first());
     let totals = INDEXED.map(|(kind, _)| kinds().filter(|other| **other == kind).count());
-    let mut elements = Elements::default();
+    let mut so_far = [0; 3];
     let mut faces = Vec::new();
+    let mut text = String::new();
     for (line, words) in statements {
         let failed = |message| (Some(*line), message);
         let Some((kind, words)) = words.split_first() else {
             continue;
         };
-        if *kind == "f" {
-            let so_far = elements.each_ref().map(Vec::len);
-            faces.push(read_face(*line, words, totals, so_far).map_err(failed)?);
+        let words = if *kind == "f" {
+            faces.push(check_face(*line, words, totals, so_far).map_err(failed)?);
+            words.to_vec()
         } else if let Some(i) = INDEXED.iter().position(|(known, _)| known == kind) {
-            elements[i].push(read_numbers(INDEXED[i], words).map_err(failed)?);
-        }
+            so_far[i] += 1;
+            check_numbers(INDEXED[i], words).map_err(failed)?
+        } else {
+            continue;
+        };
+        text.push_str(&format!("{kind} {}\n", words.join(" ")));
     }
-    Ok((elements, faces))
+    Ok((text, faces))
 }
 
-/// Reads the numbers of a statement, which must be finite. `v` may be followed by a weight or a
-/// colour, and the second number of `vt` may be missing.
-fn read_numbers((kind, name): (&str, &str), words: &[&str]) -> Result<Vec3, String> {
-    let number = |word: &&str| {
-        let number = word.parse().ok().filter(|number: &f32| number.is_finite());
-        number.ok_or_else(|| format!("`{word}` is not a finite number"))
+/// Returns the numbers of a statement that the mesh uses, if all are finite. `v` may be followed by
+/// a weight or a colour, and the second number of `vt` may be missing.
+fn check_numbers<'a>(
+    (kind, name): (&str, &str),
+    words: &[&'a str],
+) -> Result<Vec<&'a str>, String> {
+    let is_finite = |word: &&str| word.parse().is_ok_and(f32::is_finite);
+    if let Some(word) = words.iter().find(|word| !is_finite(word)) {
+        return Err(format!("`{word}` is not a finite number"));
+    }
+    let (needed, noun, used) = match kind {
+        "vt" => (1, "number", 2),
+        _ => (3, "numbers", 3),
     };
-    let numbers: Vec<f32> = words.iter().map(number).collect::<Result<_, _>>()?;
-    let (needed, noun) = match kind {
-        "vt" => (1, "number"),
-        _ => (3, "numbers"),
-    };
-    let given = numbers.len();
+    let given = words.len();
     if given < needed {
         return Err(format!(
             "a {name} needs {needed} {noun}, and this has {given}"
         ));
     }
-    let number = |axis: usize| numbers.get(axis).copied().unwrap_or_default();
-    Ok(vec3(number(0), number(1), number(2)))
+    Ok(words.iter().copied().chain(["0"]).take(used).collect())
 }
 
-/// Reads the corners of a face. `so_far` is the number of elements before its line.
-fn read_face(
+/// Checks the corners of a face. `so_far` is the number of elements before its line.
+fn check_face(
     line: usize,
     words: &[&str],
     totals: [usize; 3],
     so_far: [usize; 3],
-) -> Result<ObjFace, String> {
+) -> Result<CheckedFace, String> {
     let corners = words.len();
     if corners < 3 {
         return Err(format!(
@@ -140,39 +142,29 @@ fn read_face(
              triangles"
         ));
     }
-    let corners = words.iter().map(|word| read_corner(word, totals, so_far));
-    let corners: Vec<[Option<usize>; 3]> = corners.collect::<Result<_, _>>()?;
-    let form = |corner: &[Option<usize>; 3]| corner.map(|index| index.is_some());
-    let [_, has_uv, has_normal] = form(&corners[0]);
-    if let Some(other) = corners
-        .iter()
-        .position(|corner| form(corner) != form(&corners[0]))
-    {
+    let forms = words.iter().map(|word| corner_form(word, totals, so_far));
+    let forms: Vec<[bool; 3]> = forms.collect::<Result<_, _>>()?;
+    if let Some(other) = forms.iter().position(|form| *form != forms[0]) {
         return Err(format!(
             "the corners `{}` and `{}` differ: give either all corners of a face a uv, and all a \
              normal, or none",
             words[0], words[other]
         ));
     }
-    let corners = corners.into_iter();
-    let corners = corners.map(|corner| corner.map(Option::unwrap_or_default));
-    Ok(ObjFace {
+    let [_, has_uv, has_normal] = forms[0];
+    Ok(CheckedFace {
         line,
-        corners: corners.collect(),
+        corners,
         has_uv,
         has_normal,
     })
 }
 
-/// Reads a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. A negative index counts backward from the
-/// last element before the current line. Like other programs, ignores the indices of uvs in a file that
-/// has none, and those of normals.
-fn read_corner(
-    word: &str,
-    totals: [usize; 3],
-    so_far: [usize; 3],
-) -> Result<[Option<usize>; 3], String> {
-    let mut corner = [None; 3];
+/// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`, and returns which indices it has. A
+/// negative index counts backward from the last element before the current line. Like other
+/// programs, ignores the indices of uvs in a file that has none, and those of normals.
+fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bool; 3], String> {
+    let mut form = [false; 3];
     for (i, text) in word.split('/').enumerate() {
         if i > 0 && text.is_empty() {
             continue;
@@ -186,49 +178,60 @@ fn read_corner(
         if i > 0 && total == 0 {
             continue;
         }
-        let distance = index.unsigned_abs();
-        corner[i] = if index > 0 {
-            (distance <= total).then(|| distance - 1)
-        } else {
-            so_far[i].checked_sub(distance).filter(|_| index != 0)
-        };
-        if corner[i].is_none() {
+        let limit = if index > 0 { total } else { so_far[i] };
+        if index == 0 || index.unsigned_abs() > limit {
             return Err(format!(
                 "there is no {name} {index}: the indices are 1 to {total}"
             ));
         }
+        form[i] = true;
     }
-    Ok(corner)
+    Ok(form)
 }
 
-/// Splits the faces into triangles.
-fn triangles(elements: &Elements, faces: &[ObjFace]) -> Result<Vec<Face>, ObjError> {
-    let [positions, uvs, normals] = elements;
+/// Parses a checked text, and splits its faces into triangles.
+fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
+    let no_materials = |_: &Path| Ok(Default::default());
+    let options = tobj::LoadOptions::default();
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
+        .map_err(|error| (None, error.to_string()))?;
+    // Without groups and objects, there is one model.
+    let parsed = &models[0].mesh;
+    let positions = triples(&parsed.positions);
+    let normals = triples(&parsed.normals);
+    let (uvs, _) = parsed.texcoords.as_chunks::<2>();
     let mut mesh = Vec::new();
+    let mut first = 0;
     for face in faces {
-        let points = face
-            .corners
-            .iter()
-            .map(|[i, _, _]| positions[*i].as_dvec3());
+        let corners = parsed.indices[first..][..face.corners].iter();
+        let points = corners.map(|&i| positions[i as usize].as_dvec3());
         let triangles = triangulate(&points.collect::<Vec<DVec3>>()).ok_or_else(|| {
             let message = "the outline of this face crosses itself: list the corners in order, all \
                            around, or export the mesh as triangles";
             (Some(face.line), message.to_owned())
         })?;
         for triangle in triangles {
-            let at = |list: &[Vec3], i: usize| triangle.map(|corner| list[face.corners[corner][i]]);
-            let uv = || at(uvs, 1).map(Vec3::truncate);
+            let indices = |list: &[u32]| triangle.map(|corner| list[first + corner] as usize);
+            let uv = || indices(&parsed.texcoord_indices).map(|i| Vec2::from(uvs[i]));
+            let normals = || indices(&parsed.normal_indices).map(|i| normals[i]);
             let whole_texture = [Vec2::ZERO, Vec2::X, Vec2::Y];
             mesh.push(Face {
-                corners: at(positions, 0),
+                corners: indices(&parsed.indices).map(|i| positions[i]),
+                // `tobj` makes up indices for corners without uv or normal.
                 uv: face.has_uv.then(uv).unwrap_or(whole_texture),
-                normals: face.has_normal.then(|| at(normals, 2)),
+                normals: face.has_normal.then(normals),
             });
         }
+        first += face.corners;
     }
     if mesh.is_empty() {
         let message = "the file has no faces (lines that begin with `f`); is it a mesh?";
         return Err((None, message.to_owned()));
     }
     Ok(mesh)
+}
+
+fn triples(numbers: &[f32]) -> Vec<Vec3> {
+    let (triples, _) = numbers.as_chunks::<3>();
+    triples.iter().copied().map(Vec3::from).collect()
 }

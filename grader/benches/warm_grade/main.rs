@@ -3,7 +3,6 @@
 //! Each round changes the submission and then measures each quantity once, so that a busy machine
 //! affects all of them. CPU times are compared within a round.
 
-mod watch;
 mod wire;
 
 use std::fs;
@@ -18,7 +17,7 @@ use grader::handed_out::RAYS;
 use grader::submission::Submission;
 use grader::workspace::Workspace;
 
-use watch::WatchProcess;
+use test_support::WatchProcess;
 
 const ROUNDS: usize = 15;
 
@@ -79,7 +78,11 @@ fn main() {
     let workspace = Workspace::find().expect("the benchmark runs in the workspace");
     let builder = Builder::prepare(&workspace).expect("the dependencies can be built");
     let bare = BareRustc::prepare(&workspace.cache_folder().join("dependencies"));
-    let mut watcher = WatchProcess::start(watched.path());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
+    command.arg(watched.path());
+    command.arg("--out").arg(watched.path().join("out"));
+    let mut watcher = WatchProcess::start(&mut command);
+    watcher.report();
     let mut rounds = Vec::new();
     for round in 0..repetitions(ROUNDS) {
         change(&root, folder.path(), round);

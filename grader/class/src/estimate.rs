@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::plural::count;
+use grader::printing::counted;
 
 /// The numbers of machines for which the time is given.
 const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
@@ -40,7 +40,7 @@ impl Estimate {
             return "\n  nothing to estimate: every submission is graded\n\n".to_owned();
         };
         let seconds = mean.as_secs_f64();
-        let sample = count(self.times.len(), "submission");
+        let sample = counted(self.times.len(), "submission");
         let mut text = format!(
             "  \n  estimate from {sample}: {seconds:.1} s per submission on one core\n  \
              {} more submissions, {} at a time:\n",

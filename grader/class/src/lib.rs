@@ -20,7 +20,6 @@
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
 //! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
-//! | numbers with nouns | [`plural`] |
 
 pub mod archive;
 pub mod attempts;
@@ -51,7 +50,6 @@ pub mod names;
 pub mod outcome;
 pub mod output;
 pub mod paths;
-pub mod plural;
 pub mod progress;
 pub mod queue;
 pub mod regrade_diff;

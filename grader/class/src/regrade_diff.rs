@@ -177,9 +177,7 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graded_class::tests::{graded, nothing, result};
     use crate::outcome::{FileNotes, TaskScore};
-    use crate::store::tests::{other_settings, run, store};
 
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
@@ -205,14 +203,6 @@ mod tests {
                 items,
             }],
         }
-    }
-
-    /// Returns the ids and points of scores that changed.
-    fn points(drifts: &[Drift]) -> Vec<(&str, u32, Option<u32>)> {
-        let points = drifts.iter();
-        points
-            .map(|drift| (drift.id.as_str(), drift.was, drift.now))
-            .collect()
     }
 
     #[test]
@@ -280,54 +270,5 @@ mod tests {
         );
         let gone = compare_scores("x", &was, None).unwrap();
         assert_eq!((gone.was, gone.now, gone.items), (2, None, Vec::new()));
-    }
-
-    #[test]
-    fn entries_that_left_the_class_are_found_with_their_scores() {
-        let (_folder, store) = store();
-        for (id, name, outcome) in [
-            ("a", "Ann", graded(80)),
-            ("b", "Ann", graded(70)),
-            ("c", "c", nothing()),
-        ] {
-            store.save_graded(&result(id, &[name], outcome), "key", 1);
-        }
-        // A folder without a result, such as that of a killed run.
-        std::fs::create_dir(store.entry_folder("d")).unwrap();
-        let removed = find_removed(&[&store], &["a", "e"]).unwrap();
-        assert_eq!(removed, ["b (Ann): 70 points", "c: no score"]);
-        let none = find_removed(&[&store], &["a", "b", "c"]).unwrap();
-        assert_eq!(none, Vec::<String>::new());
-    }
-
-    #[test]
-    fn a_resubmission_is_compared_with_the_score_that_was_set_aside() {
-        let (_folder, store) = store();
-        let results = [("a", 80), ("b", 70)].map(|(id, points)| {
-            let was = result(id, &["Ann"], graded(points));
-            store.save_graded(&was, "key", 1);
-            store.set_score_aside(id, 1).unwrap();
-            result(id, &["Ann"], graded(70))
-        });
-        let drifts = find_resubmitted(&store, &results).unwrap();
-        assert_eq!(points(&drifts), [("a", 80, Some(70))]);
-    }
-
-    #[test]
-    fn only_a_regrade_has_changes_and_causes() {
-        let (_folder, store) = store();
-        let first = find_regrade_changes(&store, &run(), &[]).unwrap();
-        assert!(first.is_none());
-        store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-        store.save_previous_scores().unwrap();
-        let second = run().next_round(other_settings());
-        let results = [
-            result("a", &["Ann"], graded(70)),
-            result("b", &["Bob"], graded(70)),
-        ];
-        let changes = find_regrade_changes(&store, &second, &results).unwrap();
-        let changes = changes.unwrap();
-        assert_eq!(points(&changes.drifts), [("a", 80, Some(70))]);
-        assert_eq!(changes.causes, ["the exam"]);
     }
 }

@@ -24,7 +24,7 @@ static MEMORY: PeakAlloc = PeakAlloc;
 /// A fuzz target: a parser of untrusted input.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// The target's name, which is also the name of its folder in `corpus/`.
+    /// The target's name, which is also the name of its archive in `corpus/`.
     pub name: &'static str,
     read: fn(&[u8]),
     /// The maximum number of bytes of memory per byte of input, in addition to

@@ -1,12 +1,14 @@
 //! Runs the fuzz targets as ordinary tests: on the corpus, on changes to it, and on noise.
 
-use std::fs;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use fuzz::{TARGETS, Target};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use tar::{Archive, Entry};
 
 /// The number of random inputs per target, about half of them changes to the corpus and half noise.
 /// `cargo fuzz` runs millions.
@@ -14,13 +16,18 @@ const CASES: u32 = 300;
 /// The maximum length of a noise input, in bytes.
 const MAX_NOISE_BYTES: usize = 300;
 
+/// Returns the target's inputs, in the order of their names.
 fn corpus(target: &Target) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
-    let files = fs::read_dir(folder.join(target.name)).expect("each target has a corpus");
-    let files = files.map(|entry| entry.expect("the folder can be read").path());
-    let mut files: Vec<_> = files.collect();
-    files.sort();
-    files.iter().map(|file| fs::read(file).unwrap()).collect()
+    let file = folder.join(target.name).with_extension("tar");
+    let mut archive = Archive::new(File::open(file).expect("each target has a corpus"));
+    let entries = archive.entries().expect("the corpus can be read");
+    let input = |mut entry: Entry<File>| {
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes).map(|_| bytes)
+    };
+    let inputs = entries.map(|entry| entry.and_then(input));
+    inputs.collect::<Result<_, _>>().unwrap()
 }
 
 /// A small change to an input, such as a flipped bit, a missing part or an extreme number.

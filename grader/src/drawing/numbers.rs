@@ -30,14 +30,6 @@ pub(super) fn point(value: DVec3) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// Returns the count with the singular or plural noun: "1 leaf", "3 leaves".
-pub(super) fn pluralize(count: usize, one: &str, many: &str) -> String {
-    match count {
-        1 => format!("1 {one}"),
-        _ => format!("{count} {many}"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,7 @@ use super::Drawing;
 use super::canvas::{Anchor, Canvas, Mark, WIDTH};
 use super::ink::{Fill, Ink, LineStyle};
 use super::window::{Panel, Window, extent};
+use crate::machine::printing::wrap;
 
 /// The height of a line of the legend.
 const ROW_HEIGHT: f64 = 18.0;
@@ -96,7 +97,7 @@ impl Sheet {
     pub(super) fn add_legend(&mut self, symbol: Symbol, text: &str) {
         let middle = dvec2(11.0, self.y + 9.0);
         self.draw_symbol(symbol, middle);
-        for line in wrap(text) {
+        for line in wrap(text, MAX_LINE_CHARS) {
             let at = dvec2(26.0, self.y + 13.5);
             self.canvas.text(at, Anchor::Start, Ink::Text, &line);
             self.advance(ROW_HEIGHT);
@@ -138,20 +139,4 @@ impl Sheet {
             caption,
         }
     }
-}
-
-/// Wraps a text into lines of at most [`MAX_LINE_CHARS`] characters.
-fn wrap(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = vec![String::new()];
-    for word in text.split(' ') {
-        let last = lines.len() - 1;
-        let length = lines[last].chars().count();
-        if length > 0 && length + 1 + word.chars().count() > MAX_LINE_CHARS {
-            lines.push(word.to_owned());
-        } else {
-            let gap = if length > 0 { " " } else { "" };
-            lines[last].push_str(&format!("{gap}{word}"));
-        }
-    }
-    lines
 }

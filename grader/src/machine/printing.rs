@@ -43,6 +43,26 @@ pub fn counted(count: usize, thing: &str) -> String {
     }
 }
 
+/// Wraps a text into lines of at most this many characters, if its words are not longer.
+pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split_whitespace() {
+            let fits = line.chars().count() + 1 + word.chars().count() <= width;
+            if !line.is_empty() && !fits {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
 /// Prints the help that the command line asks for, or the error in it, and exits.
 #[expect(clippy::exit, reason = "clap exits in the same way")]
 pub fn exit_with(error: &clap::Error) -> ! {
@@ -137,5 +157,11 @@ mod tests {
             prop_assert!(!has_command(&safe), "{safe:?}");
             prop_assert_eq!(safe.replace('\\', ""), text);
         }
+    }
+
+    #[test]
+    fn wraps_between_words() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("a\nlonger-than-that", 4), ["a", "longer-than-that"]);
     }
 }

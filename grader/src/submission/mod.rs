@@ -14,9 +14,10 @@ mod search;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use judging::assignment::TaskInfo;
 use judging::sanitize::sanitize_line;
 
-use crate::handed_out::{HandedOut, TaskFile};
+use crate::handed_out::{HandedOut, TaskFile, TaskMethod};
 
 use choice::{Candidate, Lookalike};
 use search::Search;
@@ -174,11 +175,8 @@ impl Submission {
     /// `cargo grade --reset` makes are left out.
     fn notes_on_own_copies(&self, copies: &[Lookalike]) -> Vec<String> {
         let differs = |copy: &&Lookalike| {
-            let mut files = self.files.iter();
-            let graded = files.find(|(file, _)| file.name == copy.file);
-            let graded = graded.and_then(|(_, text)| text.as_deref().ok());
-            !copy.path.contains(".bak-")
-                && graded.map(str::as_bytes) != copy.contents.as_deref().ok()
+            let graded = self.text(copy.file).map(str::as_bytes);
+            !copy.path.contains(".bak-") && graded != copy.contents.as_deref().ok()
         };
         let copies = copies.iter().filter(differs).take(MAX_NOTES);
         let note = |copy: &Lookalike| {
@@ -188,6 +186,19 @@ impl Submission {
             ))
         };
         copies.map(note).collect()
+    }
+
+    /// Returns the text of the task file with this name, if it has one.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        let mut files = self.files.iter();
+        let (_, text) = files.find(|(file, _)| file.name == name)?;
+        text.as_deref().ok()
+    }
+
+    /// Returns a task's method, if it is found.
+    pub fn task_method(&self, task: &TaskInfo) -> Option<TaskMethod> {
+        let text = self.text(task.file)?;
+        self.handed_out.task_method(task.task(), text).ok()
     }
 
     /// Returns whether the assignment has not been started: every task file is the starter's, token

@@ -1,7 +1,7 @@
 //! Accessibility, checked with axe-core: the rules of WCAG 2.2 AA that a program can check, and
 //! best practices.
 
-use browser_support::{Chromium, DESKTOP, Viewer, violations};
+use test_support::{Chromium, DESKTOP, Viewer, violations};
 
 use crate::pages;
 

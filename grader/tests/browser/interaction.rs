@@ -1,6 +1,6 @@
 //! Interaction with the page: by mouse, by keyboard, and with reduced motion.
 
-use browser_support::{Chromium, DESKTOP, Tab, Viewer};
+use test_support::{Chromium, DESKTOP, Tab, Viewer};
 
 use crate::pages;
 

@@ -1,6 +1,6 @@
 //! Rendering of the page: at any width, in light and dark mode, in print, and with hostile content.
 
-use browser_support::{Chromium, DESKTOP, Viewer};
+use test_support::{Chromium, DESKTOP, Viewer};
 
 use crate::pages::{self, OPEN_ALL};
 

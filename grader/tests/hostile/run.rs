@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use grader::sandbox::Isolation;
 use serde_json::Value;
+use test_support::processes::peak_memory;
 
 use crate::canary::Canaries;
 use crate::entry::Entry;
@@ -105,10 +106,9 @@ struct PeakUsage {
 
 impl PeakUsage {
     fn sample(&mut self, child: &Child) {
-        let process = format!("/proc/{}", child.id());
-        let files = fs::read_dir(format!("{process}/fd")).map_or(0, Iterator::count);
+        let files = fs::read_dir(format!("/proc/{}/fd", child.id())).map_or(0, Iterator::count);
         self.files = self.files.max(files);
-        self.memory = self.memory.max(peak_memory(&process).unwrap_or(0));
+        self.memory = self.memory.max(peak_memory(child.id()).unwrap_or(0));
     }
 }
 
@@ -125,11 +125,4 @@ fn wait_for_exit(child: &mut Child, deadline: Instant, peak: &mut PeakUsage) -> 
         }
         thread::sleep(Duration::from_millis(5));
     }
-}
-
-fn peak_memory(process: &str) -> Option<u64> {
-    let status = fs::read_to_string(format!("{process}/status")).ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(kilobytes << 10)
 }

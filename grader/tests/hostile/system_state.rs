@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use test_support::processes::{children, is_running, name};
+
 use crate::canary::Canaries;
 
 /// The maximum time to wait for a killed process to disappear.
@@ -63,7 +65,7 @@ fn kernel_table(list: &str) -> Vec<String> {
 fn adopted_processes() -> Vec<String> {
     let deadline = Instant::now() + EXIT_TIMEOUT;
     loop {
-        let processes = children();
+        let processes = running_children();
         if processes.is_empty() || Instant::now() >= deadline {
             return processes;
         }
@@ -71,19 +73,11 @@ fn adopted_processes() -> Vec<String> {
     }
 }
 
-fn children() -> Vec<String> {
-    let own = std::process::id().to_string();
-    let processes = fs::read_dir("/proc").expect("Linux has /proc").flatten();
-    let stats = processes.filter_map(|entry| fs::read_to_string(entry.path().join("stat")).ok());
-    stats
-        .filter_map(|stat| {
-            // `pid (name) state ppid ...`; the name may contain anything.
-            let (name, rest) = stat.rsplit_once(')')?;
-            let mut words = rest.split_whitespace();
-            let (state, parent) = (words.next()?, words.next()?);
-            (parent == own && state != "Z").then(|| format!("process {name})"))
-        })
-        .collect()
+fn running_children() -> Vec<String> {
+    let children = children(std::process::id()).into_iter();
+    let running = children.filter(|process| is_running(*process));
+    let names = running.map(|process| format!("process {process} ({:?})", name(process)));
+    names.collect()
 }
 
 /// Returns the files that an entry has left behind on purpose, in folders where it might be able to

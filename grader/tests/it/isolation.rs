@@ -3,14 +3,13 @@
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
 use std::process::Stdio;
 use std::sync::LazyLock;
 
 use tempfile::TempDir;
+use test_support::processes::{children, eventually, is_running};
 
 use crate::cases::PANICKING;
-use crate::faults::processes::eventually;
 use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 
 /// Every isolation level. If a machine does not support a level, the tests at that level are
@@ -137,17 +136,12 @@ fn no_process_survives_a_killed_grader() {
         let mut command = submission.command();
         command.args(["--isolation", level]).stdout(Stdio::null());
         let mut grader = command.spawn().unwrap();
-        let probe = eventually(|| child(grader.id()).filter(|pid| is_probe(*pid)));
+        let children = || children(grader.id()).into_iter();
+        let probe = eventually(|| children().find(|pid| is_probe(*pid)));
         grader.kill().unwrap();
         grader.wait().unwrap();
-        eventually(|| (!Path::new(&format!("/proc/{probe}")).exists()).then_some(()));
+        eventually(|| (!is_running(probe)).then_some(()));
     }
-}
-
-/// Returns the only child of a process.
-fn child(pid: u32) -> Option<u32> {
-    let children = fs::read_to_string(format!("/proc/{pid}/task/{pid}/children")).ok()?;
-    children.split_whitespace().next()?.parse().ok()
 }
 
 /// Returns whether the process is a probe, and neither the launcher nor the compiler.

@@ -4,10 +4,10 @@ use std::io::{Cursor, Write};
 use std::process::{Command, Output};
 
 use grader::printing::without_commands;
+use test_support::WatchProcess;
 use zip::ZipWriter;
 
 use crate::harness::{Submission, grader, workspace};
-use crate::watch::WatchProcess;
 
 /// A command of each kind. It is also a name of a file.
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
@@ -59,7 +59,7 @@ fn nothing_of_a_submission_is_a_command_in_a_log() {
     handin.current_dir(workspace()).arg(submission.path());
     checked_output(handin.arg("--out").arg(folder.join("a.zip")), "");
 
-    let report = WatchProcess::start(&submission).report();
+    let report = WatchProcess::start(&mut submission.command()).report();
     assert_eq!(without_commands(&report), report);
     assert!(report.contains("set-env"), "{report}");
 }

@@ -1,51 +1,12 @@
 //! Tests of `--watch` with an output that is not a terminal.
 
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
-use std::process::{Child, ChildStdout, Command, Stdio};
+
+use test_support::WatchProcess;
+#[cfg(target_os = "linux")]
+use test_support::programs::{path_with, write_program};
 
 use crate::harness::{Submission, assert_fails, grader};
-
-/// A grader process that waits for changes. The process is killed when this is dropped.
-pub struct WatchProcess {
-    child: Child,
-    lines: BufReader<ChildStdout>,
-}
-
-impl WatchProcess {
-    pub fn start(submission: &Submission) -> Self {
-        Self::start_with(submission, |command| command)
-    }
-
-    fn start_with(submission: &Submission, add: impl Fn(&mut Command) -> &mut Command) -> Self {
-        let mut command = submission.command();
-        command.arg("--watch").stdout(Stdio::piped());
-        let mut child = add(&mut command).spawn().unwrap();
-        let lines = BufReader::new(child.stdout.take().unwrap());
-        WatchProcess { child, lines }
-    }
-
-    /// Returns the next report, up to the line that says that the grader is waiting.
-    pub fn report(&mut self) -> String {
-        let lines = self.lines.by_ref().lines().map(Result::unwrap);
-        let mut report = String::new();
-        for line in lines {
-            if line.contains("save a file to grade again") {
-                return report;
-            }
-            report += &line;
-            report.push('\n');
-        }
-        panic!("the grader has ended: {report}");
-    }
-}
-
-impl Drop for WatchProcess {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
 
 #[test]
 fn grades_every_save_and_updates_the_score_file() {
@@ -58,7 +19,7 @@ fn grades_every_save_and_updates_the_score_file() {
         (score["points"].as_u64(), score["complete"].as_bool())
     };
 
-    let mut watching = WatchProcess::start(&submission);
+    let mut watching = WatchProcess::start(&mut submission.command());
     let report = watching.report();
     assert!(report.contains("sphere.rs does not compile"), "{report}");
     let (points, complete) = score();
@@ -83,23 +44,15 @@ fn grades_every_save_and_updates_the_score_file() {
 #[cfg(target_os = "linux")]
 #[test]
 fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
-    use std::os::unix::fs::PermissionsExt;
-
     let submission = Submission::starter("alice");
     let programs = submission.path().join("programs");
     let opened = submission.path().join("opened.txt");
-    let script = format!("#!/bin/sh\necho \"$1\" >> '{}'\n", opened.display());
-    fs::create_dir(&programs).unwrap();
-    fs::write(programs.join("xdg-open"), script).unwrap();
-    fs::set_permissions(programs.join("xdg-open"), fs::Permissions::from_mode(0o755)).unwrap();
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let folders = [programs].into_iter().chain(std::env::split_paths(&path));
-    let path = std::env::join_paths(folders).unwrap();
+    let script = format!("echo \"$1\" >> '{}'\n", opened.display());
+    write_program(&programs.join("xdg-open"), &script);
 
-    let mut watching = WatchProcess::start_with(&submission, |command| {
-        command.arg("--open").env("DISPLAY", ":99");
-        command.env("PATH", &path)
-    });
+    let mut command = submission.command();
+    command.arg("--open").env("DISPLAY", ":99");
+    let mut watching = WatchProcess::start(command.env("PATH", path_with(&programs)));
     watching.report();
     // Twice, so that a page that is opened after every grading has been opened when we look.
     for comment in ["// one save", "// another save"] {

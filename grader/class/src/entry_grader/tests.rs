@@ -111,12 +111,6 @@ fn written(id: &str, folder: &Path) -> Entry {
     Entry::new(id, Person::named("Ann"), "", source)
 }
 
-/// Returns an entry with nothing to grade.
-fn missing(id: &str) -> Entry {
-    let source = Source::Missing("nothing was handed in".to_owned());
-    Entry::new(id, Person::named("Ann"), "", source)
-}
-
 #[test]
 fn a_submission_that_cannot_be_graded_is_tried_again_and_then_a_fault() {
     let folder = Folder::new();
@@ -131,29 +125,6 @@ fn a_submission_that_cannot_be_graded_is_tried_again_and_then_a_fault() {
     assert!(!folder.is_done(&entry));
 }
 
-#[test]
-fn a_submission_with_a_valid_score_is_not_graded_again() {
-    let folder = Folder::new();
-    let entry = written("a", folder.folder.path());
-    assert!(!folder.is_done(&entry));
-    let submission = collect_submission(&entry, &RAYS).unwrap();
-    let key = cache_key(&run(), folder.grader.policy(), &submission);
-    let graded = result("a", &["Ann"], graded(80));
-    folder.store.save_graded(&graded, &key, 1);
-    assert!(folder.is_done(&entry));
-    assert_eq!(folder.grade(&entry), graded);
-    assert_eq!(folder.asked(), 0);
-
-    // After an edit, the score is set aside.
-    fs::write(folder.folder.path().join("a.rs"), "newer").unwrap();
-    assert!(!folder.is_done(&entry));
-    assert_eq!(folder.grade(&entry).score(), None);
-    assert_eq!(
-        folder.store.replaced_score("a").unwrap().unwrap().points,
-        80
-    );
-}
-
 /// Otherwise a run that is killed between two files of an entry would leave an old stamp beside a new
 /// score, which would count if the submission became the old one again.
 #[test]
@@ -165,30 +136,6 @@ fn an_entry_has_no_result_while_it_is_graded_again() {
     folder.grade(&written("a", folder.folder.path()));
     assert_eq!(folder.asked(), ATTEMPTS);
     assert!(!folder.grader.has_seen_result.load(Ordering::Relaxed));
-}
-
-#[test]
-fn an_entry_with_nothing_to_grade_is_done_and_says_why() {
-    let folder = Folder::new();
-    assert!(folder.is_done(&missing("a")));
-    let found = folder.grade(&missing("a"));
-    let nothing = EntryOutcome::NothingToGrade("nothing was handed in".to_owned());
-    assert_eq!(found, result("a", &["Ann"], nothing));
-    assert_eq!(folder.store.result("a").unwrap(), Some(found));
-}
-
-#[test]
-fn an_estimate_grades_two_open_submissions_per_slot() {
-    let folder = Folder::new();
-    let mut entries = vec![missing("empty")];
-    entries.extend((0..8).map(|number| written(&number.to_string(), folder.folder.path())));
-    let estimate = folder.with(|grader| grader.estimate(entries, 3).unwrap());
-    assert_eq!(
-        (estimate.times.len(), estimate.remaining, estimate.slots),
-        (6, 2, 3)
-    );
-    assert_eq!(folder.store.ids().unwrap(), ["0", "1", "2", "3", "4", "5"]);
-    assert_eq!(folder.asked(), 6 * ATTEMPTS, "each is retried");
 }
 
 #[test]

@@ -142,16 +142,6 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
 }
 
 #[test]
-fn a_score_that_counts_as_it_is_needs_no_words() {
-    let row = row(graded(80), "", &[("Ann", &[])]);
-    assert_eq!(row.grades[0].counted.unwrap().points, 80);
-    assert_eq!(row.counted_texts(), Vec::<String>::new());
-    assert_eq!(row.notes(), Vec::<String>::new());
-    let people: Vec<_> = row.people().collect();
-    assert_eq!(people, [(&Person::named("Ann"), &row.grades[0])]);
-}
-
-#[test]
 fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff() {
     let halved = row(graded(80), "[points]\nout_of = 50", &[("Ann", &[])]);
     assert_eq!(

@@ -108,20 +108,6 @@ impl Shards {
 }
 
 #[test]
-fn a_merged_class_has_the_entries_of_all_shards() {
-    let shards = Shards::new();
-    assert_eq!(shards.merge().unwrap(), Completion::Complete);
-    let out = Store::new(&shards.path("out"));
-    assert_eq!(out.ids().unwrap(), ["ann", "bob"]);
-    let run = out.read_run().unwrap().unwrap();
-    assert_eq!(
-        (run.shard, run.entries.as_slice()),
-        (None, ["ann", "bob"].map(str::to_owned).as_slice())
-    );
-    assert!(shards.read("grades.csv").contains("bob"));
-}
-
-#[test]
 fn a_shard_with_a_fault_makes_the_class_incomplete() {
     let shards = Shards::new();
     let fault = EntryOutcome::Fault("disk".to_owned());

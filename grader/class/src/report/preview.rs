@@ -6,7 +6,7 @@ use judging::sanitize::sanitize_line;
 use crate::entry::{Entry, Person};
 use crate::input::{NotCollected, collect_submission};
 use crate::layout::{RecognisedClass, UnmatchedPath};
-use crate::plural::count;
+use grader::printing::counted;
 
 /// The maximum length of a name or reason, in characters.
 const MAX_CHARS: usize = 1_000;
@@ -17,7 +17,7 @@ pub fn render_preview(
     missing: &[Person],
     handed_out: &'static HandedOut,
 ) -> String {
-    let submissions = count(class.entries.len(), "submission");
+    let submissions = counted(class.entries.len(), "submission");
     let mut text = format!("\n  {submissions} in {}\n\n", class.layout.description());
     let mut gradable = 0;
     for entry in &class.entries {

@@ -8,9 +8,9 @@ use crate::distribution::Distribution;
 use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
-use crate::plural::count;
 use crate::regrade_diff::{Drift, ItemChange, RegradeChanges};
 use crate::summary::ClassSummary;
+use grader::printing::counted;
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
@@ -61,11 +61,11 @@ pub fn render_summary(summary: &ClassSummary) -> String {
     for task in &summary.tasks {
         text += &distribution_line(&one_line(&task.title), &task.points);
     }
-    let counted = |count: usize, text: &str| format!("{count:>4}  {}", one_line(text));
+    let row = |count: usize, text: &str| format!("{count:>4}  {}", one_line(text));
     let failed = summary.failed_most.iter();
-    let failed = failed.map(|f| counted(f.count, &format!("{}  {}", f.item, f.title)));
+    let failed = failed.map(|f| row(f.count, &format!("{}  {}", f.item, f.title)));
     let mistakes = summary.mistakes.iter();
-    let mistakes = mistakes.map(|mistake| counted(mistake.count, &mistake.hint));
+    let mistakes = mistakes.map(|mistake| row(mistake.count, &mistake.hint));
     let outliers = summary.outliers.iter().map(|outlier| {
         let why = sanitize_line(&outlier.why, MAX_WHY_CHARS);
         format!("{}: {why}", one_line(&outlier.title()))
@@ -134,7 +134,7 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
 
 /// Renders the contents of the archive to hand back.
 pub fn render_hand_back(hand_back: &HandBack) -> String {
-    let title = format!("to hand back: {}", count(hand_back.pages, "page"));
+    let title = format!("to hand back: {}", counted(hand_back.pages, "page"));
     let left_out = hand_back.left_out.iter();
     let left_out = left_out.map(|line| format!("! not in it: {}", one_line(line)));
     section(&title, "", left_out)
@@ -242,7 +242,7 @@ fn more(all: usize, location: &str) -> Option<String> {
 fn count_or_no(number: usize, noun: &str) -> String {
     match number {
         0 => format!("no {noun}"),
-        number => count(number, noun),
+        number => counted(number, noun),
     }
 }
 

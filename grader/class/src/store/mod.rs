@@ -6,13 +6,13 @@ use std::io::ErrorKind;
 use std::path::{self, Path, PathBuf};
 
 use grader::files::{self, PathError};
+use grader::hand_in::archive_bytes;
 use grader::report::atomic_write;
 use grader::report::html::write_counted;
 use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
 
-use crate::archive::ArchiveWriter;
 use crate::error::Error;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
 use crate::run::Run;
@@ -152,14 +152,7 @@ impl Store {
     /// Writes the task files that are graded.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
         let path = self.entry_folder(id).join(SUBMISSION);
-        let mut archive = ArchiveWriter::default();
-        for (file, text) in &submission.files {
-            if let Ok(text) = text {
-                let added = archive.add(file.name, text.as_bytes());
-                added.expect("writing to memory succeeds");
-            }
-        }
-        let archive = archive.finish().expect("writing to memory succeeds");
+        let archive = archive_bytes(submission).expect("writing to memory succeeds");
         Ok(atomic_write::write(archive, &path)?)
     }
 

@@ -98,13 +98,6 @@ fn a_damaged_file_is_an_error_that_names_it() {
     assert_eq!(store.cached_score("a", "key"), None);
 }
 
-#[test]
-fn a_folder_that_cannot_be_listed_is_not_an_empty_one() {
-    let (_folder, store) = store();
-    fs::write(store.folder().join("students"), "a file").unwrap();
-    assert!(store.ids().is_err());
-}
-
 /// The run ends while the files of an earlier result are removed.
 #[test]
 fn a_stamp_is_never_left_without_its_score() {
@@ -158,21 +151,6 @@ fn both_pages_say_what_counts() {
         let page = fs::read_to_string(folder.join(name)).unwrap();
         assert!(page.contains("45 of 50"), "{name}: {page}");
     }
-}
-
-#[test]
-fn only_a_score_of_this_round_is_set_aside() {
-    let (_folder, store) = store();
-    store.set_score_aside("a", 1).unwrap();
-    store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
-    store.set_score_aside("a", 2).unwrap();
-    assert_eq!(points(store.replaced_score("a")), None);
-    store.set_score_aside("a", 1).unwrap();
-    assert_eq!(points(store.replaced_score("a")), Some(80));
-    // Without a score, there is none to set aside, and the one before stays.
-    store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
-    store.set_score_aside("a", 1).unwrap();
-    assert_eq!(points(store.replaced_score("a")), Some(80));
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn an_unreadable_folder_is_listed_with_the_reason() {
 /// A linker that fails if there is a file `fault-*` next to it. Each failure removes one such file.
 /// It has no PATH, like every linker that the grader starts.
 #[cfg(unix)]
-const LINKER: &str = r#"#!/bin/sh
+const LINKER: &str = r#"
 PATH=/usr/local/bin:/usr/bin:/bin
 here=$(dirname "$0")
 for fault in "$here"/fault-*; do
@@ -169,19 +169,16 @@ exec cc "$@"
 #[cfg(unix)]
 fn grade_with_faults(faults: usize, class: &TestClass, exam: &str) -> Output {
     use std::fs;
-    use std::os::unix::fs::PermissionsExt;
+
+    use test_support::programs::{path_with, write_program};
 
     let tools = class.path_beside("tools");
-    fs::create_dir_all(&tools).unwrap();
-    let linker = tools.join("cc");
-    fs::write(&linker, LINKER).unwrap();
-    fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
+    write_program(&tools.join("cc"), LINKER);
     for fault in 0..faults {
         fs::write(tools.join(format!("fault-{fault}")), "").unwrap();
     }
-    let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
     let mut run = class.command(exam, &[]);
-    let output = run.env("PATH", path).output().unwrap();
+    let output = run.env("PATH", path_with(&tools)).output().unwrap();
     let unused = fs::read_dir(&tools).unwrap().count() - 1;
     assert!(
         faults == 0 || unused < faults,

@@ -1,6 +1,6 @@
 //! The class's page in a browser: hints, sorting, and a narrow window.
 
-use browser_support::{Chromium, DESKTOP, Viewer};
+use test_support::{Chromium, DESKTOP, Viewer};
 
 use crate::harness::{TestClass, assert_contains};
 

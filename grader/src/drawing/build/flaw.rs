@@ -4,7 +4,7 @@ use judging::judge::tree::defect::TreeDefect;
 use judging::judge::tree::reached_nodes::ReachedNode;
 use judging::judge::tree::{self, FULL_MARKS_RATIO, TreeCriteria};
 
-use crate::drawing::numbers::pluralize;
+use crate::machine::printing::counted;
 
 /// The flaw of a tree.
 pub(super) struct Flaw<'a> {
@@ -64,7 +64,11 @@ impl<'a> Flaw<'a> {
     /// Returns a sentence that describes the flaw. `cost` is the tree's SAH cost.
     pub(super) fn caption(&self, criteria: &TreeCriteria, cost: f64) -> String {
         let all = criteria.shapes.len();
-        let primitives = |count| pluralize(count, "primitive", "primitives");
+        let primitives = |count| counted(count, "primitive");
+        let are = |indices: &[usize]| match indices.len() {
+            1 => "1 is".to_owned(),
+            count => format!("{count} are"),
+        };
         match &self.defect {
             Some(TreeDefect::BoxTooSmall(node)) => format!(
                 "The box of node {} does not contain everything below the node.",
@@ -88,8 +92,8 @@ impl<'a> Flaw<'a> {
             ),
             Some(TreeDefect::Partition { .. }) => format!(
                 "Of {all} primitives, {} in no leaf and {} in more than one.",
-                pluralize(self.missing.len(), "is", "are"),
-                pluralize(self.duplicated.len(), "is", "are")
+                are(&self.missing),
+                are(&self.duplicated)
             ),
             _ => match criteria.sweep_cost {
                 Some(sweep) => format!(

@@ -63,21 +63,6 @@ fn stored(score: &Score) -> Option<CachedReport> {
 }
 
 #[test]
-fn a_stored_report_is_read_again_with_its_points() {
-    let (_folder, files) = report();
-    assert!(CachedReport::read(&files).is_none());
-    let score = score_with(Verdict::Wrong);
-    store(&own_key(), &score, "the report", &files);
-    let cached = CachedReport::read(&files).unwrap();
-    assert_eq!((cached.points, cached.report.as_str()), (7, "the report"));
-    assert!(cached.is_for(&submission()));
-    assert!(cached.is_current(&own_key(), &files));
-
-    fs::write(files.folder.join(RECORD), "{\"key\": ").unwrap();
-    assert!(CachedReport::read(&files).is_none(), "half a record");
-}
-
-#[test]
 fn only_verdicts_that_are_the_same_the_next_time_are_stored() {
     let is_stored = |verdict: &Verdict| stored(&score_with(verdict.clone())).is_some();
     let (kept, others): (Vec<_>, Vec<_>) = verdicts().into_iter().partition(is_stored);

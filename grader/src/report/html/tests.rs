@@ -175,14 +175,6 @@ fn refers_to_no_other_site() {
 }
 
 #[test]
-fn only_a_watched_page_reloads_itself() {
-    let (exam, score) = all_passed_except("no item", |_| {});
-    let page = |reload| super::page(&score, &exam, &ReportAnswers::default(), reload);
-    assert!(page(Reload::WhileUnfocused).contains("<body data-reload>"));
-    assert!(page(Reload::Never).contains("<body>"));
-}
-
-#[test]
 fn the_content_security_policy_has_the_hashes_of_style_and_script() {
     let name = |text: &str| format!("sha256-{}", STANDARD.encode(Sha256::digest(text)));
     let [style, script] = [super::STYLE, super::SCRIPT].map(name);

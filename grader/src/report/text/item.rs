@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use judging::sanitize::{sanitize, sanitize_line};
 
 use super::{FAINT, HintDetail, STRONG, WIDTH, points_style};
-use crate::machine::printing::counted;
+use crate::machine::printing::{counted, wrap};
 use crate::score::{Hint, ItemScore, TaskScore};
 
 /// Writes an item and the ids of other items with the same hint.
@@ -68,25 +68,6 @@ fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
     lines.try_for_each(|line| writeln!(out, "{:INDENT$}{line}", ""))
 }
 
-fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = Vec::new();
-    for paragraph in text.lines() {
-        let mut line = String::new();
-        for word in paragraph.split_whitespace() {
-            let fits = line.chars().count() + 1 + word.chars().count() <= width;
-            if !line.is_empty() && !fits {
-                lines.push(std::mem::take(&mut line));
-            }
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-        lines.push(line);
-    }
-    lines
-}
-
 /// Writes a command about the item.
 pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt::Result {
     let command = sanitize_line(command, usize::MAX);
@@ -135,11 +116,5 @@ mod tests {
         let full = "It is a. Or: It is b.";
         assert_eq!(text(HintDetail::Full), format!("{full}{more}"));
         assert_eq!(hint_text(&[], HintDetail::Full, &[]), None);
-    }
-
-    #[test]
-    fn wraps_between_words() {
-        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
-        assert_eq!(wrap("a\nlonger-than-that", 4), ["a", "longer-than-that"]);
     }
 }

@@ -26,19 +26,6 @@ fn a_score_begins_with_the_items_of_each_task_in_lecture_order() {
 }
 
 #[test]
-fn an_item_with_right_answers_has_all_points_and_nothing_to_say() {
-    let line = answered(vec![boxes(2), boxes(1)], vec![right(), right()]);
-    assert_eq!(
-        line,
-        ItemScore {
-            points: 4,
-            verdict: Verdict::Pass,
-            ..ItemScore::pending("bbox.through", "title of bbox.through", 4)
-        }
-    );
-}
-
-#[test]
 fn a_wrong_answer_is_shown_with_its_question_and_its_number_in_the_item() {
     let judgements = vec![right(), wrong(Credit::NONE, 1, None)];
     let line = answered(vec![boxes(3), boxes(2)], judgements);
@@ -113,45 +100,11 @@ fn the_pixels_of_a_path_traced_picture_are_counted_by_themselves() {
 }
 
 #[test]
-fn a_panic_is_shown_with_its_line_and_a_clue() {
-    let message = "index out of bounds: the len is 2\u{1b} but the index is 2";
-    let judgement = panicked(Credit::NONE, message, "bbox.rs:34:9");
-    let line = answered(vec![boxes(1)], vec![judgement]);
-    assert_eq!((line.points, line.verdict), (0, Verdict::Panicked));
-    assert_eq!(
-        line.message,
-        "panicked at bbox.rs:34:9: index out of bounds: the len is 2\\u{1b} but the index is 2"
-    );
-    let at = line.at.unwrap();
-    assert_eq!((at.file.as_str(), at.line), ("bbox.rs", 34));
-    assert!(line.clue.unwrap().starts_with("Compare the index"));
-    assert_eq!(line.look.as_deref(), Some("look here"));
-    let Evidence {
-        number,
-        got,
-        wanted,
-        ..
-    } = line.evidence.unwrap();
-    assert_eq!((number, &*got, &*wanted), (1, "a panic", "an answer"));
-}
-
-#[test]
 fn a_panic_in_a_picture_that_is_partly_right_is_partial() {
     let judgement = panicked(Credit::HALF, "oh", "world.rs:3:1");
     let line = answered(vec![boxes(1)], vec![judgement]);
     assert_eq!((line.points, line.verdict), (2, Verdict::Partial));
     assert_eq!((line.at, line.clue), (None, None), "in a given file");
-}
-
-#[test]
-fn code_that_is_not_written_yet_needs_its_chapter_and_no_evidence() {
-    let judgement = panicked(Credit::NONE, "not yet implemented: task 3", "bbox.rs:12:9");
-    let line = answered(vec![boxes(1)], vec![judgement]);
-    assert_eq!((line.points, line.verdict), (0, Verdict::Unimplemented));
-    assert_eq!(line.message, "bbox.rs:12:9 still contains `todo!`");
-    assert_eq!(line.at.unwrap().line, 12);
-    assert_eq!((line.look, line.clue, line.evidence), (None, None, None));
-    assert_eq!(line.section, Some(Section::new("boxes.md")));
 }
 
 #[test]
@@ -164,14 +117,4 @@ fn an_answer_of_the_wrong_kind_is_no_evidence() {
     // Without judgements, an item earns nothing, either.
     let line = answered(Vec::new(), Vec::new());
     assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
-}
-
-#[test]
-fn an_answer_that_is_right_alone_points_to_kept_state() {
-    let outcome = ItemOutcome::Answered {
-        judgements: vec![wrong(Credit::NONE, 0, None)],
-        right_alone: true,
-    };
-    let line = item_score(&item("bbox.through", vec![boxes(1)]), &outcome, &RAYS);
-    assert_eq!(line.clue.as_deref(), Some(clue::KEPT_STATE));
 }

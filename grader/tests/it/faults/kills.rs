@@ -7,12 +7,12 @@ use std::thread;
 use std::time::Instant;
 
 use serde_json::Value;
+#[cfg(target_os = "linux")]
+use test_support::processes::{eventually, is_running};
 
 use crate::cases::compile_dependencies;
 use crate::harness::{Submission, grade_into};
 
-#[cfg(target_os = "linux")]
-use super::processes::{eventually, is_running};
 #[cfg(target_os = "linux")]
 use super::workspace::WorkspaceCopy;
 

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use test_support::processes::{self, children, cpu_time, eventually};
+
 use super::assert_grader_fault;
-use super::processes::{child_named, cpu_time, eventually};
 use crate::cases::compile_dependencies;
 use crate::harness::{GradeRun, Submission, assert_fails, workspace};
 
@@ -31,8 +32,10 @@ fn grade_while_killing(victims: &[(&str, Duration)], submission: &Submission) ->
     let grader = command.spawn().unwrap();
     let mut last = 0;
     for (name, busy) in victims {
+        let is_named = |child: &u32| processes::name(*child).is_some_and(|its| its == *name);
         let is_next = |child: &u32| *child != last && cpu_time(*child) >= Some(*busy);
-        last = eventually(|| child_named(name, grader.id()).filter(is_next));
+        let child_named = || children(grader.id()).into_iter().find(is_named);
+        last = eventually(|| child_named().filter(is_next));
         kill(last);
     }
     submission.results(grader.wait_with_output().unwrap())

@@ -8,12 +8,12 @@ mod kills;
 #[cfg(target_os = "linux")]
 mod memory;
 #[cfg(target_os = "linux")]
-pub mod processes;
-#[cfg(target_os = "linux")]
 pub mod workspace;
 
-use std::fs;
 use std::path::Path;
+
+#[cfg(unix)]
+use test_support::programs::{path_with, write_program};
 
 use crate::harness::{GradeRun, Submission, assert_fails, grade_into};
 
@@ -35,18 +35,13 @@ fn without_a_compiler_there_is_no_score() {
 #[cfg(unix)]
 #[test]
 fn without_a_linker_there_is_no_score() {
-    use std::os::unix::fs::PermissionsExt;
-
     let submission = Submission::reference("any");
     let tools = submission.path().join("tools");
-    fs::create_dir(&tools).unwrap();
-    let linker = tools.join("cc");
-    let script = "#!/bin/sh\necho No space left on device >&2\nexit 1\n";
-    fs::write(&linker, script).unwrap();
-    fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
-
-    let path = format!("{}:{}", tools.display(), std::env::var("PATH").unwrap());
-    let graded = submission.run(submission.command().env("PATH", path));
+    write_program(
+        &tools.join("cc"),
+        "echo No space left on device >&2\nexit 1\n",
+    );
+    let graded = submission.run(submission.command().env("PATH", path_with(&tools)));
     assert_grader_fault(&graded, "not even the starter compiles");
 }
 

@@ -1,10 +1,11 @@
 //! A copy of the workspace with its own `target/`.
 
 use std::fs;
-use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
+use test_support::programs::write_program;
 
 use crate::cases::compile_dependencies;
 use crate::harness;
@@ -47,11 +48,8 @@ impl WorkspaceCopy {
     /// of the script.
     pub fn fake_cargo(&self, script: &str) -> PathBuf {
         let tools = self.path().join("tools");
-        fs::create_dir(&tools).unwrap();
         for (name, script) in [("rustc", ""), ("cargo", script)] {
-            let path = tools.join(name);
-            fs::write(&path, format!("#!/bin/sh\n{script}")).unwrap();
-            fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+            write_program(&tools.join(name), script);
         }
         tools.join("cargo")
     }

@@ -1,10 +1,17 @@
-//! Tests of pages in headless Chromium, which is controlled over the DevTools protocol. If Chromium
+//! The parts that the tests of several packages share.
+//!
+//! Pages are tested in headless Chromium, which is controlled over the DevTools protocol. If Chromium
 //! is not installed, [`Chromium::start`] prints a notice and the tests pass, or fail if `CI` is set.
 
 mod axe;
 mod chromium;
 mod devtools;
+pub mod processes;
+#[cfg(unix)]
+pub mod programs;
+mod watch;
 
 pub use axe::violations;
 pub use chromium::Chromium;
 pub use devtools::{DESKTOP, Tab, Viewer};
+pub use watch::WatchProcess;

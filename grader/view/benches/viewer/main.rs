@@ -7,8 +7,6 @@
 #[expect(dead_code, reason = "the tests use more of it")]
 #[path = "../../tests/it/harness.rs"]
 mod harness;
-#[path = "../../tests/it/process.rs"]
-mod process;
 
 use std::path::Path;
 use std::process::Command;
@@ -16,13 +14,13 @@ use std::time::{Duration, Instant};
 use std::{fs, thread};
 
 use bench_support::{BareRustc, Cost, baseline, change, is_short, median, repetitions};
-use browser_support::{Chromium, DESKTOP};
 use grader::workspace::Workspace;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+use test_support::processes::{cpu_time, family, peak_memory};
+use test_support::{Chromium, DESKTOP};
 
 use harness::{Submission, Viewer, workspace};
-use process::{cpu_time, family, peak_memory};
 
 const ROUNDS: usize = 7;
 /// The scene whose camera is moved.

@@ -10,6 +10,8 @@ use grader::printing::without_commands;
 use serde_json::json;
 #[cfg(target_os = "linux")]
 use tempfile::TempDir;
+#[cfg(target_os = "linux")]
+use test_support::programs::{path_with, write_program};
 
 use crate::harness::{Submission, Viewer, view, view_and_open};
 
@@ -201,18 +203,15 @@ fn no_name_in_an_error_is_a_command_in_a_log() {
 fn the_browser_is_opened_by_a_file_that_only_the_user_can_read() {
     let desktop = TempDir::new().unwrap();
     let opened = desktop.path().join("opened");
-    let program = desktop.path().join("xdg-open");
-    let text = format!(
-        "#!/bin/sh\nprintf %s \"$*\" > {0}.new; mv {0}.new {0}\n",
+    let script = format!(
+        "printf %s \"$*\" > {0}.new; mv {0}.new {0}\n",
         opened.display()
     );
-    fs::write(&program, text).unwrap();
-    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
-    let path = std::env::var("PATH").unwrap();
+    write_program(&desktop.path().join("xdg-open"), &script);
     let submission = Submission::starter();
     let mut command = view_and_open();
     command
-        .env("PATH", format!("{}:{path}", desktop.path().display()))
+        .env("PATH", path_with(desktop.path()))
         .env("DISPLAY", ":99")
         .arg("--submission")
         .arg(submission.path());

@@ -1,9 +1,9 @@
 //! The page for everybody: by the keyboard alone, in light and dark mode, on a phone, and by the rules of
 //! WCAG that axe checks.
 
-use browser_support::{Chromium, DESKTOP, Viewer as Reader, violations};
 use glam::Vec3;
 use serde_json::{Value, json};
+use test_support::{Chromium, DESKTOP, Viewer as Reader, violations};
 
 use crate::browser::{HAS_TABLE, open, property, start, text, wait};
 use crate::harness::{Submission, Viewer};

@@ -1,8 +1,8 @@
 //! The page in a browser, used like a student does.
 
-use browser_support::{Chromium, DESKTOP, Tab, Viewer as Reader};
 use glam::{UVec2, uvec2};
 use serde_json::{Value, json};
+use test_support::{Chromium, DESKTOP, Tab, Viewer as Reader};
 
 use crate::expected_tests::Expected;
 use crate::harness::{Submission, Viewer};

@@ -1,13 +1,10 @@
 //! Submissions that are not finished or fail: the page shows as much as there is, and says why.
 
-#[cfg(target_os = "linux")]
-use std::time::{Duration, Instant};
-
 use serde_json::{Value, json};
+#[cfg(target_os = "linux")]
+use test_support::processes::{eventually, family, is_running};
 
 use crate::harness::{Submission, Viewer};
-#[cfg(target_os = "linux")]
-use crate::process::family;
 
 /// Returns the texts and locations of a state's notes, one per line.
 fn notes(state: &Value) -> String {
@@ -254,21 +251,11 @@ fn a_killed_viewer_leaves_no_program_running_even_one_that_hangs() {
     submission.insert_into_camera(hang);
     let viewer = Viewer::start(&submission, "flat --size 16x12");
     viewer.wait_for(|state| state["build"] == "ready");
-    let deadline = Instant::now() + Duration::from_secs(60);
-    let mut programs = Vec::new();
-    while programs.is_empty() {
-        assert!(Instant::now() < deadline, "no program was started");
-        programs = family(viewer.process()).split_off(1);
-    }
+    let programs = || family(viewer.process()).split_off(1);
+    let programs = eventually(|| Some(programs()).filter(|programs| !programs.is_empty()));
     viewer.kill();
-    let is_running = |program: &u32| {
-        let status = std::fs::read_to_string(format!("/proc/{program}/stat"));
-        status.is_ok_and(|text| !text.contains(") Z "))
-    };
-    while programs.iter().any(is_running) {
-        assert!(Instant::now() < deadline, "{programs:?} are still running");
-        std::thread::sleep(Duration::from_millis(10));
-    }
+    let have_ended = || !programs.iter().copied().any(is_running);
+    eventually(|| have_ended().then_some(()));
 }
 
 #[cfg(target_os = "linux")]
@@ -280,11 +267,7 @@ fn a_save_ends_programs_that_hang_before_their_limit() {
     viewer.wait_for(|state| state["is_opening"] == true);
     submission.write("bvh.rs", "not Rust");
     viewer.wait_for(|state| state["build"] == "failed");
-    let deadline = Instant::now() + Duration::from_secs(120);
-    while family(viewer.process()).len() > 1 {
-        assert!(Instant::now() < deadline, "a program is still running");
-        std::thread::sleep(Duration::from_millis(10));
-    }
+    eventually(|| (family(viewer.process()).len() == 1).then_some(()));
     let state: Value = serde_json::from_slice(&viewer.get("/state?after=0").body).unwrap();
     assert_eq!(state["notes"], json!([]), "a program ran until its limit");
 }

@@ -110,7 +110,7 @@ fn a_long_panic_with_odd_characters_is_short_and_harmless_on_the_page() {
 #[cfg(target_os = "linux")]
 mod pipe {
     use super::*;
-    use crate::process::peak_memory;
+    use test_support::processes::peak_memory;
 
     /// Writes to the pipe of responses while the tree is built.
     fn write_to_pipe(submission: &Submission, code: &str) {

@@ -9,7 +9,4 @@ mod failures;
 mod harness;
 mod hostile;
 mod pictures;
-#[cfg(target_os = "linux")]
-#[expect(dead_code, reason = "the benchmark uses more of it")]
-mod process;
 mod questions;

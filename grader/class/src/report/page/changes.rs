@@ -4,9 +4,9 @@ use maud::{Markup, html};
 
 use super::sanitized;
 use super::submissions::report_link;
-use crate::plural::count;
 use crate::regrade_diff::{Changes, Drift};
 use crate::report::text::{points_now, points_of_item, with_changed_points};
+use grader::printing::counted;
 
 /// Renders the differences from earlier runs, if there are any.
 pub(super) fn sections(changes: &Changes) -> Markup {
@@ -54,7 +54,7 @@ fn drifts(drifts: &[&Drift]) -> Markup {
                     a href=(report_link(&drift.id)) { (sanitized(&drift.id)) }
                     ": " strong { (drift.was) " → " (points_now(drift)) }
                     @if !drift.items.is_empty() { details {
-                        summary { (count(drift.items.len(), "item")) }
+                        summary { (counted(drift.items.len(), "item")) }
                         ul { @for item in &drift.items {
                             @let [was, now] = points_of_item(item);
                             li {

@@ -15,9 +15,9 @@ use sha2::{Digest, Sha256};
 
 use crate::distribution::Distribution;
 use crate::graded_class::GradedClass;
-use crate::plural::count;
 use crate::regrade_diff::Changes;
 use crate::summary::{ClassSummary, Outlier};
+use grader::printing::counted;
 
 const STYLE: &str = include_str!("page.css");
 /// The script that sorts the table of submissions.
@@ -25,7 +25,7 @@ const SCRIPT: &str = include_str!("page.js");
 
 /// Renders the page of a class.
 pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Changes) -> String {
-    let submissions = count(class.rows.len(), "submission");
+    let submissions = counted(class.rows.len(), "submission");
     let title = format!("{submissions}, {} exam", class.exam);
     let page = html! {
         (DOCTYPE)

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use super::sanitized;
 use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
-use crate::plural::count;
+use grader::printing::counted;
 
 /// Renders the section, if anything is known about times.
 pub(super) fn section(class: &GradedClass) -> Markup {
@@ -68,6 +68,6 @@ fn names<'a>(people: impl Iterator<Item = (&'a Person, &'a PersonGrade)>) -> Str
 fn lateness(days: u32) -> String {
     match days {
         0 => "on time".to_owned(),
-        days => format!("{} late", count(days as usize, "day")),
+        days => format!("{} late", counted(days as usize, "day")),
     }
 }

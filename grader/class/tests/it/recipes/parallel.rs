@@ -1,8 +1,8 @@
 //! The recipe for GNU parallel, run with GNU parallel.
 
-use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
+
+use test_support::programs::make_executable;
 
 use super::{ITEMS, is_installed, recipe_command};
 use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
@@ -28,7 +28,7 @@ fn grades_a_dead_part_again_and_merges() {
     let class = TestClass::of_three();
     let exam = class.small_exam(&ITEMS);
     let dying = class.write_beside("dying", DYING);
-    fs::set_permissions(&dying, fs::Permissions::from_mode(0o755)).unwrap();
+    make_executable(dying.as_ref());
     let run = |deaths: &str| {
         recipe_command("parallel.sh", &class, &exam, &class.out())
             .env("SHARDS", "2")

@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use test_support::programs::make_executable;
+
 use super::cluster::Cluster;
 use super::{ITEMS, is_installed, recipe_command};
 use crate::harness::{TestClass, assert_contains, comparable_files, successful_stdout};
@@ -31,8 +33,6 @@ struct SlurmClass {
 
 impl SlurmClass {
     fn new() -> Self {
-        use std::os::unix::fs::PermissionsExt;
-
         // The second part is `bob`: a part gets every third submission.
         let head = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
         let class = TestClass::of_three()
@@ -42,7 +42,7 @@ impl SlurmClass {
         let exam = class.small_exam(&ITEMS);
         let policy = class.write_beside("policy.toml", "[points]\nout_of = 7\n");
         let dying = class.write_beside("dying", DYING_ONCE);
-        fs::set_permissions(dying, fs::Permissions::from_mode(0o755)).unwrap();
+        make_executable(dying.as_ref());
         SlurmClass {
             class,
             exam,

@@ -4,8 +4,8 @@
 mod items;
 
 use author::authoring::{Attack, Authoring};
-use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
-use judging::assignment::{Assignment, TaskClues, TaskInfo};
+use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile};
+use judging::assignment::{Assignment, TaskClues, TaskFile, TaskInfo};
 
 /// The tasks.
 static TASKS: Assignment = Assignment {
@@ -20,6 +20,7 @@ static TASKS: Assignment = Assignment {
             file: "ball.rs",
             method: "hit",
             points: 40,
+            chapter: "sphere.md",
             clues: TaskClues::NONE,
         },
         TaskInfo {
@@ -28,6 +29,7 @@ static TASKS: Assignment = Assignment {
             file: "mirror.rs",
             method: "reflect",
             points: 20,
+            chapter: "sphere.md",
             clues: TaskClues::NONE,
         },
         TaskInfo {
@@ -36,6 +38,7 @@ static TASKS: Assignment = Assignment {
             file: "mirror.rs",
             method: "nearest",
             points: 40,
+            chapter: "traversal.md",
             clues: TaskClues::NONE,
         },
     ],

@@ -61,7 +61,9 @@ impl Secrets {
         };
         // Only the oracles' formulas are secret: other lines, such as the conversion of a ray to
         // `f64`, can occur in any code.
-        secrets.read(root, authoring.oracles)?;
+        for oracles in authoring.oracles {
+            secrets.read(root, oracles)?;
+        }
         secrets.lines.retain(|line, _| is_formula(line));
         secrets.read(root, handed_out.reference)?;
         let solutions = handed_out.solutions();

@@ -7,7 +7,7 @@ use super::fields::{
     self, DIRECTIONS, DISTANCES, OCTANTS, PLACES, RANGES, SIZES, direction_class, distance_class,
     history_class, octant, place_class, range_class, size_class,
 };
-use super::{Aspect, Call, FunctionDomain, Generator};
+use super::{Aspect, Call, FunctionDomain, Generator, not_asked};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -20,6 +20,32 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     ],
     pairs: &[["size", "direction"], ["size", "start"]],
     calls,
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "outcome",
+            &["misses", "too late", "too early"],
+            &[],
+            "The box is missed.",
+        ),
+        not_asked(
+            "outcome",
+            &[
+                "enters and leaves",
+                "only leaves",
+                "only enters",
+                "inside throughout",
+            ],
+            &["`None`"],
+            "The box is hit.",
+        ),
+        not_asked(
+            "size",
+            &["500"],
+            &["pairs"],
+            "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
+        ),
+    ],
 };
 
 /// A call of `BBox::hit`.

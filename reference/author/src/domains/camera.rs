@@ -22,6 +22,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
     ],
     pairs: &[],
     calls,
+    not_asked: &[],
 };
 
 /// A call of `Camera::sample_ray`.

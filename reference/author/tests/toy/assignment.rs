@@ -92,9 +92,8 @@ fn main() -> std::process::ExitCode {
 pub static TOY: Authoring = Authoring {
     handed_out: &HANDED_OUT,
     practice_exam: "reference/author/tests/toy/practice.json",
-    items: &[items::ball, items::mirror, items::nearest],
-    domains: &[&items::DIRECTIONS],
-    oracles: "reference/author/tests/toy/items.rs",
+    tasks: &[&items::BALL, &items::MIRROR, &items::NEAREST],
+    oracles: &["reference/author/tests/toy/items.rs"],
     attacks: &[Attack {
         file: "ball.rs",
         method: "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",

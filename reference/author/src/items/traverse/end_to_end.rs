@@ -20,7 +20,7 @@ pub(super) const OWN_TREE: Declaration = Declaration {
            closest one or loses its hit. If all other items of both tasks pass, look for something \
            that your tree has and the exam's trees do not.",
     section: "traversal.md#your-own-builder-and-your-own-traversal",
-    tests: &["Returns the ray's closest hit on any…"],
+    tests: &["Returns the ray's…"],
     questions: own_tree,
     needs: &[
         groups::TRIANGLE_HITS,
@@ -131,7 +131,7 @@ pub(super) const PICTURE: Declaration = Declaration {
            primitives should it test? If a piece is missing there, see whether your code skips it \
            or loses it to a farther hit.",
     section: "grading.md#reading-a-wrong-picture",
-    tests: &["Returns the ray's closest hit on any…"],
+    tests: &["Returns the ray's…"],
     questions: picture,
     needs: &[
         groups::TRIANGLE_HITS,
@@ -169,7 +169,7 @@ pub(super) const RADIANCE: Declaration = Declaration {
     look: "The framework draws every random number, so the picture must be the same except for a few \
            pixels. If only this item fails, look at the output of cargo render.",
     section: "grading.md#reading-a-wrong-picture",
-    tests: &["Returns the ray's closest hit on any…"],
+    tests: &["Returns the ray's…"],
     questions: |rng| vec![path_traced_picture(rng), linear_scan_control(rng)],
     needs: &[
         groups::TRIANGLE_HITS,

@@ -131,7 +131,7 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
     look: "This is what the tree is for. In this exam, some leaves hold primitives outside their \
            boxes: a traversal that enters a missed box finds them.",
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
-    tests: &["Do not enter a node whose box the ray misses."],
+    tests: &["Do not enter a node whose box the…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::Missed);
         // The slides enter the left child if both are missed, and may enter it if only the right one is
@@ -181,9 +181,9 @@ pub(super) const NEARER_FIRST: Declaration = Declaration {
            even where l comes second.",
     section: "traversal.md#compare-the-entry-of-the-second-child",
     tests: &[
-        "If the ray hits the boxes of both children,…",
-        "Do not take the slides' pseudo-code literally.",
-        "It compares `hit2.t`, the entry of…",
+        "If the ray hits the…",
+        "Do not take the slides'…",
+        "It compares `hit2.t`,…",
     ],
     questions: nearer_first,
     ..TRAVERSAL
@@ -219,10 +219,10 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
            slides always enter `first`.",
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
     tests: &[
-        "Do not enter a node whose box the ray misses.",
+        "Do not enter a node whose box the…",
         "Do not enter a node whose box begins…",
-        "Do not take the slides' pseudo-code literally.",
-        "It also enters `first` even if the ray misses both boxes.",
+        "Do not take the slides'…",
+        "It also enters `first`…",
     ],
     questions: |rng| {
         let missed_alone = missed_alone(|node| node.l);

@@ -13,7 +13,7 @@ pub(super) const PICTURE: Declaration = Declaration {
            some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
            triangles?",
     section: "grading.md#reading-a-wrong-picture",
-    tests: &["Returns the ray's hit on the triangle,…"],
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         let shapes = picture_shapes(&mut rng.sequence("triangle.picture"));
         let camera = picture::camera_at_origin(64);

@@ -153,9 +153,10 @@ fn normalize(line: &str) -> Option<String> {
     (computes && !is_no_code && !is_idiom && line.len() >= MIN_LENGTH).then_some(line)
 }
 
-/// Returns whether the line contains arithmetic.
+/// Returns whether the line contains arithmetic. An arrow is none, nor is a field that is dereferenced.
 fn is_formula(line: &str) -> bool {
-    line.replace("->", "").contains(['+', '-', '*', '/'])
+    let operators = line.replace("->", "").replace(": *", "").replace(":*", "");
+    operators.contains(['+', '-', '*', '/'])
 }
 
 impl fmt::Display for Secrets {
@@ -187,6 +188,7 @@ mod tests {
     #[test]
     fn lines_that_compute_nothing_are_not_secret() {
         assert!(!is_formula("origin: ray.origin.as_dvec3(),"));
+        assert!(!is_formula("max_leaf_size: *max_leaf_size,"));
         for line in [
             "}",
             "use std::collections::BTreeMap;",

@@ -15,8 +15,9 @@ use crate::seed::Rng;
 /// The domain of `BBox::hit`.
 pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     function: "BBox::hit",
+    subject_aspects: &[SIZE, PLACE, OCTANT, FORM],
     aspects: &[
-        SIZE, PLACE, OCTANT, FORM, START, DISTANCE, OUTCOME, DIRECTION, TIMES, RAYS_RANGE, HISTORY,
+        START, DISTANCE, OUTCOME, DIRECTION, TIMES, RAYS_RANGE, HISTORY,
     ],
     pairs: &[["size", "direction"], ["size", "start"]],
     calls,
@@ -397,8 +398,7 @@ pub fn tables(
     belongs: impl Fn(&BoxCall) -> bool,
 ) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     let generator = Generator {
-        aspects: BOX.aspects,
-        subject_aspects: 4,
+        domain: &BOX,
         subject: &drawn_box,
         input: &query,
         fits: &|call: &BoxCall| call.is_clear() && belongs(call),

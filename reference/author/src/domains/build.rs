@@ -60,6 +60,7 @@ fn half_side(bounds: &Bounds) -> f64 {
 /// The domain of `Bvh::build`.
 pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
     function: "Bvh::build",
+    subject_aspects: &[],
     aspects: &[
         COUNT,
         LEAF_SIZE,

@@ -67,7 +67,9 @@ pub trait Call: Copy + 'static {
 pub struct FunctionDomain<C: 'static> {
     /// The name of the function, as in [`protocol::AnyTable::name`].
     pub function: &'static str,
-    /// How its calls differ.
+    /// How the values that it is called on differ.
+    pub subject_aspects: &'static [Aspect<C>],
+    /// How its calls differ otherwise.
     pub aspects: &'static [Aspect<C>],
     /// The pairs of aspects whose classes are all asked together.
     pub pairs: &'static [[&'static str; 2]],
@@ -131,13 +133,19 @@ pub trait Domain: Debug + Sync {
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
 }
 
+impl<C> FunctionDomain<C> {
+    fn all_aspects(&self) -> impl Iterator<Item = &'static Aspect<C>> {
+        self.subject_aspects.iter().chain(self.aspects)
+    }
+}
+
 impl<C: Debug> Domain for FunctionDomain<C> {
     fn function(&self) -> &'static str {
         self.function
     }
 
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
-        let aspects = self.aspects.iter();
+        let aspects = self.all_aspects();
         aspects
             .map(|aspect| (aspect.name, aspect.classes))
             .collect()
@@ -153,7 +161,7 @@ impl<C: Debug> Domain for FunctionDomain<C> {
 
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
         let classes = |call: &C| {
-            let aspects = self.aspects.iter();
+            let aspects = self.all_aspects();
             aspects.map(|aspect| (aspect.class)(call)).collect()
         };
         if question

@@ -16,9 +16,8 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Sphere::hit",
-    aspects: &[
-        SIZE, PLACE, OCTANT, NUMBER, START, DISTANCE, LINE, DIRECTION, RANGE, HISTORY,
-    ],
+    subject_aspects: &[SIZE, PLACE, OCTANT, NUMBER],
+    aspects: &[START, DISTANCE, LINE, DIRECTION, RANGE, HISTORY],
     not_asked: &[
         not_asked("distance", &[], &["`None`"], "A miss has no distance."),
         not_asked(
@@ -255,8 +254,7 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
     let generator = Generator {
-        aspects: SPHERE.aspects,
-        subject_aspects: 4,
+        domain: &SPHERE,
         subject: &drawn_shape,
         input: &ray,
         fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),

@@ -102,6 +102,7 @@ impl Subject {
 /// The domain of `Bvh::hit`.
 pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
     function: "Bvh::hit",
+    subject_aspects: &[],
     aspects: &[
         WAY, NODES, LEVELS, LEAF_SIZE, ROOT, COUNT, SIZE, PLACE, OCTANT, KIND, START, DIRECTION,
         RANGE, HISTORY,

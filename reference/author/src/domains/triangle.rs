@@ -17,15 +17,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Triangle::hit",
+    subject_aspects: &[SIZE, PLACE, OCTANT, NUMBER, FACING, FORM, TILES, NORMALS],
     aspects: &[
-        SIZE,
-        PLACE,
-        OCTANT,
-        NUMBER,
-        FACING,
-        FORM,
-        TILES,
-        NORMALS,
         START,
         DISTANCE,
         COSINE,
@@ -465,8 +458,7 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
     let generator = Generator {
-        aspects: TRIANGLE.aspects,
-        subject_aspects: 8,
+        domain: &TRIANGLE,
         subject: &drawn_shape,
         input: &ray,
         fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),

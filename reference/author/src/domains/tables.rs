@@ -1,6 +1,6 @@
 //! Draws the rows of a table: calls of one subject, every other one a hit.
 
-use super::{Aspect, Balance, Call};
+use super::{Balance, Call, FunctionDomain};
 use crate::seed::Rng;
 
 /// A subject, and the arguments of its calls.
@@ -11,10 +11,8 @@ type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C
 
 /// How the calls of a function are drawn.
 pub struct Generator<'a, C: Call> {
-    /// How calls differ.
-    pub aspects: &'static [Aspect<C>],
-    /// How many of the aspects are about the subject alone. They come first.
-    pub subject_aspects: usize,
+    /// The domain of the function.
+    pub domain: &'static FunctionDomain<C>,
     /// Draws a subject of a size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
@@ -33,8 +31,12 @@ impl<C: Call> Generator<'_, C> {
     /// of each aspect occurs. Some pairs differ in nothing but the range, if the range decides.
     /// The last table has the calls before it again, with another subject.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
-        let (of_subject, of_row) = self.aspects.split_at(self.subject_aspects);
-        let mut balances = (Balance::new(of_subject), Balance::new(of_row));
+        let FunctionDomain {
+            subject_aspects,
+            aspects,
+            ..
+        } = self.domain;
+        let mut balances = (Balance::new(subject_aspects), Balance::new(aspects));
         let table = |(index, &size): (usize, &usize)| {
             balances.0.begin(size);
             balances.1.begin(index);
@@ -63,27 +65,28 @@ impl<C: Call> Generator<'_, C> {
         &self,
         rng: &mut Rng,
         size: usize,
-        balances: &mut (Balance<C>, Balance<C>),
+        (of_subject, of_row): &mut (Balance<C>, Balance<C>),
     ) -> Option<Drawn<C>> {
         /// How many calls are drawn until one of them fits a subject.
         const ATTEMPTS: usize = 20;
-        let (mut of_subject, mut of_row) = balances.clone();
+        // A subject that turns out not to fit counts as well, so that the next one is of another kind.
         let subject = of_subject.choose(rng, |rng| {
             let subject = (self.subject)(rng, size);
             rng.attempt(ATTEMPTS, |rng| self.call(rng, &subject))
         })?;
         let subject = subject.subject();
+        let mut balance = of_row.clone();
         let pairs = (0..PAIRS).map(|_| {
-            let hit = of_row.choose(rng, |rng| self.call_of(rng, &subject, true))?;
+            let hit = balance.choose(rng, |rng| self.call_of(rng, &subject, true))?;
             let miss = rng.coin().then(|| self.miss_by_range(rng, &hit)).flatten();
             let miss = match miss {
                 Some(miss) => miss,
-                None => of_row.choose(rng, |rng| self.call_of(rng, &subject, false))?,
+                None => balance.choose(rng, |rng| self.call_of(rng, &subject, false))?,
             };
             Some(rng.shuffled(vec![hit.input(), miss.input()]))
         });
         let pairs = pairs.collect::<Option<Vec<Vec<C::Input>>>>()?;
-        *balances = (of_subject, of_row);
+        *of_row = balance;
         Some((subject, rng.shuffled(pairs).concat()))
     }
 

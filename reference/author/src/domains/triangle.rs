@@ -9,7 +9,7 @@ use super::fields::{self, FURTHEST, FURTHEST_SIZES};
 use super::shape::{
     self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
 };
-use super::{Aspect, FunctionDomain, Generator};
+use super::{Aspect, FunctionDomain, Generator, not_asked};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan, triangle};
 use crate::seed::Rng;
@@ -19,18 +19,10 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "axis"], ["size", "start"]],
     calls: shape::calls,
     function: "Triangle::hit",
+    subject_aspects: &[
+        SIZE, PLACE, OCTANT, NUMBER, PLANE, FACING, FORM, EDGE_ALONG, TILES, NORMALS, SPREAD,
+    ],
     aspects: &[
-        SIZE,
-        PLACE,
-        OCTANT,
-        NUMBER,
-        PLANE,
-        FACING,
-        FORM,
-        EDGE_ALONG,
-        TILES,
-        NORMALS,
-        SPREAD,
         START,
         DISTANCE,
         COSINE,
@@ -40,6 +32,66 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         AXIS,
         RANGE,
         HISTORY,
+    ],
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "start",
+            &["leads away"],
+            &[],
+            "A ray that leads away from the triangle hits nothing.",
+        ),
+        not_asked(
+            "start",
+            &["on the surface"],
+            &[],
+            "The start itself is in the range only if the range begins there, and ends of ranges keep a margin. So such a ray hits nothing.",
+        ),
+        not_asked(
+            "crossing",
+            &["just outside an edge", "outside", "far outside"],
+            &[],
+            "Outside the triangle, nothing is hit.",
+        ),
+        not_asked(
+            "crossing",
+            &["just inside an edge"],
+            &[
+                "`None`", "distance", "normal", "origin", "position", "shape",
+            ],
+            "Only `triangle.outside` and `triangle.uv_corners` ask rays close to an edge, so that a mistake there costs few points. The small weights show in the texture coordinates.",
+        ),
+        not_asked(
+            "form",
+            &[
+                "narrow at p0",
+                "narrow at p1",
+                "narrow at p2",
+                "flat at p0",
+                "flat at p1",
+                "flat at p2",
+            ],
+            &["normal", "uv", "origin", "position", "shape"],
+            "In a narrow or flat triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
+        ),
+        not_asked(
+            "cosine",
+            &["below 0.01"],
+            &["normal", "uv"],
+            "At so small a cosine, the weights of a usual formula in single precision are seldom exact enough, so an exam may ask only the other quantities.",
+        ),
+        not_asked(
+            "place",
+            &["1,000 sizes away"],
+            &["normal", "uv"],
+            "So far from the origin, rounding the corners changes the weights by more than the tolerances of normals and texture coordinates allow.",
+        ),
+        not_asked(
+            "distance",
+            &["2000"],
+            &["normal", "origin", "position", "shape", "uv"],
+            "Only the largest triangles are hit so far away, so an exam may ask it for the distance alone.",
+        ),
     ],
 };
 
@@ -593,8 +645,7 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
     let generator = Generator {
-        aspects: TRIANGLE.aspects,
-        subject_aspects: 11,
+        domain: &TRIANGLE,
         subject: &drawn_shape,
         input: &ray,
         similar: &|call| similar(call, judged),

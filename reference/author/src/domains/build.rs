@@ -11,7 +11,7 @@ use super::fields::{
 };
 use super::{Aspect, FunctionDomain};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::scan;
+use crate::oracle::{scan, sweep};
 
 /// A call of `Bvh::build`.
 #[derive(Clone, Debug)]
@@ -69,10 +69,25 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         OCTANT,
         KIND,
         ARRANGEMENT,
+        ARRANGEMENT_ALONG_ANY_AXIS,
+        BEST_AXIS,
+        LEVELS,
     ],
     pairs: &[],
     calls: |question| BuildCall::of(question).into_iter().collect(),
 };
+
+/// The aspects that draws look at: those that need no tree.
+pub const DRAWN: &[Aspect<BuildCall>] = &[
+    COUNT,
+    LEAF_SIZE,
+    LEAVES,
+    SIZE,
+    PLACE,
+    OCTANT,
+    KIND,
+    ARRANGEMENT,
+];
 
 /// The number of primitives: each from 0 to 10, and then powers of two and what is near them.
 const COUNT: Aspect<BuildCall> = Aspect {
@@ -213,8 +228,77 @@ const ARRANGEMENT: Aspect<BuildCall> = Aspect {
         "equal primitives",
         "one far from the others",
         "of very different sizes",
+        "on a line along an axis",
+        "some without area",
     ],
     class: arrangement,
+};
+
+/// The arrangement again, whatever its axis is. Each property of a tree is asked of each.
+const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
+    name: "arrangement along any axis",
+    classes: &[
+        "scattered",
+        "flat boxes",
+        "centres in a plane",
+        "centres in a row",
+        "all centres coincide",
+        "equal primitives",
+        "one far from the others",
+        "of very different sizes",
+        "on a line along an axis",
+        "some without area",
+    ],
+    class: |call| {
+        Some(match arrangement(call)? {
+            0 => 0,
+            along @ 1..=9 => 1 + (along - 1) / 3,
+            other => other - 6,
+        })
+    },
+};
+
+/// How far the centres extend along the axis of the best split.
+const BEST_AXIS: Aspect<BuildCall> = Aspect {
+    name: "extent along the axis of the best split",
+    classes: &[
+        "the longest",
+        "above a tenth of the longest",
+        "above a hundredth",
+        "less",
+        "above a tenth, 8 or fewer primitives",
+        "less, 8 or fewer primitives",
+        "not the longest, over 1,100 primitives",
+    ],
+    class: |call| {
+        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+        if boxes.len() <= call.max_leaf_size as usize {
+            return None;
+        }
+        let centers = Bounds::around(boxes.iter().map(Bounds::center));
+        let extent = centers.max - centers.min;
+        let part = extent[sweep::best_axis(&boxes)?] / extent.max_element();
+        Some(match (boxes.len(), part) {
+            (_, 1.0..) => 0,
+            (..=8, 0.1..) => 4,
+            (..=8, _) => 5,
+            (1100.., _) => 6,
+            (_, 0.1..) => 1,
+            (_, 0.01..) => 2,
+            (_, _) => 3,
+        })
+    },
+};
+
+/// The number of levels of the tree.
+const LEVELS: Aspect<BuildCall> = Aspect {
+    name: "levels",
+    classes: &["1", "2 to 8", "9 to 16", "17 to 24", "25 or more"],
+    class: |call| {
+        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+        let levels = sweep::levels(&boxes, call.max_leaf_size as usize);
+        (!boxes.is_empty()).then(|| class_up_to(&[1, 8, 16, 24], levels))
+    },
 };
 
 fn arrangement(call: &BuildCall) -> Option<usize> {
@@ -242,9 +326,11 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
     Some(match flat[..] {
         _ if has_equal(&call.shapes) => 11,
         [_, _, _] => 10,
+        [x, y] if is_flat(x) && is_flat(y) => 14,
         [x, y] => 7 + (3 - x - y),
         [axis] if is_flat(axis) => 1 + axis,
         [axis] => 4 + axis,
+        _ if call.shapes.iter().any(is_without_area) => 15,
         _ if most > SIZE_RATIO * least => 13,
         _ if centers.len() > 2
             && extent_without_farthest(&centers) * OUTLIER < half_side(&around) =>
@@ -253,6 +339,16 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
         }
         _ => 0,
     })
+}
+
+/// Returns whether two corners of a triangle are the same.
+fn is_without_area(shape: &Shape) -> bool {
+    let [a, b, c] = match shape {
+        Shape::Triangle { vertices, .. } => vertices.map(|vertex| vertex.position),
+        Shape::FlatTriangle { corners, .. } => *corners,
+        Shape::Sphere { .. } => return false,
+    };
+    a == b || b == c || c == a
 }
 
 /// Returns whether two shapes are equal but for their numbers.
@@ -313,6 +409,9 @@ mod tests {
             "+++",
             "spheres",
             "centres in a row along x",
+            "centres in a row",
+            "the longest",
+            "2 to 8",
         ];
         assert_eq!(classes(row.collect(), 16), expected.map(Some));
     }
@@ -322,12 +421,12 @@ mod tests {
         let none = classes(Vec::new(), 1000);
         assert_eq!(none[0], Some("0"));
         assert_eq!(none[1], Some("256 to 1,000"));
-        assert_eq!(none[3..], [None; 5]);
+        assert_eq!(none[3..], [None; 8]);
     }
 
     #[test]
     fn arrangements_are_told_apart() {
-        let arrangement = |shapes: Vec<Shape>| *classes(shapes, 1).last().unwrap();
+        let arrangement = |shapes: Vec<Shape>| classes(shapes, 1)[7];
         let [a, b, c] = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 0.0]];
         let of = |radii: [f32; 3], centers: [[f32; 3]; 3]| {
             let spheres = centers.into_iter().zip(radii);

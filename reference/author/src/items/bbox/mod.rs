@@ -63,7 +63,7 @@ fn questions(
 }
 
 /// Returns whether neither the box is flat nor the ray parallel to one of its faces, which are ideas of
-/// two items.
+/// two items. Nor does it matter that a ray is almost parallel.
 fn is_ordinary(call: &BoxCall) -> bool {
-    !call.is_flat() && !call.is_parallel()
+    !call.is_flat() && !call.is_parallel() && !call.is_decided_by_slant()
 }

@@ -1,11 +1,15 @@
 //! Items about properties that every tree must have.
 
+use glam::DVec3;
 use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 
 use super::build_question;
-use super::draw::Arrangement::{DifferentSizes, FlatBoxes, Scattered, WithoutArea};
-use super::draw::{self, Arrangement};
+use super::draw;
+use super::draw::Arrangement::{
+    self, DifferentSizes, FlatBoxes, Line, Outlier, Plane, Row, Scattered, WithoutArea,
+};
+use crate::domains::build::BuildCall;
 use crate::items::place::Place;
 use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
@@ -13,18 +17,39 @@ use crate::seed::Rng;
 /// The largest number of primitives of which there are many questions.
 const MOST: usize = 130;
 
-/// Draws questions from the domain about scattered primitives, and others in these arrangements, in
-/// addition to those that are given.
+/// All arrangements of primitives that differ from each other and have no common centre.
+const ARRANGEMENTS: &[Arrangement] = &[
+    Line,
+    FlatBoxes,
+    WithoutArea,
+    Plane,
+    Row,
+    DifferentSizes,
+    Outlier,
+];
+
+/// Draws questions from the domain about primitives in these arrangements, in addition to those that are
+/// given.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
     checks: &[TreeCheck],
-    count: usize,
-    arrangements: &[Arrangement],
+    (count, arrangements): (usize, &[Arrangement]),
+    belongs: impl Fn(&BuildCall) -> bool,
 ) -> Vec<ExamQuestion> {
-    let drawn = draw::questions(rng, checks, count, (arrangements, MOST), |_| true);
+    let drawn = draw::questions(rng, checks, count, (arrangements, MOST), belongs);
     questions.extend(drawn);
     questions
+}
+
+/// Returns whether some nodes of the tree are not leaves.
+fn is_split(call: &BuildCall) -> bool {
+    call.shapes.len() > call.max_leaf_size as usize
+}
+
+/// Returns whether a third of the primitives does not fit into a leaf.
+fn is_in_small_leaves(call: &BuildCall) -> bool {
+    call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
@@ -59,6 +84,33 @@ fn soup_questions_of_size(
     sizes.iter().enumerate().map(question).collect()
 }
 
+/// Creates two questions about as many spheres with the same common box and the same maximum leaf size.
+/// The spheres inside of this box are elsewhere in the second.
+fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> [ExamQuestion; 2] {
+    let count = rng.integer(8, 40);
+    [0, 1].map(|_| {
+        let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
+        let inside = (0..count).map(|_| meshes::sphere(rng.point(2.5), 0.2));
+        let spheres: Vec<_> = corners.into_iter().chain(inside).collect();
+        build_question(checks, spheres, 1)
+    })
+}
+
+/// Creates questions about trees with many levels: spheres around the origin, and crowds of spheres, of
+/// which each is about half as large as the one before.
+fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let question = |(levels, count, part): (i32, i32, f64)| {
+        let spheres = (0..levels * count).map(|index| {
+            let scale = 4.0 * part.powi(index / count);
+            let center = scale * rng.vector(0.5, 1.0);
+            meshes::sphere(center, 0.02 * scale)
+        });
+        let spheres: Vec<_> = spheres.collect();
+        build_question(&[LeafSize], rng.shuffled(spheres), 1)
+    };
+    [(34, 1, 0.6), (20, 16, 0.45)].map(question).to_vec()
+}
+
 pub(super) const PARTITION: Declaration = Declaration {
     id: "build.partition",
     points: 2,
@@ -69,13 +121,8 @@ pub(super) const PARTITION: Declaration = Declaration {
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     questions: |rng| {
         let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
-        with_domain(
-            many,
-            rng,
-            &[Partition],
-            8,
-            &[Scattered, WithoutArea, Scattered],
-        )
+        let arrangements = (8, &[Scattered, WithoutArea, Scattered, Line] as &[_]);
+        with_domain(many, rng, &[Partition], arrangements, |_| true)
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -89,8 +136,10 @@ pub(super) const CONTAINS: Declaration = Declaration {
            the boxes of the nodes above with those of their children.",
     section: "building.md#the-contract",
     questions: |rng| {
-        let many = soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]);
-        with_domain(many, rng, &[Contains], 7, &[Scattered, DifferentSizes])
+        let mut questions = soup_questions(rng, &[Contains], &[(300, 4)]);
+        questions.extend(moved_inside(rng, &[Contains]));
+        let arrangements = (7, &[WithoutArea, DifferentSizes, Line] as &[_]);
+        with_domain(questions, rng, &[Contains], arrangements, |_| true)
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -103,7 +152,8 @@ pub(super) const TIGHT: Declaration = Declaration {
     section: "building.md#start-each-box-empty",
     questions: |rng| {
         let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
-        with_domain(many, rng, &[Tight], 10, &[Scattered, FlatBoxes])
+        let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
+        with_domain(many, rng, &[Tight], arrangements, is_split)
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -125,7 +175,15 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
         let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
         questions.push(crowd);
-        with_domain(questions, rng, &[LeafSize], 7, &[Scattered, DifferentSizes])
+        questions.extend(deep(rng));
+        let arrangements = (ARRANGEMENTS.len(), ARRANGEMENTS);
+        with_domain(
+            questions,
+            rng,
+            &[LeafSize],
+            arrangements,
+            is_in_small_leaves,
+        )
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -138,7 +196,7 @@ pub(super) const STOPS: Declaration = Declaration {
     section: "building.md#when-a-node-becomes-a-leaf",
     questions: |rng| {
         let checks = [Stops, LeafSize];
-        let mut questions = soup_questions(rng, &[Stops], &[(64, 2), (160, 8)]);
+        let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
         // The same primitives are asked again with another maximum leaf size. The root is a node like
         // any other: as many primitives as fit into a leaf, and one more.
         let small = rng.integer(5, 10) as usize;
@@ -150,7 +208,8 @@ pub(super) const STOPS: Declaration = Declaration {
                 questions.push(build_question(&checks, balls.clone(), max_leaf_size));
             }
         }
-        with_domain(questions, rng, &checks, 8, &[Scattered, DifferentSizes])
+        let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
+        with_domain(questions, rng, &checks, arrangements, |_| true)
     },
     ..Declaration::in_group(groups::TREES)
 };

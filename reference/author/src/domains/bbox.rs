@@ -464,7 +464,7 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let dir = match rng.index(16) {
         0 | 1 => fields::diagonal(rng),
-        2 => return slanted(rng, bounds),
+        2 | 3 => return slanted(rng, bounds),
         _ => fields::direction(rng),
     };
     query_along(rng, bounds, dir)

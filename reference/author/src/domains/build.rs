@@ -293,11 +293,11 @@ const BEST_AXIS: Aspect<BuildCall> = Aspect {
 /// The number of levels of the tree.
 const LEVELS: Aspect<BuildCall> = Aspect {
     name: "levels",
-    classes: &["1", "2 to 8", "9 to 16", "17 to 24", "25 or more"],
+    classes: &["1", "2 to 8", "9 to 20", "21 or more"],
     class: |call| {
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
         let levels = sweep::levels(&boxes, call.max_leaf_size as usize);
-        (!boxes.is_empty()).then(|| class_up_to(&[1, 8, 16, 24], levels))
+        (!boxes.is_empty()).then(|| class_up_to(&[1, 8, 20], levels))
     },
 };
 

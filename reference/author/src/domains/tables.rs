@@ -54,7 +54,8 @@ impl<C: Call> Generator<'_, C> {
         let calls: Vec<C> = calls.filter(|call| (self.fits)(call)).collect();
         let hits = calls.iter().filter(|call| call.is_hit()).count();
         let inputs = calls.iter().map(C::input).collect();
-        (0 < hits && hits < calls.len()).then_some((calls[0].subject(), inputs))
+        let subject = calls.first()?.subject();
+        (0 < hits && hits < calls.len()).then_some((subject, inputs))
     }
 
     /// Draws a subject and its calls. Returns `None` if few calls of the subject fit.

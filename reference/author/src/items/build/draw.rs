@@ -158,7 +158,11 @@ fn arranged(
                 }
                 Arrangement::DifferentSizes => {
                     // The centres of small primitives are near each other.
-                    let size = rng.log_uniform(5e-3, 1.0);
+                    let size = match index {
+                        0 => 1.0,
+                        1 => 5e-3,
+                        _ => rng.log_uniform(5e-3, 1.0),
+                    };
                     let center = size * rng.vector(0.5, 2.0);
                     primitive(rng, kind, center, size)
                 }

@@ -86,7 +86,7 @@ const HEAVY_END: Layout<'static> = Layout {
 const LARGE_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
     first_size: 1.2,
-    size: SMALL,
+    size: 0.01,
     alignment: Alignment::Loose,
 };
 
@@ -146,7 +146,11 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
             let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
             let layout = Layout {
                 clumps: &clumps,
-                alignment: ALIGNMENTS[(number + axis) % ALIGNMENTS.len()],
+                alignment: if number == 3 {
+                    Alignment::Loose
+                } else {
+                    ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
+                },
                 ..layout
             };
             let is_mirrored = (number + axis).is_multiple_of(2);
@@ -154,7 +158,11 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
         }
     }
     for (index, count) in [3, 4, 5, 6, 8, 10].into_iter().enumerate() {
-        let (axis, alignment) = (rng.index(3), ALIGNMENTS[index % ALIGNMENTS.len()]);
+        let axis = rng.index(3);
+        let alignment = match index % 2 {
+            0 => Alignment::Loose,
+            _ => ALIGNMENTS[index / 2 % ALIGNMENTS.len()],
+        };
         let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
         drawn.push(Drawn::new(shapes, count - 1));
     }
@@ -189,7 +197,7 @@ fn few(
     is_mirrored: bool,
 ) -> Vec<Shape> {
     let layout = Layout {
-        clumps: &[(0.0, 0.0, 1), (0.8, 1.0, count - 1)],
+        clumps: &[(0.0, 0.0, 1), (0.85, 1.0, count - 1)],
         first_size: LARGE,
         size: LARGE,
         alignment,
@@ -345,7 +353,15 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
         };
         let center = start + at * along + *height * DVec3::AXES[axis];
         let (half, width) = (rng.uniform(4.5, 5.5) * along, width * across);
-        meshes::flat_triangle([center - half, center + half, center + half + width], 0)
+        // Some have no area.
+        let width = if heights.len() == 12 && index % 4 == 2 {
+            DVec3::ZERO
+        } else {
+            width
+        };
+        let start = center - 0.5 * width - half;
+        let end = start + 2.0 * half;
+        meshes::flat_triangle([start, end, end + width], 0)
     });
     let strips: Vec<Shape> = strips.collect();
     meshes::number_shapes(rng.shuffled(strips))
@@ -357,7 +373,8 @@ fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
     let space = ratio * SPREAD;
     let shapes = rng.retry(|rng| {
         let heights = (0..count).map(|index| {
-            let level = if 2 * index < count { 0.0 } else { 0.9 };
+            // Neighbours along the strips are in different layers.
+            let level = if index % 2 == 0 { 0.0 } else { 0.9 };
             space * (level + rng.uniform(0.0, 0.1))
         });
         let heights: Vec<f64> = heights.collect();

@@ -96,19 +96,20 @@ fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> [ExamQuestion; 2] {
     })
 }
 
-/// Creates questions about trees with many levels: spheres around the origin, and crowds of spheres, of
-/// which each is about half as large as the one before.
+/// Creates questions about trees with many levels. Each sphere is nearer to the origin than the one
+/// before, by so much that it is best to split off one sphere at a time.
 fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let question = |(levels, count, part): (i32, i32, f64)| {
-        let spheres = (0..levels * count).map(|index| {
-            let scale = 4.0 * part.powi(index / count);
-            let center = scale * rng.vector(0.5, 1.0);
-            meshes::sphere(center, 0.02 * scale)
+    let question = |count: i32| {
+        let mut scale = 900.0;
+        let spheres = (0..count).map(|index| {
+            let sphere = meshes::sphere(scale * rng.vector(0.8, 1.0), 0.01 * scale);
+            scale /= (1.1 * f64::from(count - index).sqrt()).max(3.0);
+            sphere
         });
         let spheres: Vec<_> = spheres.collect();
         build_question(&[LeafSize], rng.shuffled(spheres), 1)
     };
-    [(34, 1, 0.6), (20, 16, 0.45)].map(question).to_vec()
+    [22, 24].map(question).to_vec()
 }
 
 pub(super) const PARTITION: Declaration = Declaration {
@@ -121,8 +122,10 @@ pub(super) const PARTITION: Declaration = Declaration {
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     questions: |rng| {
         let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
-        let arrangements = (8, &[Scattered, WithoutArea, Scattered, Line] as &[_]);
-        with_domain(many, rng, &[Partition], arrangements, |_| true)
+        let arrangements = (8, &[Scattered, WithoutArea, DifferentSizes, Line] as &[_]);
+        with_domain(many, rng, &[Partition], arrangements, |call| {
+            call.shapes.len() > 2
+        })
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -209,7 +212,9 @@ pub(super) const STOPS: Declaration = Declaration {
             }
         }
         let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
-        with_domain(questions, rng, &checks, arrangements, |_| true)
+        with_domain(questions, rng, &checks, arrangements, |call| {
+            call.shapes.len() > 4
+        })
     },
     ..Declaration::in_group(groups::TREES)
 };

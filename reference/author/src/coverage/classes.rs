@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use judging::exam::{Exam, Key};
+use judging::exam::{Exam, Key, TreeCheck};
 
 use crate::domains::Domain;
 
@@ -32,7 +32,13 @@ impl Classes {
         let mut judged_anywhere = BTreeSet::new();
         for asked in exam.items.iter().flat_map(|item| &item.questions) {
             let Key::Table { judged, rows, .. } = &asked.key else {
-                counted.add_all(&domain.classes(&asked.question), |_| vec![PRESENT]);
+                let judged = judged_of_tree(&asked.key);
+                judged_anywhere.extend(judged.iter().map(|&name| name.to_owned()));
+                counted.add_all(&domain.classes(&asked.question), |_| {
+                    std::iter::once(PRESENT)
+                        .chain(judged.iter().copied())
+                        .collect()
+                });
                 continue;
             };
             judged_anywhere.extend(judged.iter().cloned());
@@ -86,4 +92,23 @@ impl Classes {
     pub(super) fn times_together(&self, pair: [(usize, usize); 2]) -> usize {
         self.pairs.get(&pair).copied().unwrap_or(0)
     }
+}
+
+/// Returns the names of what is judged about a tree.
+fn judged_of_tree(key: &Key) -> Vec<&'static str> {
+    let Key::Tree {
+        checks, sweep_cost, ..
+    } = key
+    else {
+        return Vec::new();
+    };
+    let checks = checks.iter().map(|check| match check {
+        TreeCheck::Partition => "partition",
+        TreeCheck::Contains => "contents",
+        TreeCheck::Tight => "tightness",
+        TreeCheck::Split => "split",
+        TreeCheck::LeafSize => "leaf size",
+        TreeCheck::Stops => "stops",
+    });
+    checks.chain(sweep_cost.map(|_| "cost")).collect()
 }

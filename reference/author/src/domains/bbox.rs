@@ -4,8 +4,8 @@ use glam::{DVec3, Vec3};
 use protocol::{Interval, Query, Question, Ray};
 
 use super::fields::{
-    self, DIRECTIONS, DISTANCES, OCTANTS, PLACES, RANGES, SIZES, direction_class, distance_class,
-    history_class, octant, place_class, range_class, size_class,
+    self, DIAGONALS, DIRECTIONS, DISTANCES, OCTANTS, PLACES, SIZES, diagonal_class,
+    direction_class, distance_class, history_class, octant, place_class, range_class, size_class,
 };
 use super::{Aspect, Call, FunctionDomain, Generator, not_asked};
 use crate::oracle::Ray64;
@@ -17,7 +17,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     function: "BBox::hit",
     subject_aspects: &[SIZE, PLACE, OCTANT, FORM],
     aspects: &[
-        START, DISTANCE, OUTCOME, DIRECTION, TIMES, RAYS_RANGE, HISTORY,
+        START, DISTANCE, OUTCOME, DIRECTION, DIAGONAL, SLANT, TIMES, RAYS_RANGE, HISTORY,
     ],
     pairs: &[["size", "direction"], ["size", "start"]],
     calls,
@@ -45,6 +45,19 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["500"],
             &["pairs"],
             "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
+        ),
+        not_asked("outcome", &["narrowly misses"], &[], "The box is missed."),
+        not_asked(
+            "components below 1e-4",
+            &["lead into the box"],
+            &["`None`"],
+            "The box is hit.",
+        ),
+        not_asked(
+            "components below 1e-4",
+            &["lead past the box"],
+            &["some", "interval inside the box"],
+            "The box is missed.",
         ),
     ],
 };
@@ -90,6 +103,9 @@ const FORM: Aspect<BoxCall> = Aspect {
         "about a cube",
         "ordinary",
         "thin",
+        "thin as paper",
+        "thin along two axes",
+        "flat and thin",
         "flat along x",
         "flat along y",
         "flat along z",
@@ -97,14 +113,28 @@ const FORM: Aspect<BoxCall> = Aspect {
     class: |call| {
         let sides = call.bounds.max - call.bounds.min;
         let flat = (0..3).find(|&axis| sides[axis] == 0.0);
-        let class = match sides.min_element() / sides.max_element() {
-            0.75.. => 0,
-            0.02.. => 1,
-            _ => 2,
+        let mut parts = (sides / sides.max_element()).to_array();
+        parts.sort_by(f64::total_cmp);
+        let [least, middle, _] = parts;
+        let class = match (flat, least) {
+            (Some(_), _) if middle < THREAD => 5,
+            (Some(axis), _) => 6 + axis,
+            (None, _) if middle < THREAD => 4,
+            (None, 0.75..) => 0,
+            (None, THIN..) => 1,
+            (None, PAPER..) => 2,
+            (None, _) => 3,
         };
-        Some(flat.map_or(class, |axis| 3 + axis))
+        Some(class)
     },
 };
+
+/// The sides of a box below which it is thin, relative to the longest.
+const THIN: f64 = 0.02;
+/// The second longest side of a box below which it is thin along two axes, relative to the longest.
+const THREAD: f64 = 0.0025;
+/// The shortest side of a box below which it is as thin as paper, relative to the longest.
+const PAPER: f64 = 0.0009;
 
 /// The start of the ray.
 const START: Aspect<BoxCall> = Aspect {
@@ -132,11 +162,13 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
         "misses",
         "too late",
         "too early",
+        "narrowly misses",
     ],
     class: |call| {
         let line = Ray64::from(&call.ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
         let (min, max) = (f64::from(call.times.min), f64::from(call.times.max));
         Some(match call.bounds.span(&line) {
+            None if call.is_narrow_miss(&line) => 7,
             None => 4,
             Some((enter, _)) if enter > max => 5,
             Some((_, leave)) if leave < min => 6,
@@ -164,27 +196,89 @@ const DIRECTION: Aspect<BoxCall> = Aspect {
     class: |call| direction_class(call.ray.dir),
 };
 
+/// The exact diagonals among the directions.
+const DIAGONAL: Aspect<BoxCall> = Aspect {
+    name: "diagonal",
+    classes: DIAGONALS,
+    class: |call| diagonal_class(call.ray.dir),
+};
+
+/// The components of the direction that are almost 0, if they decide.
+const SLANT: Aspect<BoxCall> = Aspect {
+    name: "components below 1e-4",
+    classes: &["lead into the box", "lead past the box"],
+    class: |call| {
+        let with_zeros = call.with_zeros()?;
+        let (is_hit, would_be_hit) = (call.is_hit(), with_zeros.is_hit());
+        (is_hit != would_be_hit).then_some(usize::from(would_be_hit))
+    },
+};
+
+/// The classes of times, and of the ray's own range, which may be empty.
+const TIMES_CLASSES: &[&str] = &[
+    "from 0 to ∞",
+    "from 0 to an end",
+    "from later to ∞",
+    "from later to an end",
+    "from 0 to a far end",
+    "from later to a far end",
+    "to the largest number",
+    "one point",
+];
+
+/// The same, with one more for a range that is empty.
+const RANGE_CLASSES: &[&str] = &[
+    "from 0 to ∞",
+    "from 0 to an end",
+    "from later to ∞",
+    "from later to an end",
+    "from 0 to a far end",
+    "from later to a far end",
+    "to the largest number",
+    "one point",
+    "empty",
+];
+
+/// Returns the class of an interval in [`RANGE_CLASSES`].
+fn times_class(times: Interval) -> Option<usize> {
+    match times {
+        _ if times.min > times.max => Some(8),
+        _ if times.min == times.max => Some(7),
+        _ if times.max == f32::MAX => Some(6),
+        _ => range_class(times),
+    }
+}
+
 /// The times.
 const TIMES: Aspect<BoxCall> = Aspect {
     name: "times",
-    classes: RANGES,
-    class: |call| range_class(call.times),
+    classes: TIMES_CLASSES,
+    class: |call| times_class(call.times),
 };
 
 /// The ray's own range, which does not matter.
 const RAYS_RANGE: Aspect<BoxCall> = Aspect {
     name: "the ray's own range",
-    classes: RANGES,
-    class: |call| range_class(call.ray.range),
+    classes: RANGE_CLASSES,
+    class: |call| times_class(call.ray.range),
 };
 
 /// The call before.
 const HISTORY: Aspect<BoxCall> = Aspect {
     name: "call before",
-    classes: &["none", "another ray", "the same ray with other times"],
+    classes: &[
+        "none",
+        "another ray",
+        "the same ray with other times",
+        "a parallel ray",
+    ],
     class: |call| {
-        let before = call.before.as_ref();
-        Some(history_class(before.map(|(ray, _)| ray), &call.ray))
+        let before = call.before.as_ref().map(|(ray, _)| ray);
+        let is_parallel = |ray: &Ray| ray.dir == call.ray.dir && ray.origin != call.ray.origin;
+        if before.is_some_and(is_parallel) {
+            return Some(3);
+        }
+        Some(history_class(before, &call.ray))
     },
 };
 
@@ -267,6 +361,28 @@ impl BoxCall {
     pub fn starts_inside(&self) -> bool {
         let start = Bounds::around([self.ray.origin.as_dvec3()]);
         self.bounds.contains(&start)
+    }
+
+    /// Returns the call with 0 for each component of the direction that is almost 0, or `None` if none
+    /// is.
+    fn with_zeros(&self) -> Option<BoxCall> {
+        let is_small = self.ray.dir.abs().cmplt(Vec3::splat(SMALL_COMPONENT));
+        let dir = Vec3::select(is_small, Vec3::ZERO, self.ray.dir);
+        let ray = Ray { dir, ..self.ray };
+        (dir != self.ray.dir).then_some(BoxCall { ray, ..*self })
+    }
+
+    /// Returns whether it matters that a component of the direction is almost 0, and not 0.
+    pub fn is_decided_by_slant(&self) -> bool {
+        (SLANT.class)(self).is_some()
+    }
+
+    /// Returns whether this line, which misses the box, would hit one that is a little larger.
+    fn is_narrow_miss(&self, line: &Ray64) -> bool {
+        /// By how much, in sizes.
+        const NARROW: f64 = 0.002;
+        let larger = self.bounds.grown(NARROW * self.size());
+        larger.span(line).is_some()
     }
 
     /// Returns the times at which the ray's line enters and leaves the box, whatever the times are.
@@ -353,17 +469,27 @@ impl BoxCall {
 /// The relative error of one operation in single precision.
 const EPSILON: f64 = 6e-8;
 
-/// Draws a box of this size, which may be thin or flat.
+/// The components of a direction that are almost 0.
+const SMALL_COMPONENT: f32 = 1e-4;
+
+/// Draws a box of this size. Each of two sides may be thin, and one may be flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     let size = fields::size(rng, size);
     let least = if rng.coin() { 0.3 } else { 0.8 };
     let mut half = size * rng.vector(least, 1.0);
     let (axis, other) = (rng.index(3), rng.integer(1, 2) as usize);
     half[(axis + other) % 3] = size;
+    let thin = |rng: &mut Rng| match rng.index(3) {
+        0 => rng.uniform(0.005, THIN),
+        _ => rng.log_uniform(2e-4, THREAD),
+    };
     match rng.index(4) {
         0 => half[axis] = 0.0,
-        1 => half[axis] *= rng.uniform(0.005, 0.02),
+        1 => half[axis] *= thin(rng),
         _ => {}
+    }
+    if half[axis] < THIN * size && rng.index(3) == 0 {
+        half[(axis + 3 - other) % 3] = size * thin(rng);
     }
     let center = fields::place(rng, size);
     let mut bounds = Bounds::new((center - half).as_vec3(), (center + half).as_vec3());
@@ -375,16 +501,30 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
 
 /// Draws a ray through a box or beside it, with times. Returns `None` if it would start too far away.
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let dir = match rng.index(16) {
+        0 | 1 => fields::diagonal(rng),
+        2 | 3 => return slanted(rng, bounds),
+        _ => fields::direction(rng),
+    };
+    query_along(rng, bounds, dir)
+}
+
+/// Draws a ray in this direction. Some start far away in another.
+fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = 0.5 * sides.max_element();
-    let dir = fields::direction(rng);
     let target = match rng.index(4) {
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
-            // Close to a face, inside or outside.
+            // Close to a face, inside or outside: by a part of the box's size, or of this side.
             let axis = rng.index(3);
             let mut target = bounds.center() + 0.45 * rng.point(1.0) * sides;
-            let half = 0.5 * sides[axis] + size * rng.sign() * rng.uniform(0.03, 0.15);
+            let away = if rng.coin() {
+                size * rng.uniform(0.03, 0.15)
+            } else {
+                sides[axis] * rng.uniform(0.13, 0.4)
+            };
+            let half = 0.5 * sides[axis] + rng.sign() * away;
             target[axis] = bounds.center()[axis] + rng.sign() * half;
             target
         }
@@ -398,14 +538,76 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
             _ => -rng.uniform(2.0, 28.0),
         };
     let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
-    let furthest = ahead.max(0.0) + 2.0 * size;
+    Some(with_times(rng, origin, dir, ahead.max(0.0) + 2.0 * size))
+}
+
+/// Draws a ray with a component that is almost 0, along a slab that it starts beside, or that it leaves
+/// on its long way to the box.
+fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let sides = bounds.max - bounds.min;
+    let size = 0.5 * sides.max_element();
+    let axis = rng.index(3);
+    let mut dir = DVec3::ZERO;
+    dir[(axis + 1 + rng.index(2)) % 3] = rng.sign();
+    dir[axis] = rng.sign() * rng.uniform(0.5, 0.95) * f64::from(SMALL_COMPONENT);
+    let ahead = size * rng.uniform(15.0, 28.0);
+    let mut target = bounds.center() + 0.4 * rng.point(1.0) * sides;
+    target[axis] = bounds.center()[axis] + rng.uniform(-0.7, 0.7) * sides[axis];
+    let origin = target - ahead * dir;
+    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
+    is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
+}
+
+/// Returns a ray with its own range and times, whose ends are at distances up to `furthest`.
+fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, Interval) {
     let mut times = fields::range(rng, furthest);
-    if rng.index(8) == 0 {
-        times.max = times.min;
+    match rng.index(16) {
+        0 | 1 => times.max = times.min,
+        2 => times.max = f32::MAX,
+        _ => {}
     }
-    let own = fields::range(rng, furthest);
+    let mut own = fields::range(rng, furthest);
+    match rng.index(8) {
+        0 => own.max = own.min,
+        1 => own.max = own.min * rng.uniform(0.0, 0.9) as f32,
+        2 => own.max = f32::MAX,
+        _ => {}
+    }
     let ray = Ray::new(origin.as_vec3(), dir.as_vec3()).within(own.min, own.max);
-    Some((ray, times))
+    (ray, times)
+}
+
+/// Returns the calls of a table, and two more, a hit and a miss: each of them has a ray that is parallel
+/// to the one before.
+fn with_parallel_rays(
+    rng: &mut Rng,
+    (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
+    fits: impl Fn(&BoxCall) -> bool,
+) -> (Bounds, Vec<(Ray, Interval)>) {
+    /// How many rays are drawn for each.
+    const ATTEMPTS: usize = 400;
+    let is_hit = |query: &(Ray, Interval)| BoxCall::new(bounds, *query).is_hit();
+    // The first is parallel to the last row, or to one that is moved to the end for it.
+    let found = (0..queries.len()).rev().find_map(|row| {
+        let last = queries[row];
+        let dir = last.0.dir;
+        let mut other = |hits: bool| {
+            rng.attempt(ATTEMPTS, |rng| {
+                let query = query_along(rng, &bounds, dir.as_dvec3())?;
+                let fits = query.0.dir == dir && fits(&BoxCall::new(bounds, query));
+                (fits && is_hit(&query) == hits).then_some(query)
+            })
+        };
+        let first = other(!is_hit(&last))?;
+        let second = other(is_hit(&last))?;
+        Some((row, [first, second]))
+    });
+    if let Some((row, parallel)) = found {
+        let last = queries.remove(row);
+        queries.push(last);
+        queries.extend(parallel);
+    }
+    (bounds, queries)
 }
 
 /// Returns a smaller box with the same centre.
@@ -421,14 +623,18 @@ pub fn tables(
     sizes: &[usize],
     belongs: impl Fn(&BoxCall) -> bool,
 ) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
+    let fits = |call: &BoxCall| call.is_clear() && belongs(call);
     let generator = Generator {
         domain: &BOX,
         subject: &drawn_box,
         input: &query,
         similar: &|call| BoxCall::new(smaller(&call.bounds), call.input()),
-        fits: &|call: &BoxCall| call.is_clear() && belongs(call),
+        fits: &fits,
     };
-    generator.tables(rng, sizes)
+    let tables = generator.tables(rng, sizes).into_iter();
+    tables
+        .map(|table| with_parallel_rays(rng, table, fits))
+        .collect()
 }
 
 #[cfg(test)]

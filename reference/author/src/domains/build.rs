@@ -11,7 +11,7 @@ use super::fields::{
 };
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::scan;
+use crate::oracle::{scan, sweep};
 
 /// A call of `Bvh::build`.
 #[derive(Clone, Debug)]
@@ -70,16 +70,205 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         OCTANT,
         KIND,
         ARRANGEMENT,
+        ARRANGEMENT_ALONG_ANY_AXIS,
+        BEST_AXIS,
+        LEVELS,
     ],
     pairs: &[],
     calls: |question| BuildCall::of(question).into_iter().collect(),
-    not_asked: &[not_asked(
-        "primitives",
-        &["about 2,048", "about 4,096"],
-        &[],
-        "An exam asks one tree of each of these sizes, since each is as long in the exam as a hundred small ones.",
-    )],
+    not_asked: &[
+        not_asked(
+            "primitives",
+            &["about 2,048", "about 4,096"],
+            &[],
+            "An exam asks one tree of each of these sizes, since each is as long in the exam as a hundred small ones.",
+        ),
+        not_asked(
+            "primitives",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "max_leaf_size",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "primitives in leaves",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "size",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "place",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "octant",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "kind",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "arrangement",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+                "cost",
+            ],
+            "Each property of a tree is judged for each arrangement of primitives, and by many trees that differ in this.",
+        ),
+        not_asked(
+            "extent along the axis of the best split",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+            ],
+            "Only the cost depends on the axis of a split.",
+        ),
+        not_asked(
+            "levels",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "stops",
+                "cost",
+            ],
+            "A builder that stops at a level makes a leaf there, which is too large.",
+        ),
+        not_asked(
+            "levels",
+            &["1"],
+            &["leaf size"],
+            "A tree of one level is asked of where a node must be a leaf.",
+        ),
+        not_asked(
+            "arrangement along any axis",
+            &["all centres coincide"],
+            &["split", "cost"],
+            "All partitions of primitives with one centre cost the same, and the leaf size is judged instead.",
+        ),
+        not_asked(
+            "arrangement along any axis",
+            &["on a line along an axis"],
+            &["split", "cost"],
+            "Every box has the area 0, so no partition is better than another.",
+        ),
+        not_asked(
+            "arrangement along any axis",
+            &["equal primitives"],
+            &["cost"],
+            "Some of the partitions of equal primitives cost the same, so builders differ.",
+        ),
+        not_asked(
+            "arrangement along any axis",
+            &[
+                "some without area",
+                "equal primitives",
+                "of very different sizes",
+            ],
+            &["split"],
+            "The leaf size is judged, which is stricter.",
+        ),
+    ],
 };
+
+/// The aspects that draws look at: those that need no tree.
+pub const DRAWN: &[Aspect<BuildCall>] = &[
+    COUNT,
+    LEAF_SIZE,
+    LEAVES,
+    SIZE,
+    PLACE,
+    OCTANT,
+    KIND,
+    ARRANGEMENT,
+];
 
 /// The number of primitives: each from 0 to 10, and then powers of two and what is near them.
 const COUNT: Aspect<BuildCall> = Aspect {
@@ -220,8 +409,77 @@ const ARRANGEMENT: Aspect<BuildCall> = Aspect {
         "equal primitives",
         "one far from the others",
         "of very different sizes",
+        "on a line along an axis",
+        "some without area",
     ],
     class: arrangement,
+};
+
+/// The arrangement again, whatever its axis is. Each property of a tree is asked of each.
+const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
+    name: "arrangement along any axis",
+    classes: &[
+        "scattered",
+        "flat boxes",
+        "centres in a plane",
+        "centres in a row",
+        "all centres coincide",
+        "equal primitives",
+        "one far from the others",
+        "of very different sizes",
+        "on a line along an axis",
+        "some without area",
+    ],
+    class: |call| {
+        Some(match arrangement(call)? {
+            0 => 0,
+            along @ 1..=9 => 1 + (along - 1) / 3,
+            other => other - 6,
+        })
+    },
+};
+
+/// How far the centres extend along the axis of the best split.
+const BEST_AXIS: Aspect<BuildCall> = Aspect {
+    name: "extent along the axis of the best split",
+    classes: &[
+        "the longest",
+        "above a tenth of the longest",
+        "above a hundredth",
+        "less",
+        "above a tenth, 8 or fewer primitives",
+        "less, 8 or fewer primitives",
+        "not the longest, over 1,100 primitives",
+    ],
+    class: |call| {
+        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+        if boxes.len() <= call.max_leaf_size as usize {
+            return None;
+        }
+        let centers = Bounds::around(boxes.iter().map(Bounds::center));
+        let extent = centers.max - centers.min;
+        let part = extent[sweep::best_axis(&boxes)?] / extent.max_element();
+        Some(match (boxes.len(), part) {
+            (_, 1.0..) => 0,
+            (..=8, 0.1..) => 4,
+            (..=8, _) => 5,
+            (1100.., _) => 6,
+            (_, 0.1..) => 1,
+            (_, 0.01..) => 2,
+            (_, _) => 3,
+        })
+    },
+};
+
+/// The number of levels of the tree.
+const LEVELS: Aspect<BuildCall> = Aspect {
+    name: "levels",
+    classes: &["1", "2 to 8", "9 to 20", "21 or more"],
+    class: |call| {
+        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+        let levels = sweep::levels(&boxes, call.max_leaf_size as usize);
+        (!boxes.is_empty()).then(|| class_up_to(&[1, 8, 20], levels))
+    },
 };
 
 fn arrangement(call: &BuildCall) -> Option<usize> {
@@ -249,9 +507,11 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
     Some(match flat[..] {
         _ if has_equal(&call.shapes) => 11,
         [_, _, _] => 10,
+        [x, y] if is_flat(x) && is_flat(y) => 14,
         [x, y] => 7 + (3 - x - y),
         [axis] if is_flat(axis) => 1 + axis,
         [axis] => 4 + axis,
+        _ if call.shapes.iter().any(is_without_area) => 15,
         _ if most > SIZE_RATIO * least => 13,
         _ if centers.len() > 2
             && extent_without_farthest(&centers) * OUTLIER < half_side(&around) =>
@@ -260,6 +520,16 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
         }
         _ => 0,
     })
+}
+
+/// Returns whether two corners of a triangle are the same.
+fn is_without_area(shape: &Shape) -> bool {
+    let [a, b, c] = match shape {
+        Shape::Triangle { vertices, .. } => vertices.map(|vertex| vertex.position),
+        Shape::FlatTriangle { corners, .. } => *corners,
+        Shape::Sphere { .. } => return false,
+    };
+    a == b || b == c || c == a
 }
 
 /// Returns whether two shapes are equal but for their numbers.
@@ -320,6 +590,9 @@ mod tests {
             "+++",
             "spheres",
             "centres in a row along x",
+            "centres in a row",
+            "the longest",
+            "2 to 8",
         ];
         assert_eq!(classes(row.collect(), 16), expected.map(Some));
     }
@@ -329,12 +602,12 @@ mod tests {
         let none = classes(Vec::new(), 1000);
         assert_eq!(none[0], Some("0"));
         assert_eq!(none[1], Some("256 to 1,000"));
-        assert_eq!(none[3..], [None; 5]);
+        assert_eq!(none[3..], [None; 8]);
     }
 
     #[test]
     fn arrangements_are_told_apart() {
-        let arrangement = |shapes: Vec<Shape>| *classes(shapes, 1).last().unwrap();
+        let arrangement = |shapes: Vec<Shape>| classes(shapes, 1)[7];
         let [a, b, c] = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 0.0]];
         let of = |radii: [f32; 3], centers: [[f32; 3]; 3]| {
             let spheres = centers.into_iter().zip(radii);

@@ -188,6 +188,36 @@ pub fn direction(rng: &mut Rng) -> DVec3 {
     dir.normalize()
 }
 
+/// The classes of directions along a diagonal, with components that are exactly of the same size.
+pub const DIAGONALS: &[&str] = &[
+    "in the yz-plane",
+    "in the zx-plane",
+    "in the xy-plane",
+    "of a cube",
+];
+
+/// Returns the class of a direction along a diagonal.
+pub fn diagonal_class(dir: Vec3) -> Option<usize> {
+    let [x, y, z] = dir.abs().to_array();
+    match (x == y, y == z, z == x) {
+        (true, true, _) => Some(3),
+        (_, true, _) if x == 0.0 => Some(0),
+        (_, _, true) if y == 0.0 => Some(1),
+        (true, _, _) if z == 0.0 => Some(2),
+        _ => None,
+    }
+}
+
+/// Draws a direction along a diagonal of a cube or of one of its faces.
+pub fn diagonal(rng: &mut Rng) -> DVec3 {
+    let mut dir = DVec3::ONE;
+    if rng.index(4) > 0 {
+        dir[rng.index(3)] = 0.0;
+    }
+    let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
+    (signs * dir).normalize()
+}
+
 /// Returns the start and the direction of a ray toward a target that is so far ahead. Some rays start far
 /// away instead. Returns `None` if the ray would start outside of the scene.
 pub fn ray_toward(

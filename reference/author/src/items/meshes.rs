@@ -131,6 +131,24 @@ pub fn sheets(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(sheets)
 }
 
+/// Returns spheres in three parallel lanes along an axis. Each lane is much longer than the space between
+/// them.
+pub fn lanes(rng: &mut Rng, count: usize) -> Vec<Shape> {
+    let axis = rng.index(3);
+    let [x, y] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
+    let places = [(-1.0, 0.6), (-0.5, -0.7), (1.0, 0.0)];
+    let places = places.map(|(along_x, along_y)| {
+        let space = rng.uniform(0.7, 1.3);
+        space * (along_x * x + along_y * y)
+    });
+    let spheres = (0..count).map(|i| {
+        let at = rng.uniform(-3.0, 3.0);
+        let center = places[i % 3] + rng.point(0.02) + at * DVec3::AXES[axis];
+        sphere(center, 0.01)
+    });
+    number_shapes(spheres)
+}
+
 /// Returns a few large triangles on the ground, and many small primitives in a few crowded spots.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)

@@ -34,6 +34,33 @@ pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
     }
 }
 
+/// Returns the axis of the cheapest partition of these boxes, or `None` if all centres coincide.
+pub fn best_axis(boxes: &[Bounds]) -> Option<usize> {
+    let indices: Vec<usize> = (0..boxes.len()).collect();
+    Some(cheapest_partition(boxes, &indices)?.axis)
+}
+
+/// Returns the number of levels of the tree whose cost [`cost`] returns.
+pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
+    fn below(boxes: &[Bounds], indices: &mut [usize], max_leaf_size: usize) -> usize {
+        if indices.len() <= max_leaf_size {
+            return 1;
+        }
+        let middle = match cheapest_partition(boxes, indices) {
+            Some(partition) => {
+                sort_by_center(boxes, indices, partition.axis);
+                partition.left
+            }
+            None => indices.len() / 2,
+        };
+        let (left, right) = indices.split_at_mut(middle);
+        let [left, right] = [left, right].map(|side| below(boxes, side, max_leaf_size));
+        1 + left.max(right)
+    }
+    let mut indices: Vec<usize> = (0..boxes.len()).collect();
+    below(boxes, &mut indices, max_leaf_size)
+}
+
 /// Returns the gap between two centres at which the best partition splits along this axis. Returns
 /// `None` if the best partition is along another axis, or if another one is nearly as good.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {

@@ -63,7 +63,9 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     tests: &["A component of `ray.dir`…", "Then the ray is parallel…"],
     questions: |rng| {
         let sizes = [EVERY_SIZE, EVERY_SIZE].concat();
-        let parallel = questions(rng, &sizes, |call| !call.is_flat() && call.is_parallel());
+        let parallel = questions(rng, &sizes, |call| {
+            !call.is_flat() && (call.is_parallel() || call.is_decided_by_slant())
+        });
         [parallel, vec![almost_parallel::question(rng)]].concat()
     },
     ..Declaration::in_group(groups::BOXES)

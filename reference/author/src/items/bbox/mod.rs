@@ -30,6 +30,10 @@ pub static TASK: AuthoredTask = AuthoredTask {
         hits::FLAT,
     ],
     domain: Some(&BOX),
+    untested: &[(
+        "Neither the box nor `times` is ever empty (`min > max`).",
+        "A promise about the arguments: there is nothing to ask.",
+    )],
     points: POINTS,
     ..AuthoredTask::NEW
 };
@@ -65,7 +69,7 @@ fn questions(
 }
 
 /// Returns whether neither the box is flat nor the ray parallel to one of its faces, which are ideas of
-/// two items.
+/// two items. Nor does it matter that a ray is almost parallel.
 fn is_ordinary(call: &BoxCall) -> bool {
-    !call.is_flat() && !call.is_parallel()
+    !call.is_flat() && !call.is_parallel() && !call.is_decided_by_slant()
 }

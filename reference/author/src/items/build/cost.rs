@@ -54,6 +54,19 @@ fn cost_questions(
     sizes.iter().map(question).collect()
 }
 
+/// Creates a question about a few long lanes of spheres. The best split is between two lanes, and so
+/// not along the axis of the largest extent.
+fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQuestion {
+    rng.retry(|rng| {
+        let shapes = meshes::lanes(rng, count);
+        let shapes = meshes::number_shapes(rng.shuffled(shapes));
+        let size = rng.index(fields::SIZES.len());
+        let shapes = place_of_size(rng, &shapes, size).shapes(&shapes);
+        let question = cost_question(shapes, max_leaf_size);
+        (highest_correct_cost(&question) <= MAX_CORRECT_COST).then_some(question)
+    })
+}
+
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
 /// of a builder narrowly miss the best split, so that its tree is expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
@@ -127,7 +140,11 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
            buckets from the left and from the right.",
     section: "building.md#areas-and-counts-in-the-cost-formula",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
-    questions: |rng| cost_questions(rng, meshes::sheets, &[(255, 2), (512, 1), (1024, 8)]),
+    questions: |rng| {
+        let sheets = cost_questions(rng, meshes::sheets, &[(255, 2), (512, 1)]);
+        let lanes = [(1300, 4), (2100, 8)].map(|size| lanes_question(rng, size));
+        [sheets, lanes.to_vec()].concat()
+    },
     ..Declaration::ALONE
 };
 

@@ -5,7 +5,7 @@ use judging::exam::{ExamQuestion, TreeCheck};
 use protocol::Shape;
 
 use crate::domains::Balance;
-use crate::domains::build::{BUILD, BuildCall};
+use crate::domains::build::{BuildCall, DRAWN};
 use crate::domains::fields::{self, FURTHEST};
 use crate::items::meshes;
 use crate::items::place::Place;
@@ -34,6 +34,8 @@ pub(super) enum Arrangement {
     DifferentSizes,
     /// Some are triangles without area.
     WithoutArea,
+    /// All are triangles on a line along an axis.
+    Line,
 }
 
 /// Draws questions about `count` trees with primitives in one of these arrangements, at most `most` of
@@ -45,7 +47,7 @@ pub(super) fn questions(
     (arrangements, most): (&[Arrangement], usize),
     belongs: impl Fn(&BuildCall) -> bool,
 ) -> Vec<ExamQuestion> {
-    let mut balance = Balance::new(BUILD.aspects);
+    let mut balance = Balance::new(DRAWN);
     let calls = (0..count).map(|index| {
         let arrangement = arrangements[index % arrangements.len()];
         let chosen = balance.choose(rng, |rng| {
@@ -132,7 +134,7 @@ fn arranged(
     let mut axes = DVec3::ONE;
     if matches!(arrangement, Arrangement::Plane | Arrangement::FlatBoxes) {
         axes[axis] = 0.0;
-    } else if arrangement == Arrangement::Row {
+    } else if matches!(arrangement, Arrangement::Row | Arrangement::Line) {
         axes = DVec3::AXES[axis];
     } else if arrangement == Arrangement::Concentric {
         axes = DVec3::ZERO;
@@ -156,9 +158,17 @@ fn arranged(
                 }
                 Arrangement::DifferentSizes => {
                     // The centres of small primitives are near each other.
-                    let size = rng.log_uniform(5e-3, 1.0);
+                    let size = match index {
+                        0 => 1.0,
+                        1 => 5e-3,
+                        _ => rng.log_uniform(5e-3, 1.0),
+                    };
                     let center = size * rng.vector(0.5, 2.0);
                     primitive(rng, kind, center, size)
+                }
+                Arrangement::Line => {
+                    let end = center + size * rng.sign() * axes;
+                    meshes::flat_triangle([center, end, center], 0)
                 }
                 Arrangement::WithoutArea if index % 3 == 0 => without_area(rng, center, size),
                 Arrangement::Scattered

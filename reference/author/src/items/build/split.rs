@@ -5,11 +5,12 @@ use glam::DVec3;
 use judging::exam::ExamQuestion;
 use protocol::Shape;
 
-use super::cost::cost_question;
+use super::cost::{cost_question, relative_cost};
 use super::draw::place_of_size;
 use crate::domains::fields;
 use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
+use crate::oracle::buckets::{BucketExtent, BucketedBuilder, SideRule};
 use crate::oracle::{scan, sweep};
 use crate::seed::Rng;
 
@@ -22,7 +23,30 @@ struct Layout<'a> {
     first_size: f64,
     /// The size of all others.
     size: f64,
+    /// How exactly the centres are in a row.
+    alignment: Alignment,
 }
+
+/// How exactly the centres of primitives are in a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Alignment {
+    /// About in a row.
+    Loose,
+    /// Exactly in a row.
+    Row,
+    /// In a plane, and about in a row.
+    Plane,
+    /// In a plane that contains the primitives, which are triangles.
+    Flat,
+}
+
+/// All alignments.
+const ALIGNMENTS: [Alignment; 4] = [
+    Alignment::Row,
+    Alignment::Plane,
+    Alignment::Flat,
+    Alignment::Loose,
+];
 
 const SMALL: f64 = 0.05;
 
@@ -32,6 +56,7 @@ const CLUMPS: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)],
     first_size: SMALL,
     size: SMALL,
+    alignment: Alignment::Loose,
 };
 /// Clumps with a gap from just above one quarter to just below one half. A builder with four
 /// buckets has no plane in this gap.
@@ -44,6 +69,7 @@ const GAP: Layout<'static> = Layout {
     ],
     first_size: SMALL,
     size: SMALL,
+    alignment: Alignment::Loose,
 };
 
 /// Clumps of which the first is the largest. If a builder counts the primitives of other buckets than
@@ -52,6 +78,7 @@ const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
     size: SMALL,
+    alignment: Alignment::Loose,
 };
 
 /// Clumps of which the first is of large primitives, so that it is best left alone. The wider gap is
@@ -59,7 +86,8 @@ const HEAVY_END: Layout<'static> = Layout {
 const LARGE_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
     first_size: 1.2,
-    size: SMALL,
+    size: 0.01,
+    alignment: Alignment::Loose,
 };
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
@@ -74,52 +102,106 @@ pub(super) const ONE_SPLIT: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
-    /// How many times as many primitives as shown each layout has.
-    const TIMES: [usize; 8] = [1, 2, 1, 5, 1, 20, 1, 50];
-    let mut rows = Vec::new();
-    for layout in [CLUMPS, GAP, HEAVY_END, LARGE_END] {
-        for axis in 0..3 {
-            for is_mirrored in [false, true] {
-                let times = TIMES[rows.len() % TIMES.len()];
-                let clumps = layout.clumps.iter();
-                let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
-                let layout = Layout {
-                    clumps: &clumps,
-                    ..layout
-                };
-                rows.push((row(rng, &layout, axis, is_mirrored), 8 * times));
-            }
+/// A question before it has a size and a place.
+struct Drawn {
+    shapes: Vec<Shape>,
+    max_leaf_size: usize,
+    /// The smallest extent that decides.
+    detail: f64,
+}
+
+impl Drawn {
+    fn new(shapes: Vec<Shape>, max_leaf_size: usize) -> Drawn {
+        Drawn {
+            shapes,
+            max_leaf_size,
+            detail: f64::INFINITY,
         }
     }
-    for (index, count) in [3, 3, 4, 4, 5, 6, 7, 8, 9, 10].into_iter().enumerate() {
+
+    /// Returns the question at a place that is so near that coordinates in single precision have
+    /// digits for the detail.
+    fn question(&self, rng: &mut Rng, size: usize) -> ExamQuestion {
+        /// The largest coordinate, in extents of the detail.
+        const MOST: f64 = 1e5;
+        let shapes = rng.retry(|rng| {
+            let shapes = place_of_size(rng, &self.shapes, size).shapes(&self.shapes);
+            let [before, after] =
+                [&self.shapes, &shapes].map(|all| Bounds::enclosing(all.iter().map(scan::bounds)));
+            let detail = self.detail * after.diagonal() / before.diagonal();
+            let largest = after.min.abs().max(after.max.abs()).max_element();
+            (largest <= MOST * detail).then_some(shapes)
+        });
+        cost_question(shapes, self.max_leaf_size as u32)
+    }
+}
+
+fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
+    /// How many times as many primitives as shown each layout has.
+    const TIMES: [usize; 6] = [1, 5, 2, 20, 1, 50];
+    let mut drawn = Vec::new();
+    for (number, layout) in [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate() {
+        for axis in 0..3 {
+            let times = TIMES[drawn.len() % TIMES.len()];
+            let clumps = layout.clumps.iter();
+            let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
+            let layout = Layout {
+                clumps: &clumps,
+                alignment: if number == 3 {
+                    Alignment::Loose
+                } else {
+                    ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
+                },
+                ..layout
+            };
+            let is_mirrored = (number + axis).is_multiple_of(2);
+            drawn.push(Drawn::new(row(rng, &layout, axis, is_mirrored), 8 * times));
+        }
+    }
+    for (index, count) in [3, 4, 5, 6, 8, 10].into_iter().enumerate() {
         let axis = rng.index(3);
-        rows.push((few(rng, count, axis, index % 2 == 0), count - 1));
+        let alignment = match index % 2 {
+            0 => Alignment::Loose,
+            _ => ALIGNMENTS[index / 2 % ALIGNMENTS.len()],
+        };
+        let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
+        drawn.push(Drawn::new(shapes, count - 1));
+    }
+    for count in 3..=7 {
+        let axis = rng.index(3);
+        drawn.push(Drawn::new(uneven(rng, count, axis), count - 1));
     }
     for count in [16_usize, 31, 64, 129, 256, 513, 1000] {
         let (axis, is_mirrored) = (rng.index(3), rng.coin());
         let largest = 6 * count / 10 + count.div_ceil(64);
         let leaf_size = largest + rng.index(count - largest);
-        rows.push((many(rng, count, axis, is_mirrored), leaf_size));
+        drawn.push(Drawn::new(many(rng, count, axis, is_mirrored), leaf_size));
     }
-    for axis in 0..3 {
-        rows.push((stack(rng, axis), 8));
+    for (index, (count, least)) in STACKS.iter().enumerate() {
+        let ratio = least * rng.log_uniform(1.1, 8.0);
+        drawn.push(stack(rng, *count, ratio, index % 3));
     }
+    drawn.extend([0, 1].map(|_| layers(rng)));
     let sizes = fields::SIZES.len();
     let first = rng.index(sizes);
-    let question = |(index, (shapes, leaf_size)): (usize, (Vec<Shape>, usize))| {
-        let place = place_of_size(rng, &shapes, (first + index) % sizes);
-        cost_question(place.shapes(&shapes), leaf_size as u32)
-    };
-    rows.into_iter().enumerate().map(question).collect()
+    let drawn = drawn.into_iter().enumerate();
+    drawn
+        .map(|(index, drawn)| drawn.question(rng, (first + index) % sizes))
+        .collect()
 }
 
 /// Returns a crowd and a primitive far from it.
-fn few(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shape> {
+fn few(
+    rng: &mut Rng,
+    (count, alignment): (usize, Alignment),
+    axis: usize,
+    is_mirrored: bool,
+) -> Vec<Shape> {
     let layout = Layout {
-        clumps: &[(0.0, 0.0, 1), (0.8, 1.0, count - 1)],
+        clumps: &[(0.0, 0.0, 1), (0.85, 1.0, count - 1)],
         first_size: LARGE,
         size: LARGE,
+        alignment,
     };
     row(rng, &layout, axis, is_mirrored)
 }
@@ -139,6 +221,7 @@ fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shap
         clumps: &[(0.0, 0.02, smaller), (0.6, 1.0, count - smaller)],
         first_size: SMALL,
         size: SMALL,
+        alignment: Alignment::Loose,
     };
     row(rng, &layout, axis, is_mirrored)
 }
@@ -161,7 +244,18 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
     let start = rng.point(3.0);
     let length = rng.uniform(8.0, 12.0);
     let all: usize = layout.clumps.iter().map(|(_, _, count)| count).sum();
-    let kind = if all >= MANY { 2 } else { rng.index(4) };
+    let kind = match layout.alignment {
+        Alignment::Flat => 4 + (axis + 1) % 3,
+        Alignment::Row | Alignment::Plane => 2,
+        Alignment::Loose if all >= MANY => 2,
+        Alignment::Loose => rng.index(4),
+    };
+    // How far the centres may be from the row.
+    let away = match layout.alignment {
+        Alignment::Loose => DVec3::ONE,
+        Alignment::Row => DVec3::ZERO,
+        Alignment::Plane | Alignment::Flat => DVec3::ONE - DVec3::AXES[(axis + 1) % 3],
+    };
     let mut shapes = Vec::new();
     for (clump, &(from, to, count)) in layout.clumps.iter().enumerate() {
         let size = if clump == 0 {
@@ -172,7 +266,7 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
         for i in 0..count {
             let at = from + (to - from) * i as f64 / (count.max(2) - 1) as f64;
             let at = if is_mirrored { 1.0 - at } else { at };
-            let offset = rng.point(0.05);
+            let offset = away * rng.point(0.05);
             let center = start + offset + (length * at - offset[axis]) * DVec3::AXES[axis];
             shapes.push(with_box_around(rng, kind, center, size));
         }
@@ -180,40 +274,145 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
     meshes::number_shapes(rng.shuffled(shapes))
 }
 
-/// Returns a primitive of a kind, whose box has this centre.
+/// Returns a primitive of a kind, whose box has this centre. From 4 on, the kinds are triangles in a plane
+/// across an axis.
 fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 | 1 => meshes::random_triangle_with_box_around(rng, center, size),
         2 => meshes::sphere(center, 0.7 * size),
-        _ => {
+        4.. => {
+            let [x, y] = [1, 2].map(|next| 0.7 * size * DVec3::AXES[(kind - 4 + next) % 3]);
+            meshes::flat_triangle([center - x - y, center + x - y, center - x + y], 0)
+        }
+        3 => {
             let kind = 1 + rng.index(2);
             with_box_around(rng, kind, center, size)
         }
     }
 }
 
-/// Returns two layers of strips that are much longer than the space between the layers. The space is
-/// below a twentieth of the extent of the centres along the strips.
-fn stack(rng: &mut Rng, axis: usize) -> Vec<Shape> {
-    let [along, across] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
+/// Returns spheres in a row, of which a builder with no more buckets than spheres has no plane in the
+/// best gap.
+fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     rng.retry(|rng| {
         let start = rng.point(3.0);
-        let strips = (0..12).map(|index| {
-            let level = if index < 6 { 0.0 } else { 0.08 };
-            let height = level + rng.uniform(0.0, 0.01);
+        let spheres = (0..count).map(|index| {
             let at = match index {
-                0 => -1.3,
-                11 => 1.3,
-                _ => rng.uniform(-1.3, 1.3),
+                0 => 0.0,
+                1 => 10.0,
+                _ => rng.uniform(0.0, 10.0),
             };
-            let center = start + at * along + height * DVec3::AXES[axis];
-            let (half, width) = (rng.uniform(4.5, 5.5) * along, 0.02 * across);
-            meshes::flat_triangle([center - half, center + half, center + half + width], 0)
+            let radius = rng.log_uniform(0.1, 2.5);
+            meshes::sphere(start + at * DVec3::AXES[axis], radius)
         });
-        let shapes = meshes::number_shapes(strips);
-        let shapes = meshes::number_shapes(rng.shuffled(shapes));
-        is_unambiguous(&shapes, axis).then_some(shapes)
+        let spheres: Vec<Shape> = spheres.collect();
+        let shapes = meshes::number_shapes(rng.shuffled(spheres));
+        let is_hard = is_unambiguous(&shapes, axis) && is_missed(&shapes, count - 1, count);
+        is_hard.then_some(shapes)
     })
+}
+
+/// Returns whether a builder with so few buckets builds a much more expensive tree.
+fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
+    /// The least cost, relative to the exact sweep's.
+    const LEAST: f64 = 1.25;
+    let few = BucketedBuilder {
+        count,
+        extent: BucketExtent::Centers,
+        sides: SideRule::AllBuckets,
+    };
+    let question = cost_question(shapes.to_vec(), max_leaf_size as u32);
+    relative_cost(&question, few) >= LEAST
+}
+
+/// Numbers of strips in two layers, with the least space between the layers, in extents of the centres
+/// along the strips. The most is eight times as much.
+const STACKS: [(usize, f64); 9] = [
+    (12, 0.001),
+    (12, 0.001),
+    (12, 0.01),
+    (12, 0.01),
+    (4, 0.1),
+    (6, 0.1),
+    (3, 0.01),
+    (5, 0.01),
+    (8, 0.001),
+];
+
+/// The extent of the centres of strips along the strips.
+const SPREAD: f64 = 2.6;
+
+/// Returns strips along an axis, with centres of these heights along another.
+fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape> {
+    let [along, across] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
+    let start = rng.point(3.0);
+    let strips = heights.iter().enumerate().map(|(index, height)| {
+        let at = match index {
+            0 => -0.5 * SPREAD,
+            _ if index + 1 == heights.len() => 0.5 * SPREAD,
+            _ => SPREAD * rng.uniform(-0.5, 0.5),
+        };
+        let center = start + at * along + *height * DVec3::AXES[axis];
+        let (half, width) = (rng.uniform(4.5, 5.5) * along, width * across);
+        // Some have no area.
+        let width = if heights.len() == 12 && index % 4 == 2 {
+            DVec3::ZERO
+        } else {
+            width
+        };
+        let start = center - 0.5 * width - half;
+        let end = start + 2.0 * half;
+        meshes::flat_triangle([start, end, end + width], 0)
+    });
+    let strips: Vec<Shape> = strips.collect();
+    meshes::number_shapes(rng.shuffled(strips))
+}
+
+/// Returns two layers of strips that are much longer than the space between the layers, which is so
+/// large in extents of the centres along the strips.
+fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
+    let space = ratio * SPREAD;
+    let shapes = rng.retry(|rng| {
+        let heights = (0..count).map(|index| {
+            // Neighbours along the strips are in different layers.
+            let level = if index % 2 == 0 { 0.0 } else { 0.9 };
+            space * (level + rng.uniform(0.0, 0.1))
+        });
+        let heights: Vec<f64> = heights.collect();
+        let shapes = strips(rng, &heights, 0.1 * space.min(0.2), axis);
+        is_unambiguous(&shapes, axis).then_some(shapes)
+    });
+    Drawn {
+        shapes,
+        max_leaf_size: count.div_ceil(2),
+        detail: space,
+    }
+}
+
+/// Returns layers of strips with unequal spaces between them. The stack is so low that a builder with
+/// buckets of the same size along all axes has few of them along this one, and no plane in the best gap.
+fn layers(rng: &mut Rng) -> Drawn {
+    /// The number of strips in each layer.
+    const IN_EACH: usize = 4;
+    /// The number of buckets along the longest axis.
+    const BUCKETS: f64 = 16.0;
+    let axis = rng.index(3);
+    let shapes = rng.retry(|rng| {
+        let ratio = rng.uniform(0.12, 0.25);
+        let [a, b, c] = [0, 1, 2].map(|_| rng.uniform(0.0, 1.0));
+        let levels = [0.0, a, b, c, 1.0].into_iter();
+        let heights = levels.flat_map(|level| vec![ratio * SPREAD * level; IN_EACH]);
+        let heights: Vec<f64> = heights.collect();
+        let shapes = strips(rng, &heights, 0.02, axis);
+        let count = (BUCKETS * ratio).ceil() as usize;
+        let is_hard = is_unambiguous(&shapes, axis) && is_missed(&shapes, 4 * IN_EACH, count);
+        is_hard.then_some(shapes)
+    });
+    Drawn {
+        shapes,
+        max_leaf_size: 4 * IN_EACH,
+        detail: 0.1,
+    }
 }
 
 /// Returns whether every builder with 8 to 64 buckets finds the best partition. For this, the

@@ -1,11 +1,15 @@
 //! Items about properties that every tree must have.
 
+use glam::DVec3;
 use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
 
 use super::build_question;
-use super::draw::Arrangement::{DifferentSizes, FlatBoxes, Scattered, WithoutArea};
-use super::draw::{self, Arrangement};
+use super::draw;
+use super::draw::Arrangement::{
+    self, DifferentSizes, FlatBoxes, Line, Outlier, Plane, Row, Scattered, WithoutArea,
+};
+use crate::domains::build::BuildCall;
 use crate::items::place::Place;
 use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
@@ -13,18 +17,39 @@ use crate::seed::Rng;
 /// The largest number of primitives of which there are many questions.
 const MOST: usize = 130;
 
-/// Draws questions from the domain about scattered primitives, and others in these arrangements, in
-/// addition to those that are given.
+/// All arrangements of primitives that differ from each other and have no common centre.
+const ARRANGEMENTS: &[Arrangement] = &[
+    Line,
+    FlatBoxes,
+    WithoutArea,
+    Plane,
+    Row,
+    DifferentSizes,
+    Outlier,
+];
+
+/// Draws questions from the domain about primitives in these arrangements, in addition to those that are
+/// given.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
     checks: &[TreeCheck],
-    count: usize,
-    arrangements: &[Arrangement],
+    (count, arrangements): (usize, &[Arrangement]),
+    belongs: impl Fn(&BuildCall) -> bool,
 ) -> Vec<ExamQuestion> {
-    let drawn = draw::questions(rng, checks, count, (arrangements, MOST), |_| true);
+    let drawn = draw::questions(rng, checks, count, (arrangements, MOST), belongs);
     questions.extend(drawn);
     questions
+}
+
+/// Returns whether some nodes of the tree are not leaves.
+fn is_split(call: &BuildCall) -> bool {
+    call.shapes.len() > call.max_leaf_size as usize
+}
+
+/// Returns whether a third of the primitives does not fit into a leaf.
+fn is_in_small_leaves(call: &BuildCall) -> bool {
+    call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
@@ -59,6 +84,34 @@ fn soup_questions_of_size(
     sizes.iter().enumerate().map(question).collect()
 }
 
+/// Creates two questions about as many spheres with the same common box and the same maximum leaf size.
+/// The spheres inside of this box are elsewhere in the second.
+fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> [ExamQuestion; 2] {
+    let count = rng.integer(8, 40);
+    [0, 1].map(|_| {
+        let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
+        let inside = (0..count).map(|_| meshes::sphere(rng.point(2.5), 0.2));
+        let spheres: Vec<_> = corners.into_iter().chain(inside).collect();
+        build_question(checks, spheres, 1)
+    })
+}
+
+/// Creates questions about trees with many levels. Each sphere is nearer to the origin than the one
+/// before, by so much that it is best to split off one sphere at a time.
+fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let question = |count: i32| {
+        let mut scale = 900.0;
+        let spheres = (0..count).map(|index| {
+            let sphere = meshes::sphere(scale * rng.vector(0.8, 1.0), 0.01 * scale);
+            scale /= (1.1 * f64::from(count - index).sqrt()).max(3.0);
+            sphere
+        });
+        let spheres: Vec<_> = spheres.collect();
+        build_question(&[LeafSize], rng.shuffled(spheres), 1)
+    };
+    [22, 24].map(question).to_vec()
+}
+
 pub(super) const PARTITION: Declaration = Declaration {
     id: "build.partition",
     title: "every primitive is in exactly one leaf",
@@ -69,13 +122,10 @@ pub(super) const PARTITION: Declaration = Declaration {
     tests: &["Every primitive is…"],
     questions: |rng| {
         let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
-        with_domain(
-            many,
-            rng,
-            &[Partition],
-            8,
-            &[Scattered, WithoutArea, Scattered],
-        )
+        let arrangements = (8, &[Scattered, WithoutArea, DifferentSizes, Line] as &[_]);
+        with_domain(many, rng, &[Partition], arrangements, |call| {
+            call.shapes.len() > 2
+        })
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -89,8 +139,10 @@ pub(super) const CONTAINS: Declaration = Declaration {
     section: "building.md#the-contract",
     tests: &["The box of a node…"],
     questions: |rng| {
-        let many = soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]);
-        with_domain(many, rng, &[Contains], 7, &[Scattered, DifferentSizes])
+        let mut questions = soup_questions(rng, &[Contains], &[(300, 4)]);
+        questions.extend(moved_inside(rng, &[Contains]));
+        let arrangements = (7, &[WithoutArea, DifferentSizes, Line] as &[_]);
+        with_domain(questions, rng, &[Contains], arrangements, |_| true)
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -104,7 +156,8 @@ pub(super) const TIGHT: Declaration = Declaration {
     tests: &["The box of a node…"],
     questions: |rng| {
         let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
-        with_domain(many, rng, &[Tight], 10, &[Scattered, FlatBoxes])
+        let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
+        with_domain(many, rng, &[Tight], arrangements, is_split)
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -126,7 +179,15 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
         let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
         questions.push(crowd);
-        with_domain(questions, rng, &[LeafSize], 7, &[Scattered, DifferentSizes])
+        questions.extend(deep(rng));
+        let arrangements = (ARRANGEMENTS.len(), ARRANGEMENTS);
+        with_domain(
+            questions,
+            rng,
+            &[LeafSize],
+            arrangements,
+            is_in_small_leaves,
+        )
     },
     ..Declaration::in_group(groups::TREES)
 };
@@ -140,7 +201,7 @@ pub(super) const STOPS: Declaration = Declaration {
     tests: &["A node is a leaf…"],
     questions: |rng| {
         let checks = [Stops, LeafSize];
-        let mut questions = soup_questions(rng, &[Stops], &[(64, 2), (160, 8)]);
+        let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
         // The same primitives are asked again with another maximum leaf size. The root is a node like
         // any other: as many primitives as fit into a leaf, and one more.
         let small = rng.integer(5, 10) as usize;
@@ -152,7 +213,10 @@ pub(super) const STOPS: Declaration = Declaration {
                 questions.push(build_question(&checks, balls.clone(), max_leaf_size));
             }
         }
-        with_domain(questions, rng, &checks, 8, &[Scattered, DifferentSizes])
+        let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
+        with_domain(questions, rng, &checks, arrangements, |call| {
+            call.shapes.len() > 4
+        })
     },
     ..Declaration::in_group(groups::TREES)
 };

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
-use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Split, Tight};
+use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Split, Stops, Tight};
 
 use super::build_question;
 use super::draw::Arrangement::{Concentric, Equal, EqualPair, Outlier, Plane, Row, Scattered};
@@ -21,8 +21,12 @@ fn with_domain(
     count: usize,
     arrangements: &[Arrangement],
 ) -> Vec<ExamQuestion> {
-    let checks = [Partition, split, Contains];
-    let drawn = draw::questions(rng, &checks, count, (arrangements, 66), |call| {
+    // Only the last two items ask about primitives with one centre.
+    let checks: &[TreeCheck] = match split {
+        Split => &[Partition, Split, Contains],
+        _ => &[Partition, Contains, Tight, LeafSize, Stops],
+    };
+    let drawn = draw::questions(rng, checks, count, (arrangements, 66), |call| {
         let (all, most) = (call.shapes.len(), call.max_leaf_size as usize);
         all > 1 && (split != Split || 2 * most < all)
     });

@@ -7,13 +7,14 @@ use glam::DVec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::build::kind;
+use super::decoys::{self, Decoy, Outside};
 use super::fields::{
     DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction, direction_class,
     history_class, octant, place_class, powers_of_two, range_class, size_class,
 };
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::{Ray64, scan};
+use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::Tree;
 
@@ -23,6 +24,25 @@ pub struct TraverseCall {
     subject: Arc<Subject>,
     ray: Ray,
     previous: Option<Ray>,
+    decoy: Option<Decoy>,
+}
+
+impl TraverseCall {
+    /// Returns the decoy in front of the answer.
+    pub(super) fn decoy(&self) -> Option<Decoy> {
+        self.decoy
+    }
+
+    /// Returns the correct hit.
+    fn hit(&self) -> Option<Intersection> {
+        let ray64 = Ray64::from(&self.ray);
+        let Subject { tree, is_built, .. } = &*self.subject;
+        if *is_built {
+            scan::closest_hit(&ray64, &tree.shapes)
+        } else {
+            tree.expected_hit(&ray64)
+        }
+    }
 }
 
 /// A tree that rays are asked of.
@@ -104,10 +124,41 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
     function: "Bvh::hit",
     subject_aspects: &[],
     aspects: &[
-        WAY, NODES, LEVELS, LEAF_SIZE, ROOT, COUNT, SIZE, PLACE, OCTANT, KIND, START, DIRECTION,
-        RANGE, HISTORY,
+        WAY,
+        NODES,
+        LEVELS,
+        LEAF_SIZE,
+        ROOT,
+        COUNT,
+        SIZE,
+        PLACE,
+        OCTANT,
+        KIND,
+        START,
+        DIRECTION,
+        RANGE,
+        HISTORY,
+        NEARNESS,
+        IN_BOX,
+        ON_SPHERE,
+        ON_THE_WAY,
+        decoys::REASON,
+        decoys::KIND,
+        decoys::LEAF_SIZE,
+        decoys::PLACE,
+        decoys::LEVEL,
+        decoys::BOX,
+        decoys::HISTORY,
     ],
-    pairs: &[],
+    pairs: &[
+        ["decoy", "decoy's kind"],
+        ["decoy", "decoy's leaf"],
+        ["decoy", "decoy's place"],
+        ["decoy", "decoy's level"],
+        ["decoy", "decoy's box"],
+        ["decoy", "decoy's history"],
+        ["decoy", "range"],
+    ],
     calls,
     not_asked: &[
         not_asked(
@@ -125,6 +176,40 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
                 "some", "distance", "normal", "origin", "position", "shape", "uv",
             ],
             "Nothing is hit in an empty tree.",
+        ),
+        not_asked(
+            "distance, in coordinates of the start",
+            &[],
+            &["`None`"],
+            "A ray that hits nothing has no distance.",
+        ),
+        not_asked(
+            "start in a box of the hit",
+            &[],
+            &["`None`"],
+            "A ray that hits nothing has no box of a hit.",
+        ),
+        not_asked(
+            "start on what is hit",
+            &[],
+            &["`None`"],
+            "A ray that hits nothing does not hit the sphere that it starts on.",
+        ),
+        not_asked(
+            "decoy",
+            &[
+                "its box begins beyond the hit",
+                "its box and then its sibling's begin beyond the hit",
+                "its sibling's box and then its own begin beyond the hit",
+            ],
+            &["`None`"],
+            "Nothing is beyond the closest hit of a ray that hits nothing.",
+        ),
+        not_asked(
+            "decoy's history",
+            &["after a parallel ray that enters its box before its sibling's"],
+            &["`None`", "pairs"],
+            "The order of two boxes matters only where the second begins beyond a hit in the first.",
         ),
         not_asked(
             "history",
@@ -156,10 +241,15 @@ fn calls(question: &Question) -> Vec<TraverseCall> {
     };
     let mut previous = None;
     let rays = table.rows.to_vec();
-    let calls = rays.iter().map(|&ray| TraverseCall {
-        subject: Arc::clone(&subject),
-        previous: previous.replace(ray),
-        ray,
+    let outside = Outside::all(&subject.tree);
+    let calls = rays.iter().map(|&ray| {
+        let previous = previous.replace(ray);
+        TraverseCall {
+            subject: Arc::clone(&subject),
+            decoy: Decoy::of(&subject.tree, &outside, &ray, previous.as_ref()),
+            previous,
+            ray,
+        }
     });
     calls.collect()
 }
@@ -356,6 +446,79 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
     class: |call| Some(history_class(call.previous.as_ref(), &call.ray)),
 };
 
+/// The distance of the hit, relative to the coordinates.
+const NEARNESS: Aspect<TraverseCall> = Aspect {
+    name: "distance, in coordinates of the start",
+    classes: &["below 1e-5", "1e-5", "1e-3 or more"],
+    class: |call| {
+        let largest = f64::from(call.ray.origin.abs().max_element());
+        Some(match call.hit()?.distance / largest {
+            ..1e-5 if call.ray.range.min == 0.0 => 0,
+            ..1e-3 => 1,
+            _ => 2,
+        })
+    },
+};
+
+/// The start of the ray in the boxes around the hit.
+const IN_BOX: Aspect<TraverseCall> = Aspect {
+    name: "start in a box of the hit",
+    classes: &[
+        "before all boxes of the hit",
+        "before the middle of a box",
+        "beyond the middle of a box",
+        "more than half a side beyond the middle",
+    ],
+    class: |call| {
+        let tree = &call.subject.tree;
+        let ray64 = Ray64::from(&call.ray);
+        let leaf = tree.leaf_of_hit(&ray64)?;
+        let path = tree.path(leaf).into_iter().map(|node| tree.bounds(node));
+        let holds = |bounds: &Bounds| bounds.contains(&Bounds::around([ray64.origin]));
+        let around = path.filter(holds).map(|bounds| {
+            let beyond = (ray64.origin - bounds.center()).dot(ray64.dir);
+            match beyond / (bounds.max - bounds.min).max_element() {
+                ..0.0 => 1,
+                ..0.5 => 2,
+                _ => 3,
+            }
+        });
+        Some(around.max().unwrap_or(0))
+    },
+};
+
+/// Whether the ray starts on the sphere that it hits.
+const ON_SPHERE: Aspect<TraverseCall> = Aspect {
+    name: "start on what is hit",
+    classes: &["elsewhere", "on the sphere that is hit again"],
+    class: |call| {
+        let hit = call.hit()?;
+        let mut shapes = call.subject.tree.shapes.iter();
+        let shape = shapes.find(|shape| shape.number() == hit.shape)?;
+        let Shape::Sphere { center, radius, .. } = *shape else {
+            return Some(0);
+        };
+        let from_center = call.ray.origin.distance(center);
+        Some(usize::from((from_center / radius - 1.0).abs() < 0.01))
+    },
+};
+
+/// The number of primitives whose boxes the ray enters before its hit or its end.
+const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
+    name: "boxes of primitives on the way",
+    classes: &["up to 2,048", "2,049 to 5,000"],
+    class: |call| {
+        let ray64 = Ray64::from(&call.ray);
+        let on_the_way = Ray64 {
+            max: call.hit().map_or(ray64.max, |hit| hit.distance),
+            ..ray64
+        };
+        let shapes = call.subject.shapes().into_iter();
+        let boxes = shapes.filter(|shape| scan::bounds(shape).span(&on_the_way).is_some());
+        Some(class_up_to(&[2048], boxes.count()))
+    },
+};
+
 /// Draws a ray toward a point in a tree. It starts outside, far away or inside. No shape is farther away
 /// than 30 of its sizes.
 pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
@@ -387,6 +550,38 @@ pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let later = 0.02 * tree.bounds(tree.root).diagonal();
     let ray = Ray::new(hit.position.as_vec3(), direction(rng).as_vec3());
     Some(ray.within(later as f32, f32::INFINITY))
+}
+
+/// Draws a ray that starts on a sphere and leads through it. Its range begins a little later. Returns
+/// `None` if it does not hit the same sphere.
+pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
+    let shape = &tree.shapes[rng.index(tree.shapes.len())];
+    let Shape::Sphere { center, radius, .. } = *shape else {
+        return None;
+    };
+    let (normal, dir) = (rng.direction(), direction(rng));
+    let start = center.as_dvec3() + f64::from(radius) * normal;
+    let ray = Ray::new(start.as_vec3(), dir.as_vec3()).within(0.06 * radius, f32::INFINITY);
+    let hit = tree.expected_hit(&Ray64::from(&ray))?;
+    (dir.dot(normal) < -0.3 && hit.shape == shape.number()).then_some(ray)
+}
+
+/// Draws a ray that starts in a box more than half a side beyond its middle, and hits something in the
+/// same box, which is in a corner. Returns `None` if nothing is there.
+pub fn ray_in_a_corner(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
+    let leaves = tree.leaves();
+    let leaf = leaves[rng.index(leaves.len())];
+    let target = tree.bounds(leaf).center();
+    let path = tree.path(leaf);
+    let bounds = tree.bounds(path[rng.index(path.len())]);
+    let from_middle = target - bounds.center();
+    let half_side = 0.5 * (bounds.max - bounds.min).max_element();
+    let dir = from_middle.try_normalize()?;
+    let start = bounds.center() + half_side * rng.uniform(1.02, 1.1) * dir;
+    let is_ahead = from_middle.length() > start.distance(bounds.center());
+    let ray = Ray::new(start.as_vec3(), dir.as_vec3());
+    let is_hit = tree.leaf_of_hit(&Ray64::from(&ray)) == Some(leaf);
+    (is_ahead && is_hit).then_some(ray)
 }
 
 #[cfg(test)]
@@ -434,11 +629,15 @@ mod tests {
             Some("along +x"),
             Some("from 0 to ∞"),
             Some("first call of a tree"),
+            Some("1e-3 or more"),
+            Some("before all boxes of the hit"),
+            Some("elsewhere"),
+            Some("up to 2,048"),
         ];
-        assert_eq!(names[0], expected);
+        assert_eq!(names[0][..expected.len()], expected);
         let history = "after the same ray with another range";
         assert_eq!(
-            names[1][12..],
+            names[1][12..14],
             [Some("from later to an end"), Some(history)]
         );
     }

@@ -90,10 +90,10 @@ fn built_tree_question(
     ExamQuestion::new(Question::hits(built, rays), key)
 }
 
-/// Creates a question about a row of many triangles. Its rays enter every node, since they meet a corner
-/// of every box, and hit nothing but the larger triangle at the end.
+/// Creates a question about a row of as many triangles as a mesh has. Its rays enter every node, since
+/// they meet a corner of every box, and hit nothing but the larger triangle at the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
-    const COUNT: usize = 1200;
+    const COUNT: usize = 5000;
     const STEP: f64 = 0.02;
     let axis = rng.index(3);
     let axes = [0, 1, 2].map(|next| rng.sign() * DVec3::AXES[(axis + next) % 3]);
@@ -109,15 +109,17 @@ fn long_row(rng: &mut Rng) -> ExamQuestion {
         ];
         meshes::flat_triangle(corners, 0)
     });
-    let rays = (0..34).map(|index| {
+    let length = STEP * COUNT as f64;
+    let rays = (0..12).map(|index| {
         let ahead = rng.uniform(1.5, 2.5);
         let mut across = |axis: DVec3| rng.uniform(0.8, 0.9) * axis;
         let start = across(y) + across(z) - ahead * along;
         let ray = Ray::new(start.as_vec3(), along.as_vec3());
-        if index % 3 == 0 {
-            ray.within(0.0, 20.0)
-        } else {
-            ray
+        match index % 6 {
+            0 => ray.within(0.0, rng.uniform(0.2, 0.9) as f32 * length as f32),
+            1 => ray.within(0.0, rng.uniform(0.8, 0.9) as f32 * length as f32),
+            2 => ray.within(0.0, 1.5 * length as f32),
+            _ => ray,
         }
     });
     let rays = rays.collect();

@@ -4,9 +4,11 @@
 //! For some rays, there is an unreferenced primitive (one that is in no leaf) in front of the
 //! correct hit. A linear scan over all primitives, without the tree, returns this primitive, which
 //! is wrong. [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that
-//! should have been skipped. The position of the root is the idea of one item. In all other items,
-//! starting at the first or the last node also gives correct answers.
+//! should have been skipped. [`cells`] deals out their kinds, leaves, levels and ranges. The position
+//! of the root is the idea of one item. In all other items, starting at the first or the last node
+//! also gives correct answers.
 
+mod cells;
 mod end_to_end;
 mod placed;
 mod trace;

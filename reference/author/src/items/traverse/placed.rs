@@ -140,7 +140,7 @@ fn shapes(asked: &ExamQuestion) -> &[Shape] {
 
 /// Returns a question at a place, with a key for its new numbers. Returns `None` if it is not fair
 /// there.
-fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
+pub(super) fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let asked = moved(place, asked)?;
     let (Question::Hit(table), Key::Table { judged, .. }) = (&asked.question, &asked.key) else {
         return None;

@@ -3,6 +3,7 @@
 use judging::exam::ExamQuestion;
 use protocol::Ray;
 
+use super::cells::{self, Decoys, Reason};
 use super::placed::as_dust;
 use super::{
     TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
@@ -15,13 +16,13 @@ use crate::tree::decoy::{self, Child, SkipReason};
 use crate::tree::traversal::Traversal;
 
 /// Returns whether the slides' pseudo-code, taken literally, gives the correct answer for this ray.
-fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
+pub(super) fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
     let ray64 = Ray64::from(ray);
     Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
 }
 
 /// The number of the first decoy. Those of unreferenced primitives are smaller.
-const FIRST_DECOY: u32 = 20_000;
+pub(super) const FIRST_DECOY: u32 = 20_000;
 
 /// A filter for the leaves that may hold a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
@@ -95,8 +96,8 @@ fn add_decoys(
 }
 
 /// The result of following the slides' pseudo-code literally for a ray with a decoy.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum SlidesAnswer {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SlidesAnswer {
     /// The correct answer: the decoy is not tested.
     Correct,
     /// A wrong answer: the decoy is tested and hit.
@@ -140,11 +141,17 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
             missed_alone(|node| node.r)(tree, leaf, ray64)
                 && !decoy::hits_below_sibling(tree, leaf, ray64)
         };
-        let with_sibling = missed_with_sibling(|node| node.r);
         vec![
             question_with_decoys(rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(rng, &after_nothing, SlidesAnswer::Correct),
-            question_with_decoys(rng, &with_sibling, SlidesAnswer::Correct),
+            cells::question(
+                rng,
+                Decoys {
+                    reasons: &[Reason::Missed, Reason::MissedWithSibling],
+                    is_left: false,
+                    slides: SlidesAnswer::Correct,
+                },
+            ),
         ]
     },
     ..TRAVERSAL
@@ -159,14 +166,16 @@ pub(super) const PRUNES: Declaration = Declaration {
     tests: &["Do not enter a node whose box begins…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::SubtreePruned);
-        // The leaf is itself a child of the fork, so no further comparison happens on the way to it.
-        let second = |tree: &Tree, leaf: usize, ray64: &Ray64| {
-            let fork = decoy::find_fork(tree, leaf, ray64);
-            fork.is_some_and(|fork| fork.toward_leaf == leaf) && fits(tree, leaf, ray64)
-        };
         vec![
             question_with_decoys(rng, &fits, SlidesAnswer::Correct),
-            question_with_decoys(rng, &second, SlidesAnswer::Correct),
+            cells::question(
+                rng,
+                Decoys {
+                    reasons: &[Reason::Beyond, Reason::FartherOfTwoBeyond],
+                    is_left: false,
+                    slides: SlidesAnswer::Correct,
+                },
+            ),
             as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
         ]
     },
@@ -204,9 +213,16 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
             && fits(tree, leaf, ray64)
     };
     vec![
-        question_with_decoys(rng, &fits, SlidesAnswer::Wrong),
         question_with_decoys(rng, &left_last, SlidesAnswer::Wrong),
         question_with_decoys(rng, &nearer_center, SlidesAnswer::Wrong),
+        cells::question(
+            rng,
+            Decoys {
+                reasons: &[Reason::Beyond, Reason::BeyondAfterParallel],
+                is_left: true,
+                slides: SlidesAnswer::Wrong,
+            },
+        ),
         as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Wrong)),
     ]
 }
@@ -234,7 +250,18 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
         vec![
             question_with_decoys(rng, &missed_alone, SlidesAnswer::Wrong),
             question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
-            question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
+            cells::question(
+                rng,
+                Decoys {
+                    reasons: &[
+                        Reason::Missed,
+                        Reason::MissedWithSibling,
+                        Reason::NearerOfTwoBeyond,
+                    ],
+                    is_left: true,
+                    slides: SlidesAnswer::Wrong,
+                },
+            ),
             question_with_decoys(rng, &pruned_alone, SlidesAnswer::Wrong),
         ]
     },

@@ -10,8 +10,11 @@ use super::{
     TRAVERSAL, placed, question_without_decoys, ray_from_around, soup_tree, traversal_question,
     unambiguous_rays, with_unreferenced,
 };
+use crate::domains::fields::FURTHEST;
 use crate::domains::traverse;
+use crate::items::place::Place;
 use crate::items::{Declaration, groups, meshes, ray};
+use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
@@ -37,7 +40,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
         // With large triangles, the boxes of siblings overlap considerably.
         let tree = soup_tree(rng, 40, 1.6, 1);
         let mut questions = vec![question_without_decoys(rng, tree, [24, 10], kind)];
-        for count in [2, 5, 100] {
+        for count in [2, 100] {
             let tree = soup_tree(rng, count, 1.6, 1);
             questions.push(question_without_decoys(
                 rng,
@@ -48,15 +51,18 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
         }
         questions.extend(same_rays_in_two_trees(rng));
         questions.push(across_the_scene(rng));
+        questions.push(next_to_the_start(rng));
         questions
     },
     ..TRAVERSAL
 };
 
 /// Creates questions about two trees that the same rays are asked of. The last ray of the one is the
-/// first of the other, which answers it differently.
+/// first of the other, which answers it differently. From outside, the trees look the same.
 fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
-    let mut trees = [soup_tree(rng, 24, 1.2, 1), soup_tree(rng, 24, 1.2, 1)];
+    let first = soup_tree(rng, 24, 1.2, 1);
+    let second = with_other_contents(rng, &first);
+    let mut trees = [first, second];
     let other = trees[1].clone();
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
@@ -74,6 +80,64 @@ fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
     let first = with_unreferenced(rng, first, rays.clone());
     rays.reverse();
     [first, with_unreferenced(rng, second, rays)]
+}
+
+/// Returns a tree with the same root's box and as many nodes, in which all primitives are elsewhere but
+/// those at the faces of that box.
+fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
+    let whole = Bounds::enclosing(tree.shapes.iter().map(scan::bounds));
+    let shapes = tree.shapes.iter().map(|shape| {
+        let bounds = scan::bounds(shape);
+        if bounds.min.cmpeq(whole.min).any() || bounds.max.cmpeq(whole.max).any() {
+            return *shape;
+        }
+        let half = 0.5 * (bounds.max - bounds.min);
+        let room = 0.5 * (whole.max - whole.min) - half;
+        let center = whole.center() + 0.99 * room * rng.point(1.0);
+        Place::new(1.0, center - bounds.center()).shape(shape)
+    });
+    construction::median_split(shapes.collect(), 1)
+}
+
+/// Creates a question about a few triangles far from the origin. Half of the rays start so close to their
+/// hits that a start moved forward by a fraction of its coordinates would be behind them.
+fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
+    /// The largest coordinates, in sizes of the triangles.
+    const COORDINATES: f64 = 5000.0;
+    rng.retry(|rng| {
+        let tree = soup_tree(rng, 5, 1.6, 1);
+        let sizes = tree.shapes.iter().map(|shape| {
+            let bounds = scan::bounds(shape);
+            (bounds.max - bounds.min).max_element()
+        });
+        let sizes: Vec<f64> = sizes.collect();
+        let smallest = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        let distance = 0.5 * COORDINATES * smallest;
+        let scale = 0.9 * FURTHEST / distance;
+        let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
+        let mut offset = signs * rng.vector(0.3, 0.9);
+        offset[rng.index(3)] = rng.sign();
+        let place = Place::new(scale, scale * distance * offset);
+        let mut count = 0;
+        let kind = |rng: &mut Rng, tree: &Tree| {
+            rng.retry(|rng| {
+                let mut ray = traverse::ray(rng, tree);
+                let hit = tree.expected_hit(&Ray64::from(&ray));
+                if let Some(hit) = hit.filter(|_| count % 2 == 0) {
+                    let side = sizes[hit.shape as usize];
+                    let ahead = rng.uniform(0.014, 0.017) * side;
+                    let start = hit.position - ahead * ray.dir.as_dvec3();
+                    ray.origin = start.as_vec3();
+                }
+                let asked = traversal_question(tree, vec![ray]);
+                placed::in_place(place, &asked)?;
+                count += 1;
+                Some(ray)
+            })
+        };
+        let rays = unambiguous_rays(rng, &tree, [24, 10], kind);
+        placed::in_place(place, &traversal_question(&tree, rays))
+    })
 }
 
 /// Creates a question about a few large triangles in one corner of the scene. The rays start in the
@@ -114,11 +178,34 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     questions: |rng| {
         // Small triangles leave most of a node's box empty.
         let tree = soup_tree(rng, 40, 0.5, 1);
-        let counts = [17, 17];
-        vec![question_without_decoys(rng, tree, counts, ray_from_around)]
+        let counts = [20, 17];
+        vec![question_without_decoys(
+            rng,
+            tree,
+            counts,
+            ray_from_around_or_in_a_corner(),
+        )]
     },
     ..TRAVERSAL
 };
+
+/// Returns what draws every third ray that hits something in a corner of the boxes around it.
+fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
+    let mut count = 0;
+    move |rng: &mut Rng, tree: &Tree| {
+        count += 1;
+        let in_a_corner = |rng: &mut Rng| {
+            let ray = traverse::ray_in_a_corner(rng, tree)?;
+            is_clear_of_faces(tree, &ray).then_some(ray)
+        };
+        let in_a_corner = if count % 3 == 0 {
+            rng.attempt(300, in_a_corner)
+        } else {
+            None
+        };
+        in_a_corner.unwrap_or_else(|| ray_from_around(rng, tree))
+    }
+}
 
 pub(super) const RANGE: Declaration = Declaration {
     id: "traverse.range",
@@ -316,7 +403,16 @@ pub(super) const MIXED: Declaration = Declaration {
             }
         });
         let tree = construction::median_split(meshes::number_shapes(shapes), 1);
-        let distances = question_without_decoys(rng, tree, [24, 10], ray_from_around);
+        let mut count = 0;
+        let kind = |rng: &mut Rng, tree: &Tree| {
+            count += 1;
+            rng.retry(|rng| match count % 4 {
+                0 => traverse::ray_through_the_sphere_that_it_starts_on(rng, tree)
+                    .filter(|ray| is_clear_of_faces(tree, ray)),
+                _ => Some(ray_from_around(rng, tree)),
+            })
+        };
+        let distances = question_without_decoys(rng, tree, [28, 10], kind);
         // Spheres, and then all kinds.
         let traces = [(2, 5, 1), (3, 24, 2)]
             .map(|(kind, count, max_leaf_size)| trace::question(rng, kind, count, max_leaf_size));
@@ -331,3 +427,20 @@ pub(super) const MIXED: Declaration = Declaration {
     ],
     ..TRAVERSAL
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::Seed;
+
+    #[test]
+    fn a_tree_with_other_contents_looks_the_same_from_outside() {
+        let mut rng = Seed(1).rng("items.traverse.same_rays");
+        let tree = soup_tree(&mut rng, 24, 1.2, 1);
+        let other = with_other_contents(&mut rng, &tree);
+        let root = |tree: &Tree| (tree.nodes[tree.root].min, tree.nodes[tree.root].max);
+        assert_eq!(root(&tree), root(&other));
+        assert_eq!(tree.nodes.len(), other.nodes.len());
+        assert_ne!(tree.shapes, other.shapes);
+    }
+}

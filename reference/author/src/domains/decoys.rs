@@ -1,0 +1,204 @@
+//! Decoys of calls of `Bvh::hit`: primitives in front of the answer that must not be tested.
+
+use protocol::{Ray, Shape};
+
+use super::Aspect;
+use super::fields::class_up_to;
+use super::traverse::TraverseCall;
+use crate::oracle::{Ray64, scan};
+use crate::tree::Tree;
+use crate::tree::decoy::{self, SkipReason};
+use crate::tree::traversal::MARGIN;
+
+/// A decoy in front of the answer to a call. Its leaf is a child of a node that must be entered, so that
+/// its own box decides.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Decoy {
+    reason: usize,
+    is_sphere: bool,
+    leaf_size: usize,
+    /// Its place in its leaf.
+    place: usize,
+    level: usize,
+    is_flat: bool,
+    history: usize,
+}
+
+/// A primitive outside the box of its leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outside {
+    leaf: usize,
+    primitive: usize,
+}
+
+impl Outside {
+    /// Returns all primitives of a tree that are outside the box of their leaf.
+    pub(super) fn all(tree: &Tree) -> Vec<Outside> {
+        let ordinary = tree.ordinary_primitives();
+        let leaves = tree.leaves().into_iter();
+        let all = leaves.flat_map(|leaf| {
+            let primitives = tree.primitives(leaf);
+            primitives.map(move |primitive| Outside { leaf, primitive })
+        });
+        all.filter(|it| !ordinary[it.primitive]).collect()
+    }
+}
+
+impl Decoy {
+    /// Returns the first decoy in front of the answer to a call.
+    pub(super) fn of(
+        tree: &Tree,
+        outside: &[Outside],
+        ray: &Ray,
+        previous: Option<&Ray>,
+    ) -> Option<Decoy> {
+        let ray64 = Ray64::from(ray);
+        let hits = |it: &&Outside| scan::intersect(&ray64, &tree.shapes[it.primitive]).is_some();
+        let mut hit = outside.iter().filter(hits).peekable();
+        hit.peek()?;
+        let expected = tree.expected_hit(&ray64);
+        let end = expected.map_or(ray64.max, |hit| hit.distance);
+        let distance = |it: &Outside| {
+            let hit = scan::intersect(&ray64, &tree.shapes[it.primitive]);
+            hit.map_or(f64::INFINITY, |hit| hit.distance)
+        };
+        hit.filter(|it| distance(it) < end)
+            .find_map(|it| Decoy::in_leaf(tree, *it, &ray64, previous))
+    }
+
+    fn in_leaf(
+        tree: &Tree,
+        Outside { leaf, primitive }: Outside,
+        ray64: &Ray64,
+        previous: Option<&Ray>,
+    ) -> Option<Decoy> {
+        let primitives = tree.primitives(leaf);
+        let bounds = tree.bounds(leaf);
+        Some(Decoy {
+            reason: reason(tree, leaf, ray64)?,
+            is_sphere: matches!(tree.shapes[primitive], Shape::Sphere { .. }),
+            leaf_size: primitives.len(),
+            place: primitive - primitives.start,
+            level: tree.path(leaf).len(),
+            is_flat: bounds.min.cmpeq(bounds.max).any(),
+            history: history(tree, leaf, ray64, previous),
+        })
+    }
+}
+
+/// Returns the class of the reason why a leaf is not entered. Returns `None` if it is because of a node
+/// above.
+fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
+    let reason = decoy::skip_reason(tree, leaf, ray64)?;
+    let sibling = tree.sibling(leaf)?;
+    let children: [decoy::Child; 2] = [|node| node.l, |node| node.r];
+    let mut children = children.into_iter();
+    if reason == SkipReason::Missed {
+        let is_decided_here =
+            children.any(|child| decoy::is_missed_child(tree, leaf, ray64, child));
+        let class = usize::from(decoy::misses_sibling(tree, leaf, ray64));
+        return is_decided_here.then_some(class);
+    }
+    let hit = tree.expected_hit(ray64)?.distance;
+    let path = tree.path(leaf);
+    let parent = path.iter().rev().nth(1)?;
+    if entry(tree, *parent, ray64)? > hit {
+        return None;
+    }
+    Some(match entry(tree, sibling, ray64) {
+        Some(other) if other > hit => 3 + usize::from(other < entry(tree, leaf, ray64)?),
+        _ => 2,
+    })
+}
+
+/// Returns the class of the call before that of a decoy.
+fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> usize {
+    let Some(previous) = previous.map(Ray64::from) else {
+        return 0;
+    };
+    if tree.leaf_of_hit(&previous) == Some(leaf) {
+        return 1;
+    }
+    // How much earlier the ray enters the leaf than its sibling.
+    let earlier = |ray64: &Ray64| {
+        let sibling = tree.sibling(leaf)?;
+        Some(entry(tree, sibling, ray64)? - entry(tree, leaf, ray64)?)
+    };
+    let margin = MARGIN * tree.bounds(tree.root).diagonal();
+    let is_swapped = |before: f64, now: f64| before.min(-now) > 0.1 * margin;
+    let orders = earlier(&previous).zip(earlier(ray64));
+    let is_swapped = orders.is_some_and(|(before, now)| is_swapped(before, now));
+    2 * usize::from(previous.dir == ray64.dir && is_swapped)
+}
+
+fn entry(tree: &Tree, node: usize, ray64: &Ray64) -> Option<f64> {
+    let span = tree.bounds(node).span(&ray64.ahead());
+    span.map(|(entry, _)| entry)
+}
+
+/// The reason why the decoy is not asked.
+pub(super) const REASON: Aspect<TraverseCall> = Aspect {
+    name: "decoy",
+    classes: &[
+        "its box is missed",
+        "its box and its sibling's are missed",
+        "its box begins beyond the hit",
+        "its box and then its sibling's begin beyond the hit",
+        "its sibling's box and then its own begin beyond the hit",
+    ],
+    class: |call| Some(call.decoy()?.reason),
+};
+
+/// The kind of the decoy.
+pub(super) const KIND: Aspect<TraverseCall> = Aspect {
+    name: "decoy's kind",
+    classes: &["triangle", "sphere"],
+    class: |call| Some(usize::from(call.decoy()?.is_sphere)),
+};
+
+/// The number of primitives in the decoy's leaf.
+pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
+    name: "decoy's leaf",
+    classes: &["1", "2", "3", "4 or more"],
+    class: |call| Some(class_up_to(&[1, 2, 3], call.decoy()?.leaf_size)),
+};
+
+/// The place of the decoy in its leaf.
+pub(super) const PLACE: Aspect<TraverseCall> = Aspect {
+    name: "decoy's place",
+    classes: &["alone", "first", "in the middle", "last"],
+    class: |call| {
+        let decoy = call.decoy()?;
+        Some(match decoy.place {
+            _ if decoy.leaf_size == 1 => 0,
+            0 => 1,
+            place if place + 1 < decoy.leaf_size => 2,
+            _ => 3,
+        })
+    },
+};
+
+/// The level of the decoy's leaf.
+pub(super) const LEVEL: Aspect<TraverseCall> = Aspect {
+    name: "decoy's level",
+    classes: &["2 to 12", "13 to 24", "25 to 40", "41 to 60"],
+    class: |call| Some(class_up_to(&[12, 24, 40], call.decoy()?.level)),
+};
+
+/// The box of the decoy's leaf.
+pub(super) const BOX: Aspect<TraverseCall> = Aspect {
+    name: "decoy's box",
+    classes: &["thick", "flat"],
+    class: |call| Some(usize::from(call.decoy()?.is_flat)),
+};
+
+/// The call before that of a decoy.
+pub(super) const HISTORY: Aspect<TraverseCall> = Aspect {
+    name: "decoy's history",
+    classes: &[
+        "any",
+        "after a hit in its leaf",
+        "after a parallel ray that enters its box before its sibling's",
+    ],
+    class: |call| Some(call.decoy()?.history),
+};

@@ -1,0 +1,549 @@
+//! Trees of cells. Each cell is a small tree with one decoy, whose properties are dealt out so that each
+//! reason not to ask a decoy occurs with each kind of leaf, place, level and range.
+//!
+//! ```text
+//!   missed            missed with sibling       beyond               both beyond
+//!
+//!     ┌──┐ decoy's       ┌──┐ decoy's                ┌──┐                  ┌───────┐
+//!     └──┘ leaf          └──┘ or                     │  │ decoy's          │       ├──┐
+//!  ──────────┌──┐     ────────────┌──┐     ───┌──┐───│──│──       ───┌──┐──└───────┤──│
+//!            └──┘ hit    ┌──┐     └──┘        └──┘   └──┘            └──┘          └──┘
+//!                        └──┘ here
+//! ```
+//!
+//! The cells are beside each other, so that a ray hits something in its own cell only. In the tree, they
+//! form a chain of almost 60 levels.
+
+use glam::{DVec3, dvec3};
+use judging::exam::ExamQuestion;
+use protocol::{Ray, Shape};
+
+use super::with_decoys::{FIRST_DECOY, SlidesAnswer, slides_are_correct};
+use super::{meshes, traversal_question};
+use crate::domains::fields::RANGES;
+use crate::oracle::Ray64;
+use crate::oracle::bbox::Bounds;
+use crate::seed::Rng;
+use crate::tree::{Tree, decoy};
+
+/// Why the decoy of a cell must not be asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reason {
+    /// The ray misses the box of its leaf.
+    Missed,
+    /// The ray misses that box and its sibling's, but not their parent's.
+    MissedWithSibling,
+    /// Its leaf begins beyond the closest hit.
+    Beyond,
+    /// The same, and the ray before is a parallel one, which enters this leaf before its sibling.
+    BeyondAfterParallel,
+    /// Its leaf and the sibling begin beyond the closest hit, this one first. Their parent does not.
+    NearerOfTwoBeyond,
+    /// The same, but its leaf begins after its sibling.
+    FartherOfTwoBeyond,
+}
+
+/// The decoys of a question, for two or three reasons.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Decoys<'a> {
+    pub(super) reasons: &'a [Reason],
+    /// Whether the leaf of a decoy is the left child. If both siblings are beyond the hit, either is.
+    pub(super) is_left: bool,
+    /// The answer of the slides' pseudo-code, taken literally, for all rays with a decoy.
+    pub(super) slides: SlidesAnswer,
+}
+
+/// The number of decoys for each reason.
+const DECOYS: usize = 12;
+/// The number of trees in the chain. The deepest leaf is two levels below the last of them.
+const CHAIN: usize = 58;
+/// The links of the chain where the level of a decoy is of each class in its domain.
+const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
+
+/// Creates a question about a chain of cells.
+pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
+    rng.retry(|rng| {
+        let mut free_links = LINKS.map(|links| rng.shuffled(links.collect()));
+        let mut links: Vec<Option<Cell>> = (0..CHAIN).map(|_| None).collect();
+        let places = rng.shuffled((0..CHAIN).collect::<Vec<usize>>());
+        let axis = rng.index(3);
+        let axes = [0, 1, 2].map(|next| rng.sign() * DVec3::AXES[(axis + next) % 3]);
+        let mut order = Vec::new();
+        for &reason in decoys.reasons {
+            let start = rng.index(DECOYS);
+            for index in 0..DECOYS {
+                let plan = Plan::new(reason, decoys.is_left, index, start);
+                let link = free_links[plan.level].pop()?;
+                let frame = Frame::new(rng, axes, places[link]);
+                links[link] = Some(rng.attempt(300, |rng| Cell::draw(rng, &plan, &frame, link))?);
+                order.push(link);
+            }
+        }
+        let order = rng.shuffled(order).into_iter();
+        let in_order = order.filter_map(|link| links[link].as_ref().map(|cell| cell.rays.clone()));
+        let rays: Vec<Ray> = in_order.flatten().collect();
+        let with_decoy: Vec<Ray> = links
+            .iter()
+            .flatten()
+            .filter_map(|cell| cell.rays.last().copied())
+            .collect();
+        let tree = chain(rng, links, axes, &places);
+        let is_as_required = |ray: &Ray| {
+            let is_wrong = with_decoy.contains(ray) && decoys.slides == SlidesAnswer::Wrong;
+            slides_are_correct(&tree, ray) != is_wrong
+        };
+        let is_fair = decoy::is_fair(&tree, &rays) && rays.iter().all(is_as_required);
+        is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
+    })
+}
+
+/// Returns a chain of cells, and of leaves where there is no cell. Any child can be the left one.
+fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[usize]) -> Tree {
+    let mut tree = Tree::default();
+    let mut below = None;
+    for (link, cell) in links.into_iter().enumerate().rev() {
+        let root = if let Some(cell) = cell {
+            add_tree(&mut tree, &cell.tree)
+        } else {
+            let frame = Frame::new(rng, axes, places[link]);
+            let (min, max) = (dvec3(3.0, 2.0, -0.6), dvec3(5.0, 3.0, 0.6));
+            tree.add_leaf(vec![frame.spanning(min, max, first_number(link))])
+        };
+        below = Some(match below {
+            None => root,
+            Some(rest) if rng.coin() => tree.add_interior(rest, root),
+            Some(rest) => tree.add_interior(root, rest),
+        });
+    }
+    tree.root = below.expect("the chain has links");
+    tree
+}
+
+/// Adds all nodes and primitives of another tree, and returns the index of its root.
+fn add_tree(tree: &mut Tree, added: &Tree) -> usize {
+    let (nodes, shapes) = (tree.nodes.len() as u32, tree.shapes.len() as u32);
+    tree.nodes.extend(added.nodes.iter().map(|node| {
+        let mut node = *node;
+        if node.is_leaf() {
+            node.start += shapes;
+        } else {
+            node.l += nodes;
+            node.r += nodes;
+        }
+        node
+    }));
+    tree.shapes.extend(&added.shapes);
+    nodes as usize + added.root
+}
+
+/// Returns the number of the first primitive in a link of the chain.
+fn first_number(link: usize) -> u32 {
+    16 * link as u32
+}
+
+/// The properties of a decoy and of the ray toward it.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    reason: Reason,
+    is_left: bool,
+    is_sphere: bool,
+    /// The number of primitives in its leaf, including itself.
+    leaf_size: usize,
+    /// Its place in its leaf.
+    place: usize,
+    level: usize,
+    is_flat: bool,
+    range: usize,
+    hits_nothing: bool,
+    /// Whether the ray before hits something in the decoy's leaf.
+    is_after_a_hit_in_its_leaf: bool,
+}
+
+impl Plan {
+    /// Returns one of `DECOYS` plans. Each class of each property occurs among them, and also among the
+    /// first four, where a ray that hits nothing is one of them.
+    fn new(reason: Reason, is_left: bool, index: usize, start: usize) -> Self {
+        let (group, in_group) = (index / 4, index % 4);
+        let size = (in_group + start) % 4;
+        let leaf_size = [1, 2, 3, 4 + (start + index) % 5][size];
+        let last = leaf_size - 1;
+        let places = [0, last / 2 + last % 2, last];
+        let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
+        Plan {
+            reason,
+            is_left,
+            is_sphere: (group + index).is_multiple_of(2),
+            leaf_size,
+            place: places[(size + 2 + group) % 3],
+            level: (index + group + start / 4) % 4,
+            is_flat: (index / 2 + group + start).is_multiple_of(2),
+            range: (index + start) % RANGES.len(),
+            hits_nothing: is_missed && group == 0,
+            is_after_a_hit_in_its_leaf: reason != Reason::BeyondAfterParallel
+                && leaf_size > 2
+                && group < 2,
+        }
+    }
+}
+
+/// The position and orientation of a cell. In its own coordinates, it is between 0 and 10 along x, −3 and 7
+/// along y, and −1 and 1 along z.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    axes: [DVec3; 3],
+    origin: DVec3,
+}
+
+impl Frame {
+    /// Draws the orientation of a cell at one of the places beside each other.
+    fn new(rng: &mut Rng, axes: [DVec3; 3], place: usize) -> Self {
+        let corner = dvec3(0.0, 10.0 * (place % 6) as f64, 3.0 * (place / 6) as f64);
+        let signs = [rng.sign(), rng.sign(), rng.sign()];
+        // A cell that is turned around stays within the same limits.
+        let turned = [10.0, 4.0, 0.0];
+        let mut frame = Frame {
+            axes,
+            origin: DVec3::ZERO,
+        };
+        for axis in 0..3 {
+            let shift = if signs[axis] < 0.0 { turned[axis] } else { 0.0 };
+            frame.origin += (corner[axis] + shift) * axes[axis];
+            frame.axes[axis] *= signs[axis];
+        }
+        frame
+    }
+
+    fn direction(&self, local: DVec3) -> DVec3 {
+        self.axes[0] * local.x + self.axes[1] * local.y + self.axes[2] * local.z
+    }
+
+    fn point(&self, local: DVec3) -> DVec3 {
+        self.origin + self.direction(local)
+    }
+
+    fn ray(&self, from: DVec3, dir: DVec3) -> Ray {
+        let dir = self.direction(dir.normalize());
+        Ray::new(self.point(from).as_vec3(), dir.as_vec3())
+    }
+
+    fn flat_triangle(&self, corners: [DVec3; 3], number: u32) -> Shape {
+        meshes::flat_triangle(corners.map(|corner| self.point(corner)), number)
+    }
+
+    /// Returns a triangle whose box is exactly this one, which may be flat.
+    fn spanning(&self, min: DVec3, max: DVec3, number: u32) -> Shape {
+        let third = if min.x < max.x {
+            dvec3(max.x, min.y, max.z)
+        } else {
+            dvec3(min.x, min.y, max.z)
+        };
+        let second = dvec3(max.x, max.y, min.z);
+        self.flat_triangle([min, second, third], number)
+    }
+
+    /// Draws a small primitive inside a box, which may be flat.
+    fn small(&self, rng: &mut Rng, min: DVec3, max: DVec3, number: u32) -> Shape {
+        const SIZE: f64 = 0.35;
+        let flat = (0..3).find(|&axis| min[axis] == max[axis]);
+        let middle = 0.5 * (min + max);
+        let half = (0.5 * (max - min) - SIZE).max(DVec3::ZERO);
+        let center = middle + half * rng.point(1.0);
+        let shape = match flat {
+            Some(axis) => {
+                let (u, v) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
+                let corners = [-u - v, u - v, v].map(|corner| center + SIZE * corner);
+                self.flat_triangle(corners, 0)
+            }
+            None if rng.coin() => meshes::sphere(self.point(center), SIZE),
+            None => meshes::random_flat_triangle(rng, self.point(center), SIZE),
+        };
+        with_number(shape, number)
+    }
+}
+
+fn with_number(shape: Shape, number: u32) -> Shape {
+    meshes::with_numbers([shape], [number])[0]
+}
+
+/// A tree with one decoy.
+#[derive(Clone, Debug)]
+struct Cell {
+    tree: Tree,
+    /// The ray toward the decoy, and before it another one for some.
+    rays: Vec<Ray>,
+}
+
+impl Cell {
+    /// Draws a cell. Returns `None` if it is not fair.
+    fn draw(rng: &mut Rng, plan: &Plan, frame: &Frame, link: usize) -> Option<Cell> {
+        let mut draft = Draft {
+            tree: Tree::default(),
+            plan: *plan,
+            frame: *frame,
+            number: first_number(link),
+            decoy: FIRST_DECOY + link as u32,
+        };
+        let (ray, parallel) = if plan.reason == Reason::BeyondAfterParallel {
+            draft.add_crossing_leaves(rng)
+        } else {
+            draft.add_leaves(rng)
+        };
+        let tree = draft.tree;
+        let expected = tree.expected_hit(&Ray64::from(&ray));
+        if expected.is_none() != plan.hits_nothing || !decoy::is_fair(&tree, &[ray]) {
+            return None;
+        }
+        let before = if plan.is_after_a_hit_in_its_leaf {
+            Some(rng.attempt(100, |rng| ray_to_the_leaf_of_the_decoy(rng, &tree))?)
+        } else {
+            parallel
+        };
+        let rays: Vec<Ray> = before.into_iter().chain([ray]).collect();
+        decoy::is_fair(&tree, &rays).then_some(Cell { tree, rays })
+    }
+}
+
+/// Draws a ray that hits another primitive in the leaf of the decoy.
+fn ray_to_the_leaf_of_the_decoy(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
+    let is_decoy = |index: usize| tree.shapes[index].number() >= FIRST_DECOY;
+    let mut leaves = tree.leaves().into_iter();
+    let leaf = leaves.find(|&leaf| tree.primitives(leaf).any(is_decoy))?;
+    let Bounds { min, max } = tree.bounds(leaf);
+    let target = min + rng.vector(0.2, 0.8) * (max - min);
+    let dir = rng.direction();
+    let ray = Ray::new((target - 3.0 * dir).as_vec3(), dir.as_vec3());
+    let is_in_leaf = tree.leaf_of_hit(&Ray64::from(&ray)) == Some(leaf);
+    (is_in_leaf && decoy::is_fair(tree, &[ray])).then_some(ray)
+}
+
+/// A cell while it is drawn.
+struct Draft {
+    tree: Tree,
+    plan: Plan,
+    frame: Frame,
+    /// The number of the next primitive.
+    number: u32,
+    /// The number of the decoy.
+    decoy: u32,
+}
+
+impl Draft {
+    fn next_number(&mut self) -> u32 {
+        self.number += 1;
+        self.number - 1
+    }
+
+    /// Adds the leaves of most cells, and returns the ray.
+    fn add_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
+        let (up, side) = (rng.uniform(0.45, 0.55), rng.uniform(-0.04, 0.04));
+        let start = dvec3(rng.uniform(-0.4, 0.0), 0.0, 0.0);
+        let at = |x: f64| dvec3(x, up * (x - start.x), side * (x - start.x));
+        let dir = dvec3(1.0, up, side).normalize();
+        let ray = self.with_range(rng, self.frame.ray(start, dir));
+        let ahead = rng.uniform(1.6, 3.2) / dir.x;
+
+        let hit = at(rng.uniform(5.8, 6.2));
+        let first = self.next_number();
+        let target = if self.plan.hits_nothing {
+            let (min, max) = (dvec3(-1.6, -1.5, -1.0), dvec3(2.4, 1.0, 1.0));
+            self.frame.spanning(hit + min, hit + max, first)
+        } else {
+            let near = [dvec3(-1.6, 1.0, -1.0), dvec3(-1.6, 1.0, 1.0)];
+            let corners = [near[0], near[1], dvec3(2.4, -1.5, 0.0)];
+            self.frame.flat_triangle(corners.map(|it| hit + it), first)
+        };
+        let target = self.tree.add_leaf(vec![target]);
+
+        let z = |half: f64| half * DVec3::Z;
+        let corner = |x: f64, y: f64| dvec3(x, y, 0.0);
+        let (low, high) = (at(7.2).y, at(8.5).y);
+        let any = rng.index(3);
+        let (own, sibling, flat) = match self.plan.reason {
+            Reason::Missed => {
+                let above = [corner(2.5, 3.9) - z(0.6), corner(5.0, 5.1) + z(0.6)];
+                (above, None, any)
+            }
+            Reason::MissedWithSibling => {
+                let above = [corner(2.5, 3.7) - z(0.6), corner(4.5, 4.7) + z(0.6)];
+                let below = [corner(2.5, -1.4) - z(0.6), corner(4.5, -0.4) + z(0.6)];
+                if rng.coin() {
+                    (above, Some(below), any)
+                } else {
+                    (below, Some(above), any)
+                }
+            }
+            Reason::Beyond | Reason::BeyondAfterParallel => {
+                let behind = [corner(7.2, low - 1.2), corner(9.0, low + 2.0)];
+                ([behind[0] - z(1.0), behind[1] + z(1.0)], None, 0)
+            }
+            Reason::NearerOfTwoBeyond | Reason::FartherOfTwoBeyond => {
+                let nearer = [corner(5.2, low) - z(1.0), corner(9.0, low + 2.0) + z(1.0)];
+                let [min, max] = [corner(8.5, low - 1.2), corner(10.0, high + 2.0)];
+                let farther = [min - z(1.0), max + z(1.0)];
+                if self.plan.reason == Reason::NearerOfTwoBeyond {
+                    (nearer, Some(farther), 1)
+                } else {
+                    (farther, Some(nearer), 0)
+                }
+            }
+        };
+        let leaf = self.add_leaf_of_decoy(rng, own, flat, &ray, ahead);
+        let Some([min, max]) = sibling else {
+            self.add_interior(leaf, target, self.plan.is_left);
+            return (ray, None);
+        };
+        let number = self.next_number();
+        let other = self.frame.spanning(min, max, number);
+        let other = self.tree.add_leaf(vec![other]);
+        let is_missed = self.plan.reason == Reason::MissedWithSibling;
+        let is_left = if is_missed {
+            self.plan.is_left
+        } else {
+            rng.coin()
+        };
+        let both = self.add_interior(leaf, other, is_left);
+        let is_left = rng.coin();
+        self.add_interior(both, target, is_left);
+        (ray, None)
+    }
+
+    /// Adds two leaves whose boxes form a cross. Returns the ray, and a parallel one that enters them in
+    /// the other order.
+    fn add_crossing_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
+        let dir = dvec3(1.0, -1.0, rng.uniform(-0.03, 0.03)).normalize();
+        let shift = dvec3(3.0, 0.0, 0.0);
+        let mut jitter = || rng.uniform(-0.1, 0.1);
+        let start = shift + dvec3(-0.8 + jitter(), 4.0 + jitter(), 0.1);
+        let before = shift + dvec3(-2.5 + jitter(), 0.6 + jitter(), 0.1);
+        let ray = self.with_range(rng, self.frame.ray(start, dir));
+
+        let (min, max) = (dvec3(0.0, -3.0, -1.0), dvec3(1.0, 3.0, 1.0));
+        let number = self.next_number();
+        let wall = self.frame.spanning(shift + min, shift + max, number);
+        let number = self.next_number();
+        let hit = decoy::triangle_across(rng, &ray, 2.0, 0.15, number);
+        let target = self.tree.add_leaf(vec![wall, hit]);
+        let crossing = [dvec3(-2.5, -3.0, -1.0), dvec3(5.0, -1.0, 1.0)];
+        let crossing = if self.plan.is_flat {
+            [crossing[0].with_y(-1.0), crossing[1]]
+        } else {
+            crossing
+        };
+        let ahead = rng.uniform(0.7, 1.1);
+        let leaf =
+            self.add_leaf_of_decoy(rng, crossing.map(|corner| shift + corner), 1, &ray, ahead);
+        self.add_interior(leaf, target, self.plan.is_left);
+        (ray, Some(self.frame.ray(before, dir)))
+    }
+
+    /// Returns the ray with the planned range, which begins before the decoy and ends after all boxes.
+    fn with_range(&self, rng: &mut Rng, ray: Ray) -> Ray {
+        let later = rng.uniform(0.05, 0.3) as f32;
+        let end = rng.uniform(14.0, 25.0) as f32;
+        let far_end = rng.log_uniform(1e18, 1e30) as f32;
+        let (min, max) = match self.plan.range {
+            0 => (0.0, f32::INFINITY),
+            1 => (0.0, end),
+            2 => (later, f32::INFINITY),
+            3 => (later, end),
+            4 => (0.0, far_end),
+            _ => (later, far_end),
+        };
+        ray.within(min, max)
+    }
+
+    /// Adds the leaf with the decoy, which is on the ray. The box is flat along `flat`, if it should be, on
+    /// the side where it begins.
+    fn add_leaf_of_decoy(
+        &mut self,
+        rng: &mut Rng,
+        [min, mut max]: [DVec3; 2],
+        flat: usize,
+        ray: &Ray,
+        ahead: f64,
+    ) -> usize {
+        if self.plan.is_flat {
+            max[flat] = min[flat];
+        }
+        let number = self.next_number();
+        let mut others = vec![self.frame.spanning(min, max, number)];
+        for _ in 2..self.plan.leaf_size {
+            let number = self.next_number();
+            others.push(self.frame.small(rng, min, max, number));
+        }
+        let others = rng.shuffled(others);
+        let decoy = if self.plan.is_sphere {
+            let middle = ray.origin.as_dvec3() + ahead * ray.dir.as_dvec3();
+            with_number(meshes::sphere(middle, 0.25), self.decoy)
+        } else {
+            decoy::triangle_across(rng, ray, ahead, 0.25, self.decoy)
+        };
+        let leaf = self.tree.add_leaf(others);
+        let start = self.tree.primitives(leaf).start;
+        if self.plan.leaf_size == 1 {
+            self.tree.shapes[start] = decoy;
+            return leaf;
+        }
+        self.tree.shapes.insert(start + self.plan.place, decoy);
+        self.tree.nodes[leaf].size += 1;
+        leaf
+    }
+
+    /// Adds a node above two others, which becomes the root.
+    fn add_interior(&mut self, one: usize, other: usize, is_left: bool) -> usize {
+        let (l, r) = if is_left { (one, other) } else { (other, one) };
+        self.tree.root = self.tree.add_interior(l, r);
+        self.tree.root
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::domains::{Domain, traverse};
+    use crate::seed::Seed;
+
+    #[test]
+    fn the_plans_for_a_reason_have_all_properties() {
+        for start in 0..DECOYS {
+            let plan = |index: usize| Plan::new(Reason::Missed, true, index, start);
+            let plans: Vec<Plan> = (0..DECOYS).map(plan).collect();
+            let count = |property: fn(&Plan) -> usize| {
+                let values: BTreeSet<usize> = plans.iter().map(property).collect();
+                values.len()
+            };
+            assert_eq!(count(|plan| plan.leaf_size.min(4)), 4);
+            assert_eq!(count(|plan| plan.level), LINKS.len());
+            assert_eq!(count(|plan| plan.range), RANGES.len());
+            assert_eq!(count(|plan| usize::from(plan.is_sphere)), 2);
+            assert_eq!(count(|plan| usize::from(plan.is_flat)), 2);
+            assert!(plans.iter().all(|plan| plan.place < plan.leaf_size));
+        }
+    }
+
+    #[test]
+    fn every_reason_has_decoys_of_its_class() {
+        let reasons = [
+            Reason::Missed,
+            Reason::MissedWithSibling,
+            Reason::NearerOfTwoBeyond,
+        ];
+        let decoys = Decoys {
+            reasons: &reasons,
+            is_left: true,
+            slides: SlidesAnswer::Wrong,
+        };
+        let asked = question(&mut Seed(1).rng("items.traverse.cells"), decoys);
+        let aspects = traverse::TRAVERSE.aspects();
+        let aspect = aspects.iter().position(|(name, _)| *name == "decoy");
+        let aspect = aspect.expect("the domain has the aspect");
+        let calls = traverse::TRAVERSE.classes(&asked.question);
+        let times = |class: usize| {
+            let of_class = calls.iter().filter(|call| call[aspect] == Some(class));
+            of_class.count()
+        };
+        assert_eq!([0, 1, 2, 3, 4].map(times), [DECOYS, DECOYS, 0, DECOYS, 0]);
+    }
+}

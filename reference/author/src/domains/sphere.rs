@@ -27,6 +27,12 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         not_asked("distance", &[], &["`None`"], "A miss has no distance."),
         not_asked("latitude", &[], &["`None`"], "A miss has no latitude."),
         not_asked(
+            "place",
+            &["1,000 sizes away"],
+            &["normal", "unit_normal", "uv"],
+            "So far from the origin, rounding the centre changes the normal by more than its tolerance allows.",
+        ),
+        not_asked(
             "start",
             &["behind"],
             &[],

@@ -291,7 +291,7 @@ fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shap
     }
 }
 
-/// Returns spheres in a row, of which a builder with no more buckets than spheres has no plane in the
+/// Returns spheres about in a row, of which a builder with no more buckets than spheres has no plane in the
 /// best gap.
 fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     rng.retry(|rng| {
@@ -303,7 +303,10 @@ fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
                 _ => rng.uniform(0.0, 10.0),
             };
             let radius = rng.log_uniform(0.1, 2.5);
-            meshes::sphere(start + at * DVec3::AXES[axis], radius)
+            // Centres that coincide along another axis may be sorted in any order.
+            let mut center = start + rng.point(0.05);
+            center[axis] = start[axis] + at;
+            meshes::sphere(center, radius)
         });
         let spheres: Vec<Shape> = spheres.collect();
         let shapes = meshes::number_shapes(rng.shuffled(spheres));

@@ -156,7 +156,7 @@ pub(super) const TIGHT: Declaration = Declaration {
     tests: &["The box of a node…"],
     questions: |rng| {
         let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
-        let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
+        let arrangements = (2 * ARRANGEMENTS.len() + 2, ARRANGEMENTS);
         with_domain(many, rng, &[Tight], arrangements, is_split)
     },
     ..Declaration::in_group(groups::TREES)

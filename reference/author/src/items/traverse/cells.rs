@@ -254,7 +254,6 @@ impl Frame {
                 let corners = [-u - v, u - v, v].map(|corner| center + SIZE * corner);
                 self.flat_triangle(corners, 0)
             }
-            None if rng.coin() => meshes::sphere(self.point(center), SIZE),
             None => meshes::random_flat_triangle(rng, self.point(center), SIZE),
         };
         with_number(shape, number)

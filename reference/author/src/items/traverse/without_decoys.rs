@@ -128,6 +128,7 @@ fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
                     let ahead = rng.uniform(0.014, 0.017) * side;
                     let start = hit.position - ahead * ray.dir.as_dvec3();
                     ray.origin = start.as_vec3();
+                    ray.range.min = 0.0;
                 }
                 let asked = traversal_question(tree, vec![ray]);
                 placed::in_place(place, &asked)?;

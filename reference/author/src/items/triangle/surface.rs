@@ -43,7 +43,7 @@ pub(super) const UV: Declaration = Declaration {
            and w = 1 − u − v. The barycentric u and v are only its weights.",
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
     tests: &["`normal` and `uv`…"],
-    questions: |rng| questions(rng, &["uv"], USUAL, is_from_the_front),
+    questions: |rng| questions(rng, &["uv"], EVERY_SIZE, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
 

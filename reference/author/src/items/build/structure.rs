@@ -121,7 +121,7 @@ pub(super) const PARTITION: Declaration = Declaration {
            return, and together the leaves hold each primitive once.",
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     questions: |rng| {
-        let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
+        let many = soup_questions(rng, &[Partition], &[(200, 4)]);
         let arrangements = (8, &[Scattered, WithoutArea, DifferentSizes, Line] as &[_]);
         with_domain(many, rng, &[Partition], arrangements, |call| {
             call.shapes.len() > 2
@@ -154,7 +154,7 @@ pub(super) const TIGHT: Declaration = Declaration {
            instead of BBox::EMPTY, or is the parent's box, is too large.",
     section: "building.md#start-each-box-empty",
     questions: |rng| {
-        let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
+        let many = soup_questions(rng, &[Tight], &[(150, 4)]);
         let arrangements = (2 * ARRANGEMENTS.len(), ARRANGEMENTS);
         with_domain(many, rng, &[Tight], arrangements, is_split)
     },

@@ -388,7 +388,11 @@ impl BoxCall {
                 // A ray in the plane of a flat box is not tested.
                 is_still.test(axis) && (origin - self.bounds.min)[axis].abs() < longer
             } else {
-                margins[axis] < 8.0 * EPSILON * coordinates.max_element()
+                // A ray in the plane of a face is not tested, either.
+                let sides = [self.bounds.min, self.bounds.max];
+                let is_in_plane = sides.iter().any(|side| side[axis] == origin[axis]);
+                is_still.test(axis) && is_in_plane
+                    || margins[axis] < 8.0 * EPSILON * coordinates.max_element()
             }
         };
         let distance = (origin - self.bounds.center()).abs().max_element();

@@ -359,7 +359,7 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
         } else {
             width
         };
-        let start = center - 0.5 * width - half;
+        let start = center - rng.uniform(0.3, 0.7) * width - half;
         let end = start + 2.0 * half;
         meshes::flat_triangle([start, end, end + width], 0)
     });

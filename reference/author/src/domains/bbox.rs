@@ -46,7 +46,12 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["pairs"],
             "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
         ),
-        not_asked("outcome", &["narrowly misses"], &[], "The box is missed."),
+        not_asked(
+            "outcome",
+            &["narrowly misses", "narrowly misses a flat box"],
+            &[],
+            "The box is missed.",
+        ),
         not_asked(
             "components below 1e-4",
             &["lead into the box"],
@@ -58,6 +63,12 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["lead past the box"],
             &["some", "interval inside the box"],
             "The box is missed.",
+        ),
+        not_asked(
+            "start",
+            &["on a face"],
+            &["pairs"],
+            "Far from the origin, no coordinate of a tiny box is exact enough.",
         ),
     ],
 };
@@ -139,12 +150,20 @@ const PAPER: f64 = 0.0009;
 /// The start of the ray.
 const START: Aspect<BoxCall> = Aspect {
     name: "start",
-    classes: &["up to 3 sizes away", "up to 30 sizes away", "inside"],
+    classes: &[
+        "up to 3 sizes away",
+        "up to 30 sizes away",
+        "inside",
+        "on a face",
+    ],
     class: |call| {
         let start = call.ray.origin.as_dvec3();
         let sizes = (start - call.bounds.center()).abs().max_element() / call.size();
         Some(match sizes {
-            _ if call.bounds.contains(&Bounds::around([start])) => 2,
+            _ if call.bounds.contains(&Bounds::around([start])) => {
+                let is_on_face = start.cmpeq(call.bounds.min) | start.cmpeq(call.bounds.max);
+                2 + usize::from(is_on_face.any() && !call.is_flat())
+            }
             ..3.0 => 0,
             _ => 1,
         })
@@ -163,12 +182,13 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
         "too late",
         "too early",
         "narrowly misses",
+        "narrowly misses a flat box",
     ],
     class: |call| {
         let line = Ray64::from(&call.ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
         let (min, max) = (f64::from(call.times.min), f64::from(call.times.max));
         Some(match call.bounds.span(&line) {
-            None if call.is_narrow_miss(&line) => 7,
+            None if call.is_narrow_miss(&line) => 7 + usize::from(call.is_flat()),
             None => 4,
             Some((enter, _)) if enter > max => 5,
             Some((_, leave)) if leave < min => 6,
@@ -271,12 +291,16 @@ const HISTORY: Aspect<BoxCall> = Aspect {
         "another ray",
         "the same ray with other times",
         "a parallel ray",
+        "another ray from the same start",
     ],
     class: |call| {
         let before = call.before.as_ref().map(|(ray, _)| ray);
         let is_parallel = |ray: &Ray| ray.dir == call.ray.dir && ray.origin != call.ray.origin;
         if before.is_some_and(is_parallel) {
             return Some(3);
+        }
+        if before.is_some_and(|ray| ray.origin == call.ray.origin && ray.dir != call.ray.dir) {
+            return Some(4);
         }
         Some(history_class(before, &call.ray))
     },
@@ -414,7 +438,11 @@ impl BoxCall {
                 // A ray in the plane of a flat box is not tested.
                 is_still.test(axis) && (origin - self.bounds.min)[axis].abs() < longer
             } else {
-                margins[axis] < 8.0 * EPSILON * coordinates.max_element()
+                // A ray in the plane of a face is not tested, either.
+                let sides = [self.bounds.min, self.bounds.max];
+                let is_in_plane = sides.iter().any(|side| side[axis] == origin[axis]);
+                is_still.test(axis) && is_in_plane
+                    || margins[axis] < 8.0 * EPSILON * coordinates.max_element()
             }
         };
         let distance = (origin - self.bounds.center()).abs().max_element();
@@ -504,6 +532,7 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let dir = match rng.index(16) {
         0 | 1 => fields::diagonal(rng),
         2 | 3 => return slanted(rng, bounds),
+        4 => return from_face(rng, bounds),
         _ => fields::direction(rng),
     };
     query_along(rng, bounds, dir)
@@ -517,7 +546,12 @@ fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Inter
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
             // Close to a face, inside or outside: by a part of the box's size, or of this side.
-            let axis = rng.index(3);
+            let thinnest = (0..3).filter(|&axis| sides[axis] > 0.0);
+            let thinnest = thinnest.min_by(|&a, &b| sides[a].total_cmp(&sides[b]));
+            let axis = match thinnest {
+                Some(axis) if rng.coin() => axis,
+                _ => rng.index(3),
+            };
             let mut target = bounds.center() + 0.45 * rng.point(1.0) * sides;
             let away = if rng.coin() {
                 size * rng.uniform(0.03, 0.15)
@@ -558,6 +592,20 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
+/// Draws a ray that starts exactly on a face of the box.
+fn from_face(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let sides = bounds.max - bounds.min;
+    let mut origin = bounds.center() + 0.4 * rng.point(1.0) * sides;
+    let axis = rng.index(3);
+    origin[axis] = if rng.coin() {
+        bounds.min[axis]
+    } else {
+        bounds.max[axis]
+    };
+    let dir = fields::direction(rng);
+    Some(with_times(rng, origin, dir, sides.max_element()))
+}
+
 /// Returns a ray with its own range and times, whose ends are at distances up to `furthest`.
 fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, Interval) {
     let mut times = fields::range(rng, furthest);
@@ -577,9 +625,9 @@ fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, 
     (ray, times)
 }
 
-/// Returns the calls of a table, and two more, a hit and a miss: each of them has a ray that is parallel
-/// to the one before.
-fn with_parallel_rays(
+/// Returns the calls of a table, and three more: two rays that are parallel to the one before, and one
+/// with the same start. Where one of them hits, the other misses.
+fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
@@ -607,6 +655,21 @@ fn with_parallel_rays(
         queries.push(last);
         queries.extend(parallel);
     }
+    // Some row is followed by one from the same start, with the same times.
+    let found = (0..queries.len()).rev().find_map(|row| {
+        let (ray, times) = queries[row];
+        let other = rng.attempt(ATTEMPTS, |rng| {
+            let target = bounds.center() + 0.45 * rng.point(1.5) * (bounds.max - bounds.min);
+            let dir = (target - ray.origin.as_dvec3()).normalize().as_vec3();
+            let query = (Ray { dir, ..ray }, times);
+            let is_other = is_hit(&query) != is_hit(&(ray, times));
+            (is_other && fits(&BoxCall::new(bounds, query))).then_some(query)
+        })?;
+        Some((row, other))
+    });
+    if let Some((row, other)) = found {
+        queries.insert(row + 1, other);
+    }
     (bounds, queries)
 }
 
@@ -633,7 +696,7 @@ pub fn tables(
     };
     let tables = generator.tables(rng, sizes).into_iter();
     tables
-        .map(|table| with_parallel_rays(rng, table, fits))
+        .map(|table| with_related_rays(rng, table, fits))
         .collect()
 }
 

@@ -121,7 +121,7 @@ pub(super) const PARTITION: Declaration = Declaration {
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     tests: &["Every primitive is…"],
     questions: |rng| {
-        let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
+        let many = soup_questions(rng, &[Partition], &[(200, 4)]);
         let arrangements = (8, &[Scattered, WithoutArea, DifferentSizes, Line] as &[_]);
         with_domain(many, rng, &[Partition], arrangements, |call| {
             call.shapes.len() > 2
@@ -155,7 +155,7 @@ pub(super) const TIGHT: Declaration = Declaration {
     section: "building.md#start-each-box-empty",
     tests: &["The box of a node…"],
     questions: |rng| {
-        let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
+        let many = soup_questions(rng, &[Tight], &[(150, 4)]);
         let arrangements = (2 * ARRANGEMENTS.len() + 2, ARRANGEMENTS);
         with_domain(many, rng, &[Tight], arrangements, is_split)
     },

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use grader::files;
-use grader::handed_out::HandedOut;
+use grader::handed_out::{HandedOut, own_lines};
 use judging::content_hash::ContentHash;
 
 use crate::entry::{Entry, EntryInfo};
@@ -75,7 +75,7 @@ pub fn write_input(
             continue;
         };
         let own = submission.files.iter().filter_map(|(file, text)| {
-            let own = file.own_lines(text.as_ref().ok()?);
+            let own = own_lines(file, text.as_ref().ok()?);
             (!own.is_empty()).then_some((file.name, own))
         });
         let files: BTreeMap<&'static str, String> = own.collect();

@@ -11,7 +11,7 @@ use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::options::GradeOptions;
 use crate::grade::{Prepared, build_report};
-use crate::handed_out::HandedOut;
+use crate::handed_out::{HandedOut, is_unwritten};
 use crate::machine::backup;
 use crate::machine::files;
 use crate::report::atomic_write;
@@ -116,7 +116,7 @@ impl HandIn {
     /// Returns whether a file differs from the one that was handed out.
     fn is_started(&self) -> bool {
         let mut files = self.original.files.iter();
-        files.any(|(file, text)| text.as_ref().is_ok_and(|text| !file.is_starter(text)))
+        files.any(|(file, text)| text.as_ref().is_ok_and(|text| !is_unwritten(file, text)))
     }
 }
 
@@ -137,8 +137,8 @@ fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<FormerArchi
     };
     let pairs = former.files.iter().zip(&now.files);
     let lost = pairs.filter(|((file, before), (_, after))| {
-        let had_work = before.as_ref().is_ok_and(|text| !file.is_starter(text));
-        let has_work = after.as_ref().is_ok_and(|text| !file.is_starter(text));
+        let had_work = before.as_ref().is_ok_and(|text| !is_unwritten(file, text));
+        let has_work = after.as_ref().is_ok_and(|text| !is_unwritten(file, text));
         had_work && !has_work
     });
     let files: Vec<&str> = lost.map(|((file, _), _)| file.name).collect();

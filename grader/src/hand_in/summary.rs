@@ -5,7 +5,7 @@ use std::fmt;
 use judging::sanitize::sanitize_line;
 
 use super::HandIn;
-use crate::handed_out::{HandedOut, TaskFile, without_comments};
+use crate::handed_out::{HandedOut, TaskFile, is_unwritten, own_lines, without_comments};
 use crate::machine::printing::counted;
 use crate::submission::TaskFileError;
 use crate::workspace::display_path;
@@ -59,10 +59,10 @@ impl HandIn {
             let line = error.line.map(|line| format!(" (line {line})"));
             return format!("does not compile: {first}{}", line.unwrap_or_default());
         }
-        if file.is_starter(text) {
+        if is_unwritten(file, text) {
             return "as handed out".to_owned();
         }
-        let lines = match file.own_lines(text).lines().count() {
+        let lines = match own_lines(file, text).lines().count() {
             0 => "no lines of your own, but some were removed".to_owned(),
             count => format!("{} of your own", counted(count, "line")),
         };

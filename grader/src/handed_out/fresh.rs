@@ -4,7 +4,7 @@ use judging::assignment::Task;
 
 use super::method_span::{MethodSpan, find_method, methods};
 use super::tokens::tokens;
-use super::{HandedOut, TaskFile};
+use super::{HandedOut, TaskFile, starter_methods};
 
 /// A task's method in a submission's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ impl HandedOut {
             let is_inherent = !span.implemented.split(' ').any(|word| word == "for");
             span.name == info.method && is_inherent
         };
-        let starter = file.methods().into_iter().find(is_tasks);
+        let starter = starter_methods(file).into_iter().find(is_tasks);
         let starter =
             starter.ok_or_else(|| format!("{} has no method `{}`", file.name, info.method))?;
         let handed_out = &file.starter[starter.bytes];
@@ -75,7 +75,7 @@ pub struct ChangedDeclaration {
 /// Methods that are not found are left to the compiler.
 pub fn changed_declaration(file: &TaskFile, text: &str) -> Option<ChangedDeclaration> {
     let own = methods(text).ok()?;
-    file.methods().into_iter().find_map(|given| {
+    starter_methods(file).into_iter().find_map(|given| {
         let handed_out = declaration(&file.starter[given.bytes]);
         let found = own.iter().filter(|method| method.name == given.name);
         let mut found = found.map(|method| declaration(&text[method.bytes.clone()]));

@@ -17,7 +17,9 @@ use method_span::{MethodSpan, methods};
 use tokens::{contains, tokens};
 
 pub use fresh::{ChangedDeclaration, TaskMethod, changed_declaration};
+pub use judging::assignment::TaskFile;
 pub use method_span::find_method;
+pub use own_lines::own_lines;
 pub use rays::RAYS;
 pub use tokens::without_comments;
 
@@ -50,18 +52,6 @@ pub struct HandedOut {
     pub substitutions: &'static [SubstitutedFile],
 }
 
-/// A file that students write.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct TaskFile {
-    /// The file name, such as `sphere.rs`.
-    pub name: &'static str,
-    /// The text of the starter's file.
-    pub starter: &'static str,
-    /// Declarations that other files use. If one is missing, the compiler reports errors in those
-    /// files instead.
-    pub required_declarations: &'static [&'static str],
-}
-
 /// A file that students are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GivenFile {
@@ -90,16 +80,14 @@ impl SubstitutedFile {
     }
 }
 
-impl TaskFile {
-    /// Returns whether this is the starter's text, token for token.
-    pub fn is_starter(&self, text: &str) -> bool {
-        tokens(text) == tokens(self.starter)
-    }
+/// Returns whether the text of a task file is the starter's, token for token.
+pub fn is_unwritten(file: &TaskFile, text: &str) -> bool {
+    tokens(text) == tokens(file.starter)
+}
 
-    /// Returns the methods in the starter's file.
-    fn methods(&self) -> Vec<MethodSpan<'static>> {
-        methods(self.starter).expect("the starter's braces match")
-    }
+/// Returns the methods in the starter's file.
+fn starter_methods(file: &TaskFile) -> Vec<MethodSpan<'static>> {
+    methods(file.starter).expect("the starter's braces match")
 }
 
 impl Default for &'static HandedOut {
@@ -181,7 +169,7 @@ impl HandedOut {
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
         let is_to_write = |task: &TaskInfo, name| task.file == file.name && task.method == name;
-        let given = file.methods().into_iter().filter(|method| {
+        let given = starter_methods(file).into_iter().filter(|method| {
             let mut tasks = self.assignment.tasks.iter();
             !tasks.any(|task| is_to_write(task, method.name))
         });
@@ -223,7 +211,7 @@ mod tests {
     #[test]
     fn finds_the_methods_of_a_file() {
         let names = |file| -> Vec<&str> {
-            let methods = task_file(file).methods();
+            let methods = starter_methods(task_file(file));
             methods.iter().map(|method| method.name).collect()
         };
         assert_eq!(names("camera.rs"), ["new", "sample_ray"]);
@@ -255,9 +243,15 @@ mod tests {
     #[test]
     fn recognises_the_starter_after_formatting_but_not_after_a_change() {
         let sphere = task_file("sphere.rs");
-        assert!(sphere.is_starter(&sphere.starter.replace("todo!", "// Later.\n        todo!")));
-        assert!(sphere.is_starter(&sphere.starter.replace('\n', "\r\n")));
-        assert!(!sphere.is_starter(&sphere.starter.replace("todo!", "panic!")));
+        assert!(is_unwritten(
+            sphere,
+            &sphere.starter.replace("todo!", "// Later.\n        todo!")
+        ));
+        assert!(is_unwritten(sphere, &sphere.starter.replace('\n', "\r\n")));
+        assert!(!is_unwritten(
+            sphere,
+            &sphere.starter.replace("todo!", "panic!")
+        ));
     }
 
     #[test]

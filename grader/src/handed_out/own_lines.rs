@@ -3,20 +3,18 @@
 use crate::handed_out::TaskFile;
 use crate::handed_out::tokens::{tokens, without_comments};
 
-impl TaskFile {
-    /// Returns the lines of `text` that are not the starter's, without comments and empty lines. Two
-    /// lines are equal if their tokens are. Only lines in the same order as in the starter count as
-    /// handed out, so that the braces of a student's own code are kept. A byte order mark, which some
-    /// editors write, is ignored.
-    pub fn own_lines(&self, text: &str) -> String {
-        let text = text.trim_start_matches('\u{feff}');
-        let (text, starter) = (without_comments(text), without_comments(self.starter));
-        let (lines, given) = (code_lines(&text), code_lines(&starter));
-        let is_given = longest_common(&lines, &given);
-        let own = lines.iter().zip(is_given).filter(|(_, is_given)| !is_given);
-        let own = own.map(|((line, _), _)| format!("{}\n", line.trim_end()));
-        own.collect()
-    }
+/// Returns the lines of a task file's text that are not the starter's, without comments and empty lines. Two
+/// lines are equal if their tokens are. Only lines in the same order as in the starter count as
+/// handed out, so that the braces of a student's own code are kept. A byte order mark, which some
+/// editors write, is ignored.
+pub fn own_lines(file: &TaskFile, text: &str) -> String {
+    let text = text.trim_start_matches('\u{feff}');
+    let (text, starter) = (without_comments(text), without_comments(file.starter));
+    let (lines, given) = (code_lines(&text), code_lines(&starter));
+    let is_given = longest_common(&lines, &given);
+    let own = lines.iter().zip(is_given).filter(|(_, is_given)| !is_given);
+    let own = own.map(|((line, _), _)| format!("{}\n", line.trim_end()));
+    own.collect()
 }
 
 /// A line of code, with its tokens.
@@ -66,12 +64,13 @@ fn longest_common(lines: &[CodeLine], given: &[CodeLine]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::handed_out::RAYS;
 
     #[test]
     fn only_what_was_added_is_left() {
         let sphere = RAYS.task_file("sphere.rs").unwrap();
-        assert_eq!(sphere.own_lines(sphere.starter), "");
+        assert_eq!(own_lines(sphere, sphere.starter), "");
         let stub = sphere
             .starter
             .lines()
@@ -80,7 +79,7 @@ mod tests {
         let own = "        // Mine.\n        if ray.dir.x > 0.0 { /* no */\n            return None;\n        }\n        None";
         let text = sphere.starter.replacen(stub, own, 1).replace("    ", "\t");
         let expected = "\t\tif ray.dir.x > 0.0 {\n\t\t\treturn None;\n\t\t}\n\t\tNone\n";
-        assert_eq!(sphere.own_lines(&text), expected);
-        assert_eq!(sphere.own_lines("fn (\n}\n"), "fn (\n");
+        assert_eq!(own_lines(sphere, &text), expected);
+        assert_eq!(own_lines(sphere, "fn (\n}\n"), "fn (\n");
     }
 }

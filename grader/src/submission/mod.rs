@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use judging::assignment::TaskInfo;
 use judging::sanitize::sanitize_line;
 
-use crate::handed_out::{HandedOut, TaskFile, TaskMethod};
+use crate::handed_out::{HandedOut, TaskFile, TaskMethod, is_unwritten};
 
 use choice::{Candidate, Lookalike};
 use search::Search;
@@ -205,7 +205,7 @@ impl Submission {
     /// for token.
     pub fn is_as_handed_out(&self) -> bool {
         let mut files = self.files.iter();
-        files.all(|(file, text)| text.as_ref().is_ok_and(|text| file.is_starter(text)))
+        files.all(|(file, text)| text.as_ref().is_ok_and(|text| is_unwritten(file, text)))
     }
 }
 

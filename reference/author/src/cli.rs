@@ -38,9 +38,9 @@ pub enum Command {
         #[arg(long)]
         seed: u64,
     },
-    /// Check the handout's links, names and commands
+    /// Write the handout's lists of tasks, and check its links, names and commands
     Handout {
-        /// Only check, as without --book
+        /// Change nothing; fail if a list differs from what would be written
         #[arg(long, conflicts_with = "book")]
         check: bool,
         /// Build the book into this folder; only available as `cargo book`

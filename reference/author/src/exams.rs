@@ -54,7 +54,7 @@ pub fn generate(id: &str, seed: Seed, solutions: &Solutions) -> Result<Exam> {
 /// the items that it needs.
 pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Exam {
     let assignment = authoring.handed_out.assignment;
-    Exam::new(assignment, id, items::items(authoring.items, seed))
+    Exam::new(assignment, id, items::items(authoring.tasks, seed))
 }
 
 /// Writes the exam as JSON with one item per line, so that a diff shows which items changed.

@@ -1,5 +1,6 @@
 //! Generates the starter's files from the reference's.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use anyhow::{Result, anyhow};
@@ -9,7 +10,8 @@ use grader::handed_out::HandedOut;
 use crate::generated_file::GeneratedFile;
 
 /// Generates every file of an assignment's starter from its reference in the workspace at `root`:
-/// for the folder that students edit, and for the copy that is embedded in the grader.
+/// for the folder that students edit, and for the copy that is embedded in the grader. Also generates
+/// the declarations of modules in the root of the reference's crate.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let folders = [
         format!("{}/src", handed_out.student),
@@ -18,9 +20,14 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
     let mut generated = Vec::new();
     let given = handed_out.given.iter().chain([&handed_out.main]);
     let given = given.map(|file| file.name);
-    for file in handed_out.files.iter().map(|file| file.name).chain(given) {
+    for file in handed_out.file_names().chain(given) {
         let path = root.join(handed_out.reference).join(file);
-        let source = files::read_to_string(&path)?;
+        let mut source = files::read_to_string(&path)?;
+        if file == handed_out.given[0].name {
+            source = with_modules(&source, handed_out);
+            let path = format!("{}/{file}", handed_out.reference);
+            generated.push(GeneratedFile::new(path, &*source));
+        }
         let starter =
             projection::starter(&source).map_err(|error| anyhow!("{}:{error}", path.display()))?;
         for folder in &folders {
@@ -28,4 +35,14 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
         }
     }
     Ok(generated)
+}
+
+/// Returns the root of the crate with a declaration for each of its files in place of those at its end.
+fn with_modules(root: &str, handed_out: &HandedOut) -> String {
+    let (before, _) = root.split_once("pub mod ").unwrap_or((root, ""));
+    let given = handed_out.given.iter().skip(1).map(|file| file.name);
+    let files: BTreeSet<&str> = handed_out.file_names().chain(given).collect();
+    let modules = files.iter().map(|file| file.trim_end_matches(".rs"));
+    let declarations = modules.map(|module| format!("pub mod {module};\n"));
+    before.to_owned() + &declarations.collect::<String>()
 }

@@ -1,8 +1,8 @@
 //! Types shared by the grader, which asks questions, and the probe, the process that runs a
 //! submission and answers them.
 //!
-//! This crate holds plain data only, and no intersection code. The grader sends a [`Question`] and
-//! receives an [`Answer`]; the module [`wire`] defines how they are encoded.
+//! This crate holds plain data and the traits of a submission, and no intersection code. The grader
+//! sends a [`Question`] and receives an [`Answer`]; the module [`wire`] defines how they are encoded.
 
 pub mod answer;
 pub mod function;
@@ -11,6 +11,7 @@ pub mod packed;
 mod question;
 mod ray;
 mod shape;
+pub mod submission;
 mod trace;
 mod tree;
 pub mod value;
@@ -23,6 +24,7 @@ pub use function::*;
 pub use interval::Interval;
 pub use ray::Ray;
 pub use shape::Shape;
+pub use submission::{Aggregate, CameraRays, Hierarchy};
 pub use trace::Trace;
 pub use tree::{Tree, TreeNode};
 pub use value::{Fields, Record, Value};

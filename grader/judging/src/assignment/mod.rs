@@ -8,7 +8,7 @@ use std::fmt;
 use arrayvec::ArrayString;
 use serde::{Deserialize, Serialize};
 
-pub use rays::RAYS;
+pub use rays::{RAYS, RAYS_FILES};
 
 /// The maximum length of a task's id, in bytes.
 const MAX_ID_BYTES: usize = 24;
@@ -46,8 +46,22 @@ pub struct TaskInfo {
     pub method: &'static str,
     /// The total points of the task's items.
     pub points: u32,
+    /// The handout's page about the task.
+    pub chapter: &'static str,
     /// The clues for failures that say little by themselves.
     pub clues: TaskClues,
+}
+
+/// A file that students write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TaskFile {
+    /// The file name, such as `sphere.rs`.
+    pub name: &'static str,
+    /// The text of the starter's file.
+    pub starter: &'static str,
+    /// Declarations that other files use. If one is missing, the compiler reports errors in those
+    /// files instead.
+    pub required_declarations: &'static [&'static str],
 }
 
 /// Clues to what is wrong with a task's code, for failures that say little by themselves.

@@ -1,6 +1,6 @@
 //! The assignment `rays`.
 
-use super::{Assignment, TaskClues, TaskInfo};
+use super::{Assignment, TaskClues, TaskFile, TaskInfo};
 
 /// Tasks 1 to 3, after the slides "A3: PathTracing", tasks 1 to 3.
 pub static RAYS: Assignment = Assignment {
@@ -23,6 +23,7 @@ pub static RAYS: Assignment = Assignment {
             file: "camera.rs",
             method: "sample_ray",
             points: 15,
+            chapter: "camera.md",
             clues: TaskClues::NONE,
         },
         TaskInfo {
@@ -31,6 +32,7 @@ pub static RAYS: Assignment = Assignment {
             file: "triangle.rs",
             method: "hit",
             points: 20,
+            chapter: "triangle.md",
             clues: TRIANGLE_CLUES,
         },
         TaskInfo {
@@ -39,6 +41,7 @@ pub static RAYS: Assignment = Assignment {
             file: "sphere.rs",
             method: "hit",
             points: 15,
+            chapter: "sphere.md",
             clues: SPHERE_CLUES,
         },
         TaskInfo {
@@ -47,6 +50,7 @@ pub static RAYS: Assignment = Assignment {
             file: "bbox.rs",
             method: "hit",
             points: 10,
+            chapter: "boxes.md",
             clues: BBOX_CLUES,
         },
         TaskInfo {
@@ -55,6 +59,7 @@ pub static RAYS: Assignment = Assignment {
             file: "bvh.rs",
             method: "build",
             points: 20,
+            chapter: "building.md",
             clues: BUILD_CLUES,
         },
         TaskInfo {
@@ -63,12 +68,50 @@ pub static RAYS: Assignment = Assignment {
             file: "bvh.rs",
             method: "hit",
             points: 20,
+            chapter: "traversal.md",
             clues: TRAVERSE_CLUES,
         },
     ],
     render: Some("cargo render cornell-box"),
     challenge: Some("traversal.md#a-challenge"),
 };
+
+/// The files of the assignment `rays` that students write, in lecture order.
+pub static RAYS_FILES: &[TaskFile] = &[
+    TaskFile {
+        name: "camera.rs",
+        starter: include_str!("../../../starter/camera.rs"),
+        required_declarations: &["struct Camera", "fn new", "fn sample_ray"],
+    },
+    TaskFile {
+        name: "triangle.rs",
+        starter: include_str!("../../../starter/triangle.rs"),
+        required_declarations: &["struct Triangle", "fn new", "fn bbox", "fn hit"],
+    },
+    TaskFile {
+        name: "sphere.rs",
+        starter: include_str!("../../../starter/sphere.rs"),
+        required_declarations: &["struct Sphere", "fn new", "fn bbox", "fn hit"],
+    },
+    TaskFile {
+        name: "bbox.rs",
+        starter: include_str!("../../../starter/bbox.rs"),
+        required_declarations: &["struct BBox", "EMPTY", "fn new", "fn hit"],
+    },
+    TaskFile {
+        name: "bvh.rs",
+        starter: include_str!("../../../starter/bvh.rs"),
+        required_declarations: &[
+            "struct Bvh",
+            "struct Node",
+            "fn leaf",
+            "fn interior",
+            "fn from_nodes",
+            "fn build",
+            "fn hit",
+        ],
+    },
+];
 
 const TRIANGLE_CLUES: TaskClues = TaskClues {
     if_nothing_is_hit: Some(

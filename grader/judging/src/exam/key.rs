@@ -269,6 +269,16 @@ pub struct Surface {
     pub uv: glam::Vec2,
 }
 
+impl From<&Trace> for Surface {
+    fn from(trace: &Trace) -> Self {
+        Surface {
+            depth: trace.distance,
+            normal: trace.normal,
+            uv: trace.uv,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;

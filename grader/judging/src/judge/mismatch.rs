@@ -1,6 +1,10 @@
 //! Mismatches: the wrong positions of a picture, from which a mask is drawn. They do not affect
 //! points.
 
+use arrayvec::ArrayVec;
+
+use super::Deviation;
+
 /// The first error at one position of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mismatch {
@@ -11,12 +15,24 @@ pub struct Mismatch {
     pub deviation: f64,
 }
 
+/// The deviations at one position of a picture, or `None` if there is no answer.
+pub(super) type Position = Option<ArrayVec<(Aspect, Deviation), 4>>;
+
 impl Mismatch {
-    /// The mismatch at a position without an answer.
-    pub(super) const NO_ANSWER: Mismatch = Mismatch {
-        aspect: Aspect::NoAnswer,
-        deviation: f64::INFINITY,
-    };
+    /// Returns the first error at a position, if there is one.
+    pub(super) fn first_at(position: &Position) -> Option<Self> {
+        let Some(deviations) = position else {
+            return Some(Mismatch {
+                aspect: Aspect::NoAnswer,
+                deviation: f64::INFINITY,
+            });
+        };
+        let wrong = deviations.iter().find(|(_, one)| !one.is_right());
+        wrong.map(|&(aspect, Deviation { value, .. })| Mismatch {
+            aspect,
+            deviation: value,
+        })
+    }
 }
 
 /// Kinds of errors at a position, the most serious first.

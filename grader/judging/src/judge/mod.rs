@@ -17,6 +17,7 @@ use protocol::{Answer, Panic, Question};
 use crate::exam::{ExamQuestion, Key};
 
 use first_hits::FirstHits;
+use mismatch::Position;
 use radiance::Radiance;
 use table::TableAnswer;
 use tree::{TreeAnswer, TreeCriteria};
@@ -97,9 +98,9 @@ trait Comparison {
     /// [`judge`](Comparison::judge) gives full credit.
     fn measure(&self) -> Vec<Measurement>;
 
-    /// Returns the error at each position of a picture, which is `None` where the answer is
-    /// correct. Returns `None` if there is no picture.
-    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
+    /// Returns the deviation of each quantity at each position of a picture. Returns `None` if there is
+    /// no picture.
+    fn positions(&self) -> Option<Vec<Position>> {
         None
     }
 }
@@ -134,7 +135,8 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
 /// [`judge`] bases its decision on the same numbers. Returns `None` if the question does not ask
 /// for a picture, or if the answer has the wrong size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
-    comparison(question, answer)?.mismatches()
+    let positions = comparison(question, answer)?.positions()?;
+    Some(positions.iter().map(Mismatch::first_at).collect())
 }
 
 fn comparison<'a>(

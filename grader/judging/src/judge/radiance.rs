@@ -2,12 +2,14 @@
 //! every random number from the stream that was used when the key was recorded, so there is no
 //! noise to tolerate.
 
+use std::iter;
+
 use glam::Vec3;
 use protocol::ElementOutcome;
 
 use crate::describe;
 use crate::judge::{
-    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
+    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Position,
     Threshold, deviation,
 };
 use crate::types::multiple::in_units_of;
@@ -31,39 +33,30 @@ impl Comparison for Radiance<'_> {
     }
 
     fn measure(&self) -> Vec<Measurement> {
-        match self.answer {
-            ElementOutcome::Value(got) if got.len() == self.pixels.len() => {
-                let pixels = got.iter().zip(self.pixels);
-                let positions = pixels
-                    .map(|(got, wanted)| pixel_deviation(*got, *wanted))
-                    .collect();
-                let allowed = self.max_wrong_pixels as usize;
-                vec![Measurement::of_positions(
-                    positions,
-                    allowed,
-                    Threshold::RadiancePixels,
-                )]
-            }
-            ElementOutcome::Value(_) | ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {
-                deviation::worst_by_threshold([Deviation::WRONG])
-            }
-        }
+        let Some(pixels) = self.deviations() else {
+            return deviation::worst_by_threshold([Deviation::WRONG]);
+        };
+        vec![Measurement::of_positions(
+            pixels.collect(),
+            self.max_wrong_pixels as usize,
+            Threshold::RadiancePixels,
+        )]
     }
 
-    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
-        let got = match self.answer {
-            ElementOutcome::Value(got) => got,
-            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => return None,
-        };
-        let mismatch = |(got, wanted): (&Vec3, &Vec3)| {
-            let off = pixel_deviation(*got, *wanted);
-            (!off.is_right()).then_some(Mismatch {
-                aspect: Aspect::Radiance,
-                deviation: off.value,
-            })
-        };
-        let is_whole = got.len() == self.pixels.len();
-        is_whole.then(|| got.iter().zip(self.pixels).map(mismatch).collect())
+    fn positions(&self) -> Option<Vec<Position>> {
+        let pixels = self.deviations()?;
+        let position = |pixel| Some(iter::once((Aspect::Radiance, pixel)).collect());
+        Some(pixels.map(position).collect())
+    }
+}
+
+impl Radiance<'_> {
+    /// Returns the deviation of each pixel, or `None` if there are not as many as in the key.
+    fn deviations(&self) -> Option<impl Iterator<Item = Deviation>> {
+        let got = self.answer.value()?;
+        let pixels = got.iter().zip(self.pixels);
+        let deviations = pixels.map(|(got, wanted)| pixel_deviation(*got, *wanted));
+        (got.len() == self.pixels.len()).then_some(deviations)
     }
 }
 

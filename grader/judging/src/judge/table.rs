@@ -1,12 +1,14 @@
 //! Compares the rows of tables with the key: one comparison for all functions.
 
+use std::iter;
+
 use protocol::{Answer, AnyTable, ElementOutcome, Record, Returned};
 
 use super::deviation::{outcome_deviations, worst_by_threshold};
 use super::quantity::Quantity;
 use super::scale::Scales;
 use super::{
-    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
+    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Position,
     Threshold,
 };
 use crate::describe;
@@ -198,16 +200,13 @@ impl Comparison for TableAnswer<'_> {
         worst_by_threshold(self.deviations_by_row().flatten())
     }
 
-    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
-        let mismatch = |(outcome, worst): (&Returned, Deviation)| match outcome {
-            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
-            ElementOutcome::Value(_) => (!worst.is_right()).then_some(Mismatch {
-                aspect: Aspect::Direction,
-                deviation: worst.value,
-            }),
+    fn positions(&self) -> Option<Vec<Position>> {
+        let position = |(outcome, worst): (&Returned, Deviation)| {
+            outcome.value()?;
+            Some(iter::once((Aspect::Direction, worst)).collect())
         };
         let rows = self.rows.iter().zip(self.worst_by_row());
-        (self.is_whole() && self.is_picture()).then(|| rows.map(mismatch).collect())
+        (self.is_whole() && self.is_picture()).then(|| rows.map(position).collect())
     }
 }
 

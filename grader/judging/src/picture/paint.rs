@@ -40,17 +40,10 @@ pub struct Layer {
     pub pixels: Vec<Colour>,
 }
 
-impl Layer {
-    fn new(name: &'static str, pixels: Vec<Colour>) -> Self {
-        Layer { name, pixels }
-    }
-}
-
-/// The expected and the submitted picture of one quantity, with a colour for each sample position.
+/// A picture of one quantity, with a colour for each sample position.
 struct LayerSamples {
     name: &'static str,
-    wanted: Vec<Vec3>,
-    got: Vec<Vec3>,
+    colours: Vec<Vec3>,
 }
 
 /// Returns all layers of a picture. The one that shows the most serious error comes first.
@@ -60,43 +53,21 @@ pub(super) fn compare_layers(
     mismatches: &[Option<Mismatch>],
     per_pixel: usize,
 ) -> Option<Vec<LayerComparison>> {
-    let mut layers = match (&question.key, answer) {
-        (Key::FirstHits { hits, .. }, Answer::Hits(got)) => first_hits(hits, got),
-        (
-            Key::Table {
-                rows: ExpectedRows::Rays(directions),
-                ..
-            },
-            Answer::Rays(rays),
-        ) => vec![LayerSamples {
-            name: "direction",
-            wanted: directions.iter().map(|dir| signed_colour(*dir)).collect(),
-            got: rays
-                .iter()
-                .map(|ray| paint_outcome(ray, |ray| signed_colour(ray.dir)))
-                .collect(),
-        }],
-        (Key::Radiance { pixels, .. }, Answer::Picture(ElementOutcome::Value(got))) => {
-            vec![LayerSamples {
-                name: "light",
-                wanted: pixels.iter().map(|pixel| srgb(*pixel)).collect(),
-                got: got.iter().map(|pixel| srgb(*pixel)).collect(),
-            }]
-        }
-        (
-            Key::Table { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. },
-            _,
-        ) => return None,
-    };
+    let pairs = wanted_layers(&question.key).into_iter();
+    let mut pairs: Vec<_> = pairs.zip(got_layers(&question.key, answer)?).collect();
     let most_serious = mismatches
         .iter()
         .flatten()
         .map(|mismatch| mismatch.aspect)
         .min();
     let shown = most_serious.map_or("normal", layer_showing);
-    layers.sort_by_key(|layer| layer.name != shown);
-    let view = |layer: &LayerSamples| compare_layer(layer, mismatches, per_pixel);
-    Some(layers.iter().map(view).collect())
+    pairs.sort_by_key(|(wanted, _)| wanted.name != shown);
+    let pairs = pairs.iter();
+    Some(
+        pairs
+            .map(|(wanted, got)| compare_layer(wanted, got, mismatches, per_pixel))
+            .collect(),
+    )
 }
 
 /// Returns the submitted layers, painted as [`compare_layers`] paints a picture without errors.
@@ -105,35 +76,59 @@ pub(super) fn submitted_layers(
     answer: &Answer,
     per_pixel: usize,
 ) -> Option<Vec<Layer>> {
-    Some(match (&question.key, answer) {
+    let layers = got_layers(&question.key, answer)?.into_iter();
+    let layer = |LayerSamples { name, colours }| Layer {
+        name,
+        pixels: pixels(&colours, per_pixel),
+    };
+    Some(layers.map(layer).collect())
+}
+
+/// Paints the expected picture, if there is one.
+fn wanted_layers(key: &Key) -> Vec<LayerSamples> {
+    match key {
+        Key::FirstHits { hits, .. } => hit_layers(hits, hits.iter().copied().map(Some)),
+        Key::Table {
+            rows: ExpectedRows::Rays(directions),
+            ..
+        } => one_layer(
+            "direction",
+            directions.iter().map(|dir| signed_colour(*dir)),
+        ),
+        Key::Radiance { pixels, .. } => one_layer("light", pixels.iter().map(|it| srgb(*it))),
+        Key::Table { .. } | Key::Tree { .. } => Vec::new(),
+    }
+}
+
+/// Paints the submitted picture. Returns `None` if the answer is none.
+fn got_layers(key: &Key, answer: &Answer) -> Option<Vec<LayerSamples>> {
+    Some(match (key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {
-            let grey = depth_greys(hits);
-            let paint = |colour: &dyn Fn(&Trace) -> Vec3| {
-                let hit = |hit: &Option<Trace>| hit.as_ref().map_or(MISS_COLOUR, colour);
-                means(got, per_pixel, |outcome| paint_outcome(outcome, hit))
-            };
-            vec![
-                Layer::new("normal", paint(&|hit| signed_colour(hit.normal))),
-                Layer::new("depth", paint(&|hit| grey(hit.distance))),
-                Layer::new("uv", paint(&|hit| uv_colour(hit.uv))),
-            ]
+            let surface = |hit: &Option<Trace>| hit.as_ref().map(Surface::from);
+            let got = got.iter().map(|outcome| outcome.value().map(surface));
+            hit_layers(hits, got)
         }
         (Key::Table { .. }, Answer::Rays(rays)) => {
-            let direction =
-                |ray: &ElementOutcome<Ray>| paint_outcome(ray, |ray| signed_colour(ray.dir));
-            vec![Layer::new("direction", means(rays, per_pixel, direction))]
+            let colour = |ray: &Ray| signed_colour(ray.dir);
+            let rays = rays.iter().map(ElementOutcome::value);
+            one_layer(
+                "direction",
+                rays.map(|ray| ray.map_or(INVALID_COLOUR, colour)),
+            )
         }
         (Key::Radiance { .. }, Answer::Picture(ElementOutcome::Value(got))) => {
-            vec![Layer::new(
-                "light",
-                means(got, per_pixel, |pixel| srgb(*pixel)),
-            )]
+            one_layer("light", got.iter().map(|pixel| srgb(*pixel)))
         }
         (
             Key::Table { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. },
             _,
         ) => return None,
     })
+}
+
+fn one_layer(name: &'static str, colours: impl Iterator<Item = Vec3>) -> Vec<LayerSamples> {
+    let colours = colours.collect();
+    vec![LayerSamples { name, colours }]
 }
 
 /// Returns whether a surface is visible at each position of the expected picture.
@@ -157,31 +152,28 @@ fn layer_showing(aspect: Aspect) -> &'static str {
     }
 }
 
-fn first_hits(
-    hits: &[Option<Surface>],
-    got: &[ElementOutcome<Option<Trace>>],
+/// Paints first hits, or `None` where there is no answer. The depths of the expected hits `of_key`
+/// decide how bright a depth is.
+fn hit_layers(
+    of_key: &[Option<Surface>],
+    hits: impl Iterator<Item = Option<Option<Surface>>>,
 ) -> Vec<LayerSamples> {
-    let grey = depth_greys(hits);
-    let layer =
-        |name, of_key: &dyn Fn(&Surface) -> Vec3, of_got: &dyn Fn(&Trace) -> Vec3| LayerSamples {
+    let grey = depth_greys(of_key);
+    let hits: Vec<Option<Option<Surface>>> = hits.collect();
+    let layer = |name, colour: &dyn Fn(Surface) -> Vec3| {
+        let colours = hits.iter().map(|hit| match hit {
+            None => INVALID_COLOUR,
+            Some(hit) => hit.map_or(MISS_COLOUR, colour),
+        });
+        LayerSamples {
             name,
-            wanted: hits
-                .iter()
-                .map(|hit| hit.as_ref().map_or(MISS_COLOUR, of_key))
-                .collect(),
-            got: got
-                .iter()
-                .map(|outcome| {
-                    paint_outcome(outcome, |hit| hit.as_ref().map_or(MISS_COLOUR, of_got))
-                })
-                .collect(),
-        };
+            colours: colours.collect(),
+        }
+    };
     vec![
-        layer("normal", &|hit| signed_colour(hit.normal), &|hit| {
-            signed_colour(hit.normal)
-        }),
-        layer("depth", &|hit| grey(hit.depth), &|hit| grey(hit.distance)),
-        layer("uv", &|hit| uv_colour(hit.uv), &|hit| uv_colour(hit.uv)),
+        layer("normal", &|hit| signed_colour(hit.normal)),
+        layer("depth", &|hit| grey(hit.depth)),
+        layer("uv", &|hit| uv_colour(hit.uv)),
     ]
 }
 
@@ -195,13 +187,6 @@ fn depth_greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
         valid_colour(Vec3::splat(
             1.0 - 0.8 * (depth - near) / (far - near).max(1e-6),
         ))
-    }
-}
-
-fn paint_outcome<T>(outcome: &ElementOutcome<T>, paint: impl Fn(&T) -> Vec3) -> Vec3 {
-    match outcome {
-        ElementOutcome::Value(value) => paint(value),
-        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => INVALID_COLOUR,
     }
 }
 
@@ -232,11 +217,12 @@ fn valid_colour(colour: Vec3) -> Vec3 {
 }
 
 fn compare_layer(
-    layer: &LayerSamples,
+    wanted: &LayerSamples,
+    got: &LayerSamples,
     mismatches: &[Option<Mismatch>],
     per_pixel: usize,
 ) -> LayerComparison {
-    let differences = layer.wanted.iter().zip(&layer.got).zip(mismatches);
+    let differences = wanted.colours.iter().zip(&got.colours).zip(mismatches);
     let differences: Vec<Vec3> = differences
         .map(|((wanted, got), mismatch)| match mismatch {
             // At an edge, an answer that differs from the expected one may also be correct.
@@ -245,20 +231,16 @@ fn compare_layer(
         })
         .collect();
     LayerComparison {
-        name: layer.name,
-        wanted: pixels(&layer.wanted, per_pixel),
-        got: pixels(&layer.got, per_pixel),
+        name: wanted.name,
+        wanted: pixels(&wanted.colours, per_pixel),
+        got: pixels(&got.colours, per_pixel),
         difference: pixels(&differences, per_pixel),
     }
 }
 
-fn pixels(positions: &[Vec3], per_pixel: usize) -> Vec<Colour> {
-    means(positions, per_pixel, |colour| *colour)
-}
-
 /// Returns the mean colour of each pixel over its positions.
-fn means<T>(positions: &[T], per_pixel: usize, paint: impl Fn(&T) -> Vec3) -> Vec<Colour> {
-    let mean = |pixel: &[T]| pixel.iter().map(&paint).sum::<Vec3>() / per_pixel as f32;
+fn pixels(positions: &[Vec3], per_pixel: usize) -> Vec<Colour> {
+    let mean = |pixel: &[Vec3]| pixel.iter().sum::<Vec3>() / per_pixel as f32;
     let bytes = |colour: Vec3| {
         colour
             .to_array()

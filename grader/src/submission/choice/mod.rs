@@ -10,7 +10,7 @@ use std::path::Path;
 
 use super::names::{Resemblance, is_archive_name};
 use super::{MAX_NOTES, SubmissionError, TaskFileError, display_name};
-use crate::handed_out::HandedOut;
+use crate::handed_out::{HandedOut, is_unwritten};
 
 /// Names of folders that never hold what is handed in: metadata of systems and tools, old versions
 /// that tools keep, and compiled files. Those of the project itself are in the assignment's table.
@@ -280,7 +280,7 @@ pub(super) fn is_starter(name: &str, contents: &FileContents, handed_out: &Hande
         .ok()
         .map(|bytes| std::str::from_utf8(bytes));
     let file = handed_out.task_file(name);
-    matches!((file, text), (Some(file), Some(Ok(text))) if file.is_starter(text))
+    matches!((file, text), (Some(file), Some(Ok(text))) if is_unwritten(file, text))
 }
 
 /// Returns the position of a folder in the assignment's list of folders, below the top or below a

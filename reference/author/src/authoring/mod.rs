@@ -5,8 +5,7 @@ mod rays;
 
 use grader::handed_out::HandedOut;
 
-use crate::domains::Domain;
-use crate::items::TaskItems;
+use crate::items::AuthoredTask;
 
 pub use rays::RAYS;
 
@@ -14,21 +13,17 @@ pub use rays::RAYS;
 pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
 
 /// An assignment as its authors have it. Its other solutions are files in
-/// [`HandedOut::solutions`]: mistakes, variants, equivalent mutants and the sentences of the
-/// contract.
+/// [`HandedOut::solutions`]: mistakes, variants and equivalent mutants.
 #[derive(Debug)]
 pub struct Authoring {
     /// The assignment as it is handed out.
     pub handed_out: &'static HandedOut,
     /// The file of the practice exam, relative to the workspace's root.
     pub practice_exam: &'static str,
-    /// Draw the items of each task, in lecture order. The reference records the pictures whose keys
-    /// only it can provide.
-    pub items: &'static [TaskItems],
-    /// The domains of the functions that the items call.
-    pub domains: &'static [&'static dyn Domain],
-    /// The folder of the oracles, relative to the workspace's root. Their formulas are secret.
-    pub oracles: &'static str,
+    /// The tasks, in lecture order. The reference records the pictures whose keys only it can provide.
+    pub tasks: &'static [&'static AuthoredTask],
+    /// The folders and files with oracles, relative to the workspace's root. Their formulas are secret.
+    pub oracles: &'static [&'static str],
     /// The attacks in the trial of a package whose exam is secret.
     pub attacks: &'static [Attack],
 }

@@ -3,16 +3,14 @@
 use grader::handed_out;
 
 use super::{Attack, Authoring};
-use crate::domains;
 use crate::items;
 
 /// The assignment `rays`.
 pub static RAYS: Authoring = Authoring {
     handed_out: &handed_out::RAYS,
     practice_exam: "grader/exams/practice.json",
-    items: items::TASKS,
-    domains: domains::FUNCTIONS,
-    oracles: "reference/author/src/oracle",
+    tasks: items::TASKS,
+    oracles: &["reference/author/src/oracle", "reference/author/src/items"],
     attacks: &[
         Attack {
             file: "camera.rs",

@@ -61,7 +61,9 @@ impl Secrets {
         };
         // Only the oracles' formulas are secret: other lines, such as the conversion of a ray to
         // `f64`, can occur in any code.
-        secrets.read(root, authoring.oracles)?;
+        for oracles in authoring.oracles {
+            secrets.read(root, oracles)?;
+        }
         secrets.lines.retain(|line, _| is_formula(line));
         secrets.read(root, handed_out.reference)?;
         let solutions = handed_out.solutions();
@@ -151,9 +153,10 @@ fn normalize(line: &str) -> Option<String> {
     (computes && !is_no_code && !is_idiom && line.len() >= MIN_LENGTH).then_some(line)
 }
 
-/// Returns whether the line contains arithmetic.
+/// Returns whether the line contains arithmetic. An arrow is none, nor is a field that is dereferenced.
 fn is_formula(line: &str) -> bool {
-    line.replace("->", "").contains(['+', '-', '*', '/'])
+    let operators = line.replace("->", "").replace(": *", "").replace(":*", "");
+    operators.contains(['+', '-', '*', '/'])
 }
 
 impl fmt::Display for Secrets {
@@ -185,6 +188,7 @@ mod tests {
     #[test]
     fn lines_that_compute_nothing_are_not_secret() {
         assert!(!is_formula("origin: ray.origin.as_dvec3(),"));
+        assert!(!is_formula("max_leaf_size: *max_leaf_size,"));
         for line in [
             "}",
             "use std::collections::BTreeMap;",

@@ -18,6 +18,7 @@ use crate::cli::{Command, RecordArgs};
 use crate::coverage::coverage;
 use crate::exams;
 use crate::generated_file::{GeneratedFile, Mode, write_or_check};
+use crate::handout;
 use crate::long_runs;
 use crate::solutions::Solutions;
 use crate::solutions::workbench::Workbench;
@@ -48,10 +49,19 @@ pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
             Ok(io::stdout().write_all(exam.as_bytes())?)
         }
         Command::Handout {
-            check: _,
+            check,
             book,
             students,
-        } => book::handout(root, authoring, book, students),
+        } => {
+            let mode = if check || book.is_some() {
+                Mode::Check
+            } else {
+                Mode::Write
+            };
+            let files = handout::tasks::generated_files(root, authoring.handed_out)?;
+            generate(&files, mode, "handout")?;
+            book::handout(root, authoring, book, students)
+        }
         Command::Bundle(args) => archives::bundle(root, authoring, &args),
         Command::Package(args) => archives::package(root, authoring, &args),
         Command::Mistakes(args) => proofs::mistakes(root, authoring, &args),

@@ -1,12 +1,10 @@
 //! The coverage of the contract: the items that ask each sentence of each task's documentation, and how
-//! often the exam asks each class of each function's domain. What is not asked has a reason in
-//! `coverage.toml`, in the folder of the assignment's solutions.
+//! often the exam asks each class of each function's domain. What is not asked has a reason, beside the
+//! task's items or the function's domain.
 
 mod classes;
 mod contract;
-mod list;
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use anyhow::Result;
@@ -17,13 +15,10 @@ use judging::exam::Exam;
 use crate::authoring::Authoring;
 use crate::domains::Domain;
 use crate::generated_file::GeneratedFile;
-use crate::solutions::read_toml;
+use crate::items::AuthoredTask;
 use classes::Classes;
-use list::{Listed, Sentence};
 
-/// The list of sentences and reasons, relative to the folder of an assignment's solutions.
-const SENTENCES: &str = "coverage.toml";
-/// The table, relative to the same folder.
+/// The table, relative to the folder of an assignment's solutions.
 const TABLE: &str = "coverage.md";
 /// The fewest answers of a class, so that no mistake passes by luck.
 const FEWEST: usize = 2;
@@ -58,7 +53,6 @@ impl Coverage {
 pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Coverage> {
     let handed_out = authoring.handed_out;
     let folder = handed_out.solutions();
-    let listed: Listed = read_toml(&root.join(folder).join(SENTENCES))?;
     let text = format!(
         "# Coverage of the contract\n\n\
          Written by `cargo author coverage` for the {} exam. First, the sentences of the documentation \
@@ -75,44 +69,55 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
         asked: 0,
         excused: 0,
     };
-    for task in handed_out.assignment.tasks {
+    for (task, authored) in handed_out.assignment.tasks.iter().zip(authoring.tasks) {
         let file = files::read_to_string(root.join(handed_out.reference).join(task.file))?;
-        coverage.add_task(task, &contract::sentences(&file, task), &listed, exam);
+        coverage.add_task(task, &contract::sentences(&file, task), authored);
     }
-    for domain in authoring.domains {
-        coverage.add_function(*domain, &listed, exam);
+    for domain in authoring.tasks.iter().filter_map(|task| task.domain) {
+        coverage.add_function(domain, exam);
     }
     Ok(coverage)
 }
 
 impl Coverage {
-    fn add_task(&mut self, task: &TaskInfo, sentences: &[String], listed: &Listed, exam: &Exam) {
-        let of_task = |entry: &&Sentence| entry.task == task.id;
-        let entries: Vec<&Sentence> = listed.sentence.iter().filter(of_task).collect();
-        let unknown = entries
-            .iter()
-            .filter(|entry| !sentences.contains(&entry.text));
-        self.problems.extend(
-            unknown.map(|entry| format!("{SENTENCES}: {} does not say {:?}", task.id, entry.text)),
-        );
-        self.check_items(task, &entries, exam);
+    fn add_task(&mut self, task: &TaskInfo, sentences: &[String], authored: &AuthoredTask) {
+        let tested = authored.items.iter().flat_map(|item| {
+            let name = item.id.split('.').next_back().unwrap_or(item.id);
+            let asked = format!("`{name}`");
+            item.tests.iter().map(move |text| (*text, asked.clone()))
+        });
+        let untested = authored.untested.iter();
+        let untested = untested.map(|(text, why)| (*text, (*why).to_owned()));
+        let (tested, untested): (Vec<_>, Vec<_>) = (tested.collect(), untested.collect());
+
+        for (text, asked) in tested.iter().chain(&untested) {
+            if sentences.iter().filter(|it| is_meant(text, it)).count() != 1 {
+                let problem = format!("{}: {asked} names no sentence with {text:?}", task.id);
+                self.problems.push(problem);
+            }
+        }
+        let without = authored.items.iter().filter(|item| item.tests.is_empty());
+        let without = without.map(|item| format!("no sentence is asked by {}", item.id));
+        self.problems.extend(without);
 
         self.table.contents += &format!("\n## {}\n\n| sentence | items |\n|---|---|\n", task.title);
         for sentence in sentences {
             self.sentences += 1;
-            let Some(entry) = entries.iter().find(|entry| entry.text == *sentence) else {
-                let problem = format!("{SENTENCES} has no entry for {}: {sentence:?}", task.id);
-                self.problems.push(problem);
-                continue;
+            let of_sentence = |list: &[(&str, String)]| -> Vec<String> {
+                let meant = list.iter().filter(|(text, _)| is_meant(text, sentence));
+                meant.map(|(_, asked)| asked.clone()).collect()
             };
-            let items = entry.items.iter().map(|id| format!("`{}`", short(id)));
-            let items = items.collect::<Vec<_>>().join(", ");
-            let asked = entry.why_not.as_deref().unwrap_or(&items);
+            let (items, reasons) = (of_sentence(&tested), of_sentence(&untested));
+            if items.is_empty() == reasons.is_empty() {
+                let problem = format!("{}: {sentence:?} needs either items or a reason", task.id);
+                self.problems.push(problem);
+            }
+            let asked = [items, reasons].concat().join(", ");
             self.table.contents += &format!("| {sentence} | {asked} |\n");
         }
     }
 
-    fn add_function(&mut self, domain: &dyn Domain, listed: &Listed, exam: &Exam) {
+    fn add_function(&mut self, domain: &dyn Domain, exam: &Exam) {
         let function = domain.function();
         let classes = Classes::count(domain, exam);
         let mut reasons: Vec<&str> = Vec::new();
@@ -123,7 +128,7 @@ impl Coverage {
                 rows += &format!("| {name} | {class_name} |");
                 for column in columns {
                     let count = classes.times(aspect, class, column);
-                    let reason = listed.reason(function, name, class_name, column);
+                    let reason = reason(domain, name, class_name, column);
                     let place = format!("{name} {class_name:?} for {column}");
                     let shown = self.shown(function, &place, count, reason, &mut reasons);
                     rows += &format!(" {shown} |");
@@ -131,7 +136,7 @@ impl Coverage {
                 rows.push('\n');
             }
         }
-        self.check_pairs(domain, &classes, listed);
+        self.check_pairs(domain, &classes);
         self.table.contents += &format!(
             "\n## `{function}`\n\n| aspect | class | {} |\n|---|---|{}\n{rows}",
             columns.join(" | "),
@@ -169,7 +174,7 @@ impl Coverage {
     }
 
     /// Checks that each pair of classes of two aspects about shape is asked.
-    fn check_pairs(&mut self, domain: &dyn Domain, classes: &Classes, listed: &Listed) {
+    fn check_pairs(&mut self, domain: &dyn Domain, classes: &Classes) {
         const COLUMN: &str = "pairs";
         let (function, aspects) = (domain.function(), domain.aspects());
         let find = |name: &str| aspects.iter().position(|aspect| aspect.0 == name);
@@ -182,8 +187,8 @@ impl Coverage {
             for (i, class) in aspects[a].1.iter().enumerate() {
                 for (j, other) in aspects[b].1.iter().enumerate() {
                     let count = classes.times_together([(a, i), (b, j)]);
-                    let reason = listed.reason(function, first, class, COLUMN);
-                    let reason = reason.or_else(|| listed.reason(function, second, other, COLUMN));
+                    let of_first = reason(domain, first, class, COLUMN);
+                    let reason = of_first.or_else(|| reason(domain, second, other, COLUMN));
                     match (count, reason) {
                         (1.., _) => self.asked += 1,
                         (0, Some(_)) => self.excused += 1,
@@ -195,29 +200,21 @@ impl Coverage {
             }
         }
     }
+}
 
-    /// Checks that every item of a task asks a sentence, and that every item exists.
-    fn check_items(&mut self, task: &TaskInfo, entries: &[&Sentence], exam: &Exam) {
-        let of_task = exam.items.iter().filter(|item| item.task.id() == task.id);
-        let all: BTreeSet<&str> = of_task.map(|item| item.id.as_str()).collect();
-        let asked = entries.iter().flat_map(|entry| &entry.items);
-        let asked: BTreeSet<&str> = asked.map(String::as_str).collect();
-        let unasked = all.difference(&asked);
-        let unasked = unasked.map(|id| format!("{SENTENCES}: no sentence is asked by {id}"));
-        let unknown = asked.difference(&all);
-        let unknown = unknown.map(|id| format!("{SENTENCES}: there is no item {id}"));
-        let unclear = |entry: &&&Sentence| entry.items.is_empty() == entry.why_not.is_none();
-        let unclear = entries.iter().filter(unclear).map(|entry| {
-            let text = &entry.text;
-            format!("{SENTENCES}: {text:?} needs either items or why_not")
-        });
-        let problems = unasked.chain(unknown).chain(unclear);
-        self.problems.extend(problems);
+/// Returns whether a text is a sentence, or its beginning up to an ellipsis.
+fn is_meant(text: &str, sentence: &str) -> bool {
+    match text.strip_suffix('…') {
+        Some(beginning) => sentence.starts_with(beginning),
+        None => sentence == text,
     }
 }
 
-fn short(id: &str) -> &str {
-    id.split('.').next_back().unwrap_or(id)
+/// Returns the reason why a class of an aspect is not asked for what a column counts.
+fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Option<&'static str> {
+    let mut reasons = domain.not_asked().iter();
+    let found = reasons.find(|reason| reason.is_about(aspect, class, column));
+    found.map(|reason| reason.why)
 }
 
 fn letter(index: usize) -> String {
@@ -230,33 +227,54 @@ mod tests {
 
     use super::*;
     use crate::authoring::RAYS;
-    use crate::items;
+    use crate::items::{self, Declaration};
 
+    /// Returns the coverage of boxes by an exam of some of their items.
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let exam = items::exam_of_boxes().filter_items(keep);
-        let all = coverage(&root, &RAYS, &exam)
-            .expect("the list can be read")
-            .problems;
-        all.into_iter()
-            .filter(|line| line.contains("bbox") || line.contains("BBox"))
-            .collect()
+        let coverage = coverage(&root, &RAYS, &exam).expect("the reference can be read");
+        let mut all = coverage.problems;
+        all.retain(|line| line.contains("BBox"));
+        all
     }
 
     #[test]
-    fn a_sentence_that_is_no_longer_asked_is_a_problem() {
+    fn a_class_that_is_no_longer_asked_is_a_problem() {
         let asked: Vec<String> = problems(|_| true);
-        let without = problems(|item| item.id != "bbox.flat");
-        let new: Vec<&String> = without
-            .iter()
-            .filter(|line| !asked.contains(line))
-            .collect();
-        assert!(
-            new.iter()
-                .any(|line| line.ends_with("there is no item bbox.flat")),
-            "{new:?}"
-        );
+        let mut new = problems(|item| item.id != "bbox.flat");
+        new.retain(|line| !asked.contains(line));
         let not_asked = "BBox::hit is asked 0 times at form \"flat along x\" for some";
-        assert!(new.iter().any(|line| line.as_str() == not_asked), "{new:?}");
+        assert!(new.iter().any(|line| line == not_asked), "{new:?}");
+    }
+
+    #[test]
+    fn a_sentence_needs_either_items_or_a_reason() {
+        const BOX: Declaration = Declaration {
+            id: "bbox.flat",
+            tests: &["A flat box…", "Another sentence."],
+            ..Declaration::ALONE
+        };
+        let authored = AuthoredTask {
+            items: &[BOX],
+            untested: &[("A flat box can be hit.", "a reason")],
+            ..AuthoredTask::NEW
+        };
+        let mut coverage = Coverage {
+            table: GeneratedFile::new("", ""),
+            problems: Vec::new(),
+            sentences: 0,
+            asked: 0,
+            excused: 0,
+        };
+        let task = RAYS.handed_out.assignment.find("bbox").expect("a task");
+        let sentences = ["A flat box can be hit.", "Use `times`."].map(str::to_owned);
+        coverage.add_task(task, &sentences, &authored);
+        let expected = [
+            "bbox: `flat` names no sentence with \"Another sentence.\"",
+            "bbox: \"A flat box can be hit.\" needs either items or a reason",
+            "bbox: \"Use `times`.\" needs either items or a reason",
+        ];
+        assert_eq!(coverage.problems, expected);
     }
 }

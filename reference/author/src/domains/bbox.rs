@@ -7,7 +7,7 @@ use super::fields::{
     self, DIRECTIONS, DISTANCES, OCTANTS, PLACES, RANGES, SIZES, direction_class, distance_class,
     history_class, octant, place_class, range_class, size_class,
 };
-use super::{Aspect, Call, FunctionDomain, Generator};
+use super::{Aspect, Call, FunctionDomain, Generator, not_asked};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -15,11 +15,38 @@ use crate::seed::Rng;
 /// The domain of `BBox::hit`.
 pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     function: "BBox::hit",
+    subject_aspects: &[SIZE, PLACE, OCTANT, FORM],
     aspects: &[
-        SIZE, PLACE, OCTANT, FORM, START, DISTANCE, OUTCOME, DIRECTION, TIMES, RAYS_RANGE, HISTORY,
+        START, DISTANCE, OUTCOME, DIRECTION, TIMES, RAYS_RANGE, HISTORY,
     ],
     pairs: &[["size", "direction"], ["size", "start"]],
     calls,
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "outcome",
+            &["misses", "too late", "too early"],
+            &[],
+            "The box is missed.",
+        ),
+        not_asked(
+            "outcome",
+            &[
+                "enters and leaves",
+                "only leaves",
+                "only enters",
+                "inside throughout",
+            ],
+            &["`None`"],
+            "The box is hit.",
+        ),
+        not_asked(
+            "size",
+            &["500"],
+            &["pairs"],
+            "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
+        ),
+    ],
 };
 
 /// A call of `BBox::hit`.
@@ -371,8 +398,7 @@ pub fn tables(
     belongs: impl Fn(&BoxCall) -> bool,
 ) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     let generator = Generator {
-        aspects: BOX.aspects,
-        subject_aspects: 4,
+        domain: &BOX,
         subject: &drawn_box,
         input: &query,
         fits: &|call: &BoxCall| call.is_clear() && belongs(call),

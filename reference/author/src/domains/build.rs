@@ -9,7 +9,7 @@ use super::fields::{
     OCTANTS, PLACES, SIZES, class_up_to, octant, place_class, powers_of_two, size_class,
     without_repetition,
 };
-use super::{Aspect, FunctionDomain};
+use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 
@@ -60,6 +60,7 @@ fn half_side(bounds: &Bounds) -> f64 {
 /// The domain of `Bvh::build`.
 pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
     function: "Bvh::build",
+    subject_aspects: &[],
     aspects: &[
         COUNT,
         LEAF_SIZE,
@@ -72,6 +73,12 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
     ],
     pairs: &[],
     calls: |question| BuildCall::of(question).into_iter().collect(),
+    not_asked: &[not_asked(
+        "primitives",
+        &["about 2,048", "about 4,096"],
+        &[],
+        "An exam asks one tree of each of these sizes, since each is as long in the exam as a hundred small ones.",
+    )],
 };
 
 /// The number of primitives: each from 0 to 10, and then powers of two and what is near them.

@@ -10,6 +10,7 @@ use crate::seed::Rng;
 /// The domain of `Camera::sample_ray`.
 pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
     function: "Camera::sample_ray",
+    subject_aspects: &[],
     aspects: &[
         FIELD_OF_VIEW,
         ASPECT_RATIO,
@@ -22,6 +23,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
     ],
     pairs: &[],
     calls,
+    not_asked: &[],
 };
 
 /// A call of `Camera::sample_ray`.

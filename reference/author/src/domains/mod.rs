@@ -25,16 +25,6 @@ use crate::seed::Rng;
 pub use balance::Balance;
 pub use tables::{Drawn, Generator};
 
-/// The domains of the functions of the assignment `rays`.
-pub static FUNCTIONS: &[&dyn Domain] = &[
-    &camera::CAMERA,
-    &triangle::TRIANGLE,
-    &sphere::SPHERE,
-    &bbox::BOX,
-    &build::BUILD,
-    &traverse::TRAVERSE,
-];
-
 /// One way in which calls differ, divided into classes.
 #[derive(Debug)]
 pub struct Aspect<C: 'static> {
@@ -77,12 +67,51 @@ pub trait Call: Copy + 'static {
 pub struct FunctionDomain<C: 'static> {
     /// The name of the function, as in [`protocol::AnyTable::name`].
     pub function: &'static str,
-    /// How its calls differ.
+    /// How the values that it is called on differ.
+    pub subject_aspects: &'static [Aspect<C>],
+    /// How its calls differ otherwise.
     pub aspects: &'static [Aspect<C>],
     /// The pairs of aspects whose classes are all asked together.
     pub pairs: &'static [[&'static str; 2]],
     /// Returns the calls of a question about the function.
     pub calls: fn(&Question) -> Vec<C>,
+    /// The classes that the exam does not ask.
+    pub not_asked: &'static [NotAsked],
+}
+
+/// Classes that the exam does not ask, with the reason.
+#[derive(Debug)]
+pub struct NotAsked {
+    aspect: &'static str,
+    classes: &'static [&'static str],
+    columns: &'static [&'static str],
+    /// The reason.
+    pub why: &'static str,
+}
+
+/// Says why an exam does not ask classes of an aspect for what columns of the coverage count. An empty
+/// name or list stands for all.
+pub const fn not_asked(
+    aspect: &'static str,
+    classes: &'static [&'static str],
+    columns: &'static [&'static str],
+    why: &'static str,
+) -> NotAsked {
+    NotAsked {
+        aspect,
+        classes,
+        columns,
+        why,
+    }
+}
+
+impl NotAsked {
+    /// Returns whether this is about a class of an aspect for what a column counts.
+    pub fn is_about(&self, aspect: &str, class: &str, column: &str) -> bool {
+        let has = |list: &[&str], name: &str| list.is_empty() || list.contains(&name);
+        let is_aspect = self.aspect.is_empty() || self.aspect == aspect;
+        is_aspect && has(self.classes, class) && has(self.columns, column)
+    }
 }
 
 /// The domain of any function.
@@ -96,9 +125,18 @@ pub trait Domain: Debug + Sync {
     /// Returns the pairs of aspects whose classes are all asked together.
     fn pairs(&self) -> &'static [[&'static str; 2]];
 
+    /// Returns the classes that the exam does not ask.
+    fn not_asked(&self) -> &'static [NotAsked];
+
     /// Returns the classes of each call of a question about the function, one for each aspect that
     /// applies.
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
+}
+
+impl<C> FunctionDomain<C> {
+    fn all_aspects(&self) -> impl Iterator<Item = &'static Aspect<C>> {
+        self.subject_aspects.iter().chain(self.aspects)
+    }
 }
 
 impl<C: Debug> Domain for FunctionDomain<C> {
@@ -107,7 +145,7 @@ impl<C: Debug> Domain for FunctionDomain<C> {
     }
 
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
-        let aspects = self.aspects.iter();
+        let aspects = self.all_aspects();
         aspects
             .map(|aspect| (aspect.name, aspect.classes))
             .collect()
@@ -117,9 +155,13 @@ impl<C: Debug> Domain for FunctionDomain<C> {
         self.pairs
     }
 
+    fn not_asked(&self) -> &'static [NotAsked] {
+        self.not_asked
+    }
+
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
         let classes = |call: &C| {
-            let aspects = self.aspects.iter();
+            let aspects = self.all_aspects();
             aspects.map(|aspect| (aspect.class)(call)).collect()
         };
         if question

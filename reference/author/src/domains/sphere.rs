@@ -6,7 +6,7 @@ use super::fields;
 use super::shape::{
     self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
 };
-use super::{Aspect, FunctionDomain, Generator};
+use super::{Aspect, FunctionDomain, Generator, not_asked};
 use crate::oracle::sphere::Sphere;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -16,8 +16,34 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Sphere::hit",
-    aspects: &[
-        SIZE, PLACE, OCTANT, NUMBER, START, DISTANCE, LINE, DIRECTION, RANGE, HISTORY,
+    subject_aspects: &[SIZE, PLACE, OCTANT, NUMBER],
+    aspects: &[START, DISTANCE, LINE, DIRECTION, RANGE, HISTORY],
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "start",
+            &["behind"],
+            &[],
+            "A sphere behind the ray is not hit.",
+        ),
+        not_asked(
+            "line",
+            &["grazing, outside", "outside"],
+            &[],
+            "A line outside of the sphere hits nothing.",
+        ),
+        not_asked(
+            "size",
+            &["500"],
+            &["pairs"],
+            "Nothing is 30 radii away from such a sphere in a scene whose coordinates end at a thousand.",
+        ),
+        not_asked(
+            "distance",
+            &["2000"],
+            &["normal", "unit_normal", "origin", "position", "shape", "uv"],
+            "Only the largest spheres are hit so far away, so an exam may ask it for the distance alone.",
+        ),
     ],
 };
 
@@ -228,8 +254,7 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
     let generator = Generator {
-        aspects: SPHERE.aspects,
-        subject_aspects: 4,
+        domain: &SPHERE,
         subject: &drawn_shape,
         input: &ray,
         fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),

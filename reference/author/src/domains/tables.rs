@@ -1,6 +1,6 @@
 //! Draws the rows of a table: calls of one subject, every other one a hit.
 
-use super::{Aspect, Balance, Call};
+use super::{Balance, Call, FunctionDomain};
 use crate::seed::Rng;
 
 /// A subject, and the arguments of its calls.
@@ -11,10 +11,8 @@ type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C
 
 /// How the calls of a function are drawn.
 pub struct Generator<'a, C: Call> {
-    /// How calls differ.
-    pub aspects: &'static [Aspect<C>],
-    /// How many of the aspects are about the subject alone. They come first.
-    pub subject_aspects: usize,
+    /// The domain of the function.
+    pub domain: &'static FunctionDomain<C>,
     /// Draws a subject of a size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
@@ -31,8 +29,12 @@ impl<C: Call> Generator<'_, C> {
     /// of each aspect occurs. Some pairs differ in nothing but the range, if the range decides.
     /// The last table has the calls before it again, with another subject.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
-        let (of_subject, of_row) = self.aspects.split_at(self.subject_aspects);
-        let mut balances = (Balance::new(of_subject), Balance::new(of_row));
+        let FunctionDomain {
+            subject_aspects,
+            aspects,
+            ..
+        } = self.domain;
+        let mut balances = (Balance::new(subject_aspects), Balance::new(aspects));
         let table = |&size: &usize| rng.retry(|rng| self.table(rng, size, &mut balances));
         let mut tables: Vec<Drawn<C>> = sizes.iter().map(table).collect();
         let again = tables.last().and_then(|last| self.with_other_subject(last));

@@ -11,7 +11,7 @@ use super::fields::{
     DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction, direction_class,
     history_class, octant, place_class, powers_of_two, range_class, size_class,
 };
-use super::{Aspect, FunctionDomain};
+use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -102,12 +102,49 @@ impl Subject {
 /// The domain of `Bvh::hit`.
 pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
     function: "Bvh::hit",
+    subject_aspects: &[],
     aspects: &[
         WAY, NODES, LEVELS, LEAF_SIZE, ROOT, COUNT, SIZE, PLACE, OCTANT, KIND, START, DIRECTION,
         RANGE, HISTORY,
     ],
     pairs: &[],
     calls,
+    not_asked: &[
+        not_asked(
+            "nodes",
+            &["none", "one, an empty leaf"],
+            &[
+                "some", "distance", "normal", "origin", "position", "shape", "uv",
+            ],
+            "Nothing is hit in an empty tree.",
+        ),
+        not_asked(
+            "primitives",
+            &["0"],
+            &[
+                "some", "distance", "normal", "origin", "position", "shape", "uv",
+            ],
+            "Nothing is hit in an empty tree.",
+        ),
+        not_asked(
+            "history",
+            &[],
+            &["`None`", "normal", "origin", "position", "shape", "uv"],
+            "An exam asks the same ray again for the distance, as a trace that is kept has a wrong distance, too.",
+        ),
+        not_asked(
+            "",
+            &[],
+            &["normal", "origin", "position", "shape", "uv"],
+            "A tree returns the trace of a primitive unchanged, whatever the form, size and place of the tree. So these quantities are asked of a few trees, and the distance of all.",
+        ),
+        not_asked(
+            "size",
+            &["500"],
+            &[],
+            "A tree that is half as large as the largest coordinate allows is asked of where the seed has room for one.",
+        ),
+    ],
 };
 
 fn calls(question: &Question) -> Vec<TraverseCall> {

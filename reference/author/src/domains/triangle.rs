@@ -7,7 +7,7 @@ use super::fields;
 use super::shape::{
     self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
 };
-use super::{Aspect, FunctionDomain, Generator};
+use super::{Aspect, FunctionDomain, Generator, not_asked};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan, triangle};
 use crate::seed::Rng;
@@ -17,15 +17,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Triangle::hit",
+    subject_aspects: &[SIZE, PLACE, OCTANT, NUMBER, FACING, FORM, TILES, NORMALS],
     aspects: &[
-        SIZE,
-        PLACE,
-        OCTANT,
-        NUMBER,
-        FACING,
-        FORM,
-        TILES,
-        NORMALS,
         START,
         DISTANCE,
         COSINE,
@@ -34,6 +27,53 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         DIRECTION,
         RANGE,
         HISTORY,
+    ],
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "start",
+            &["leads away"],
+            &[],
+            "A ray that leads away from the triangle hits nothing.",
+        ),
+        not_asked(
+            "start",
+            &["on the surface"],
+            &[],
+            "The start itself is in the range only if the range begins there, and ends of ranges keep a margin. So such a ray hits nothing.",
+        ),
+        not_asked(
+            "crossing",
+            &["just outside an edge", "outside", "far outside"],
+            &[],
+            "Outside the triangle, nothing is hit.",
+        ),
+        not_asked(
+            "crossing",
+            &["just inside an edge"],
+            &[
+                "`None`", "distance", "normal", "origin", "position", "shape", "uv",
+            ],
+            "Only `triangle.outside` asks rays close to an edge, so that a mistake there costs its points alone. It judges whether there is a hit. The other quantities are those of any point inside.",
+        ),
+        not_asked(
+            "form",
+            &["narrow at p0", "narrow at p1", "narrow at p2"],
+            &["normal", "uv", "origin", "position", "shape"],
+            "In a narrow triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
+        ),
+        not_asked(
+            "cosine",
+            &["below 0.01", "0.01 to 0.1"],
+            &["normal"],
+            "At a grazing angle, the weights of a usual formula in single precision are wrong by more than the tolerance of normals allows.",
+        ),
+        not_asked(
+            "distance",
+            &["2000"],
+            &["normal", "origin", "position", "shape", "uv"],
+            "Only the largest triangles are hit so far away, so an exam may ask it for the distance alone.",
+        ),
     ],
 };
 
@@ -418,8 +458,7 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
     let generator = Generator {
-        aspects: TRIANGLE.aspects,
-        subject_aspects: 8,
+        domain: &TRIANGLE,
         subject: &drawn_shape,
         input: &ray,
         fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),

@@ -1,4 +1,5 @@
-//! The handout: checks its links, names and commands against the code, and builds it as a book.
+//! The handout: writes its lists of tasks, checks its links, names and commands against the code, and
+//! builds it as a book.
 
 #[cfg(feature = "book")]
 pub mod book;
@@ -6,6 +7,7 @@ pub mod commands;
 pub mod links;
 pub mod names;
 pub mod pages;
+pub mod tasks;
 
 use std::collections::BTreeSet;
 use std::path::Path;

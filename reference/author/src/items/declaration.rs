@@ -3,7 +3,48 @@
 use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 
+use crate::domains::Domain;
+use crate::items::distinct::draw_items;
 use crate::seed::{Rng, Seed};
+
+/// A task as its authors have it: its items, and what the contract says that they do not test.
+#[derive(Debug)]
+pub struct AuthoredTask {
+    /// The items, in the exam's order.
+    pub items: &'static [Declaration],
+    /// The points of items for which the declaration does not have them.
+    pub points: &'static [(&'static str, u32)],
+    /// Changes the questions of all items when they are drawn.
+    pub finish: fn(Seed, &mut [DeclaredItem]),
+    /// The sentences of the method's documentation that no item tests, each with the reason.
+    pub untested: &'static [(&'static str, &'static str)],
+    /// The domain of the function that the items call, unless an earlier task has it.
+    pub domain: Option<&'static dyn Domain>,
+}
+
+impl AuthoredTask {
+    /// A task without items whose contract is tested in full.
+    pub const NEW: AuthoredTask = AuthoredTask {
+        items: &[],
+        points: &[],
+        finish: |_, _| {},
+        untested: &[],
+        domain: None,
+    };
+
+    /// Draws the items.
+    pub fn draw(&self, seed: Seed) -> Vec<DeclaredItem> {
+        let declarations = self.items.iter().map(|item| {
+            let mut points = self.points.iter();
+            let found = points.find(|(id, _)| *id == item.id);
+            let points = found.map_or(item.points, |(_, points)| *points);
+            Declaration { points, ..*item }
+        });
+        let mut items = draw_items(seed, &declarations.collect::<Vec<_>>());
+        (self.finish)(seed, &mut items);
+        items
+    }
+}
 
 /// An item whose numbers are not drawn yet.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +59,8 @@ pub struct Declaration {
     pub look: &'static str,
     /// The section of the handout that teaches it.
     pub section: &'static str,
+    /// The sentences of the method's documentation that it tests, each in full or up to an ellipsis.
+    pub tests: &'static [&'static str],
     /// Draws its questions.
     pub questions: fn(&mut Rng) -> Vec<ExamQuestion>,
     /// The group that it belongs to, if items of other tasks need that group.
@@ -62,6 +105,7 @@ impl Declaration {
         title: "",
         look: "",
         section: "",
+        tests: &[],
         questions: |_| Vec::new(),
         group: None,
         needs: &[],

@@ -12,7 +12,7 @@ use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
 /// Draws items. Those of a final exam differ from those of the practice exam in every question.
-pub fn draw_items(seed: Seed, items: &[Declaration]) -> Vec<DeclaredItem> {
+pub(super) fn draw_items(seed: Seed, items: &[Declaration]) -> Vec<DeclaredItem> {
     items.iter().map(|item| draw_distinct(seed, item)).collect()
 }
 
@@ -72,17 +72,17 @@ mod tests {
     #[test]
     fn an_item_shares_its_questions_with_itself_except_trees() {
         let seed = Seed(1);
-        for drawn in camera::items(seed).iter().chain(&bbox::items(seed)) {
+        for drawn in camera::TASK.draw(seed).iter().chain(&bbox::TASK.draw(seed)) {
             assert!(shares_a_question(drawn.item(), drawn.item()), "{drawn:?}");
         }
-        let trees = build::items(seed);
+        let trees = build::TASK.draw(seed);
         assert!(!shares_a_question(trees[0].item(), trees[0].item()));
     }
 
     #[test]
     fn an_item_that_shares_a_question_is_drawn_again() {
         // There are few sizes of a small film, so some seeds draw one of the practice exam's.
-        let sizes = |seed| camera::items(seed).remove(0);
+        let sizes = |seed| camera::TASK.draw(seed).remove(0);
         let practice = sizes(Seed::PRACTICE);
         let corners = camera::CORNERS;
         let shares = |seed: &Seed| shares_a_question(corners.draw(*seed).item(), practice.item());

@@ -24,32 +24,47 @@ use protocol::{Geometry, Question, Ray, Shape};
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Seed;
 
-pub use declaration::{Declaration, DeclaredItem, Group, resolve};
-pub use distinct::{draw_items, shares_a_question};
+pub use declaration::{AuthoredTask, Declaration, DeclaredItem, Group, resolve};
+pub use distinct::shares_a_question;
 
-/// Draws the items of one task.
-pub type TaskItems = fn(Seed) -> Vec<DeclaredItem>;
+/// The tasks of `rays`, in lecture order.
+pub static TASKS: &[&AuthoredTask] = &[
+    &camera::TASK,
+    &triangle::TASK,
+    &sphere::TASK,
+    &bbox::TASK,
+    &build::TASK,
+    &traverse::TASK,
+];
 
-/// The items of each task of `rays`, in lecture order.
-pub const TASKS: &[TaskItems] = &[
-    camera::items,
-    triangle::items,
-    sphere::items,
-    bbox::items,
-    build::items,
-    traverse::items,
+/// The points of the items of `rays` that are worth more than one. Those of a task add up to its points.
+const POINTS: &[(&str, u32)] = &[
+    ("camera.field_of_view", 2),
+    ("camera.offset", 2),
+    ("camera.picture", 2),
+    ("triangle.inside", 2),
+    ("triangle.outside", 2),
+    ("triangle.picture", 3),
+    ("sphere.picture", 2),
+    ("build.contains", 2),
+    ("build.cost_town", 2),
+    ("build.leaf_size", 2),
+    ("build.partition", 2),
+    ("traverse.prunes", 2),
+    ("traverse.radiance", 2),
+    ("traverse.skips_missed", 2),
 ];
 
 /// Returns the items of an exam, each after the items that it needs.
-pub fn items(tasks: &[TaskItems], seed: Seed) -> Vec<Item> {
-    let all = tasks.iter().flat_map(|items| items(seed));
+pub fn items(tasks: &[&AuthoredTask], seed: Seed) -> Vec<Item> {
+    let all = tasks.iter().flat_map(|task| task.draw(seed));
     resolve(all.collect())
 }
 
 /// Returns an exam of the items about boxes, for tests.
 #[cfg(test)]
 pub(crate) fn exam_of_boxes() -> judging::exam::Exam {
-    let items = resolve(bbox::items(Seed(1)));
+    let items = resolve(bbox::TASK.draw(Seed(1)));
     judging::exam::Exam::new(&judging::assignment::RAYS, "test", items)
 }
 

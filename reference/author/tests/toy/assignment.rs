@@ -4,8 +4,8 @@
 mod items;
 
 use author::authoring::{Attack, Authoring};
-use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile, TaskFile};
-use judging::assignment::{Assignment, TaskClues, TaskInfo};
+use grader::handed_out::{GivenFile, HandedOut, SubstitutedFile};
+use judging::assignment::{Assignment, TaskClues, TaskFile, TaskInfo};
 
 /// The tasks.
 static TASKS: Assignment = Assignment {
@@ -20,6 +20,7 @@ static TASKS: Assignment = Assignment {
             file: "ball.rs",
             method: "hit",
             points: 40,
+            chapter: "sphere.md",
             clues: TaskClues::NONE,
         },
         TaskInfo {
@@ -28,6 +29,7 @@ static TASKS: Assignment = Assignment {
             file: "mirror.rs",
             method: "reflect",
             points: 20,
+            chapter: "sphere.md",
             clues: TaskClues::NONE,
         },
         TaskInfo {
@@ -36,6 +38,7 @@ static TASKS: Assignment = Assignment {
             file: "mirror.rs",
             method: "nearest",
             points: 40,
+            chapter: "traversal.md",
             clues: TaskClues::NONE,
         },
     ],
@@ -89,9 +92,8 @@ fn main() -> std::process::ExitCode {
 pub static TOY: Authoring = Authoring {
     handed_out: &HANDED_OUT,
     practice_exam: "reference/author/tests/toy/practice.json",
-    items: &[items::ball, items::mirror, items::nearest],
-    domains: &[&items::DIRECTIONS],
-    oracles: "reference/author/tests/toy/items.rs",
+    tasks: &[&items::BALL, &items::MIRROR, &items::NEAREST],
+    oracles: &["reference/author/tests/toy/items.rs"],
     attacks: &[Attack {
         file: "ball.rs",
         method: "pub fn hit(&self, ray: &Ray) -> Option<Trace> {",

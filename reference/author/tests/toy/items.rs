@@ -1,9 +1,9 @@
 //! The items of the toy. Correct answers are computed in double precision, from the definitions.
 
 use author::domains::{Aspect, FunctionDomain};
-use author::items::{Declaration, DeclaredItem, Group, draw_items, hits_key, ray};
+use author::items::{AuthoredTask, Declaration, Group, hits_key, ray};
 use author::oracle::{Ray64, scan};
-use author::seed::{Rng, Seed};
+use author::seed::Rng;
 use author::tree::{Tree, construction, decoy};
 use glam::DVec3;
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
@@ -15,20 +15,24 @@ const BALLS: Group = Group("balls");
 /// The number of rays that hit, and of rays that miss.
 const OF_EACH: usize = 8;
 
-/// Draws the items of the task `ball`.
-pub fn ball(seed: Seed) -> Vec<DeclaredItem> {
-    draw_items(seed, &[NEAR_SIDE])
-}
+/// The task `ball`.
+pub static BALL: AuthoredTask = AuthoredTask {
+    items: &[NEAR_SIDE],
+    ..AuthoredTask::NEW
+};
 
-/// Draws the items of the task `mirror`.
-pub fn mirror(seed: Seed) -> Vec<DeclaredItem> {
-    draw_items(seed, &[REFLECTS])
-}
+/// The task `mirror`.
+pub static MIRROR: AuthoredTask = AuthoredTask {
+    items: &[REFLECTS],
+    domain: Some(&DIRECTIONS),
+    ..AuthoredTask::NEW
+};
 
-/// Draws the items of the task `nearest`.
-pub fn nearest(seed: Seed) -> Vec<DeclaredItem> {
-    draw_items(seed, &[OF_TWO])
-}
+/// The task `nearest`.
+pub static NEAREST: AuthoredTask = AuthoredTask {
+    items: &[OF_TWO],
+    ..AuthoredTask::NEW
+};
 
 const NEAR_SIDE: Declaration = Declaration {
     id: "ball.near_side",
@@ -36,6 +40,7 @@ const NEAR_SIDE: Declaration = Declaration {
     title: "a ray from outside hits the near side of a ball",
     look: "Which of the two intersections comes first along the ray?",
     section: "sphere.md#the-near-root-can-be-out-of-range",
+    tests: &["Returns the first point of the ball along the ray."],
     questions: |rng| {
         let tree = construction::median_split(vec![random_ball(rng, DVec3::ZERO, 0)], 1);
         let (rays, key) = rays_and_key(rng, &tree);
@@ -54,6 +59,7 @@ const REFLECTS: Declaration = Declaration {
     title: "a mirror turns a direction around its normal",
     look: "Which components of the direction change, and which one stays?",
     section: "sphere.md#the-figure",
+    tests: &["Returns the direction that is reflected toward the viewer."],
     questions: |rng| {
         // A direction in each quadrant in turn.
         let sign = |is_negative: bool| if is_negative { -1.0 } else { 1.0 };
@@ -71,8 +77,9 @@ const REFLECTS: Declaration = Declaration {
 };
 
 /// The domain of `reflect`: directions above the surface.
-pub static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
+static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
     function: "reflect",
+    subject_aspects: &[],
     aspects: &[Aspect {
         name: "direction",
         classes: &[
@@ -90,6 +97,7 @@ pub static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
         };
         table.rows.to_vec().into_owned()
     },
+    not_asked: &[],
 };
 
 /// Returns a direction in single precision.
@@ -105,6 +113,7 @@ const OF_TWO: Declaration = Declaration {
     title: "the nearest of two balls is hit, in any order",
     look: "Which of the hits do you keep if the second ball is farther away?",
     section: "traversal.md#the-algorithm",
+    tests: &["Returns the nearest hit on any of the balls."],
     questions: |rng| {
         let center = 2.0 * rng.direction();
         let balls = [random_ball(rng, center, 0), random_ball(rng, -center, 1)];

@@ -1,11 +1,8 @@
 //! Answers the grader's questions element by element, so that a panic affects only its own element.
 
-use protocol::function::Input;
-use protocol::{
-    Answer, Corners, ElementOutcome, Geometry, LocalDirection, Output, Query, Question, Rows, Table,
-};
+use protocol::{Answer, ElementOutcome, Question};
 
-use crate::harness::attempt::{attempt, attempt_each};
+use crate::harness::attempt::{AttemptsAtTable, attempt};
 use crate::render::integrator::{RenderSettings, render};
 use crate::scene::Scene;
 use crate::submission::Submission;
@@ -13,49 +10,6 @@ use crate::submission::Submission;
 /// Returns a submission's answer to a question.
 pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answer {
     match question {
-        Question::SampleRay(Table { subject, rows }) => call_each(
-            rows,
-            || submission.camera(subject),
-            |camera, sample| camera.ray(sample.pixel, sample.offset),
-        ),
-        Question::Hit(Table { subject, rows }) => match subject {
-            Geometry::List { shapes } => call_each(
-                rows,
-                || submission.primitive_list(shapes),
-                |list, ray| list.closest_hit(ray),
-            ),
-            Geometry::Tree {
-                shapes,
-                nodes,
-                root,
-            } => call_each(
-                rows,
-                || submission.prebuilt_tree(shapes, nodes, *root as usize),
-                |bvh, ray| bvh.closest_hit(ray),
-            ),
-            Geometry::BuiltTree {
-                shapes,
-                max_leaf_size,
-            } => call_each(
-                rows,
-                || submission.build(shapes, *max_leaf_size as usize),
-                |bvh, ray| bvh.closest_hit(ray),
-            ),
-        },
-        Question::BBoxHit(Table { subject, rows }) => call_each(
-            rows,
-            || *subject,
-            |Corners { min, max }, Query { ray, times }| {
-                submission.intersect_box(*min, *max, ray, *times)
-            },
-        ),
-        Question::Reflect(Table { subject: (), rows }) => call_each(
-            rows,
-            || (),
-            |(), LocalDirection { direction }| LocalDirection {
-                direction: submission.reflect(*direction),
-            },
-        ),
         Question::Build {
             shapes,
             max_leaf_size,
@@ -96,18 +50,9 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
                 }
             })
         }
+        other => {
+            let table = other.table().expect("every other question is a table");
+            table.answer(submission, &mut AttemptsAtTable::default())
+        }
     }
-}
-
-/// Calls a function once per row, on the subject that `make` creates. The subject is created for the
-/// first row, so that a panic in a constructor is reported like any other panic.
-fn call_each<S, I: Input, O: Output>(
-    rows: &Rows<I>,
-    make: impl Fn() -> S,
-    call: impl Fn(&S, &I) -> O,
-) -> Answer {
-    let mut subject = None;
-    O::answer(attempt_each(&rows.to_vec(), |row| {
-        call(subject.get_or_insert_with(&make), row)
-    }))
 }

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 
-use protocol::{ElementOutcome, Panic};
+use protocol::{Attempts, ElementOutcome, Panic};
 
 thread_local! {
     /// The location of this thread's last panic. Only the panic hook gets the location, and only
@@ -40,20 +40,22 @@ pub fn attempt<T>(code: impl FnOnce() -> T) -> Result<T, Panic> {
     })
 }
 
-/// Runs `code` for each element, like [`attempt`]. After [`Panic::MAX_PER_QUESTION`] panics, the
-/// remaining elements are skipped: otherwise, a stub would panic twenty thousand times for one
-/// picture.
-pub fn attempt_each<Q, T>(elements: &[Q], mut code: impl FnMut(&Q) -> T) -> Vec<ElementOutcome<T>> {
-    let mut panics = 0;
-    let answer = |element| {
-        if panics == Panic::MAX_PER_QUESTION {
+/// Attempts the calls of one table. After [`Panic::MAX_PER_QUESTION`] panics, the remaining calls are
+/// skipped: otherwise, a stub would panic twenty thousand times for one picture.
+#[derive(Debug, Default)]
+pub struct AttemptsAtTable {
+    panics: usize,
+}
+
+impl Attempts for AttemptsAtTable {
+    fn attempt(&mut self, call: &mut dyn FnMut()) -> ElementOutcome<()> {
+        if self.panics == Panic::MAX_PER_QUESTION {
             return ElementOutcome::Skipped;
         }
-        let outcome = attempt(|| code(element));
-        panics += usize::from(outcome.is_err());
-        outcome.into()
-    };
-    elements.iter().map(answer).collect()
+        let result = attempt(call);
+        self.panics += usize::from(result.is_err());
+        result.into()
+    }
 }
 
 /// Returns the message of a panic from its payload.
@@ -76,15 +78,17 @@ mod tests {
 
     #[test]
     fn a_panic_affects_only_its_own_element() {
-        let outcomes = attempt_each(&[1, 0, 2], |&n| 10 / n);
-        assert_eq!(outcomes[0], ElementOutcome::Value(10));
-        assert!(matches!(&outcomes[1], ElementOutcome::Panicked(p) if p.message.contains("zero")));
-        assert_eq!(outcomes[2], ElementOutcome::Value(5));
+        let mut attempts = AttemptsAtTable::default();
+        let mut attempt = |n: i32| attempts.attempt(&mut || assert!(10 / n > 0));
+        assert_eq!(attempt(1), ElementOutcome::Value(()));
+        assert!(matches!(attempt(0), ElementOutcome::Panicked(p) if p.message.contains("zero")));
+        assert_eq!(attempt(2), ElementOutcome::Value(()));
     }
 
     #[test]
     fn skips_the_rest_after_several_panics() {
-        let outcomes: Vec<ElementOutcome<()>> = attempt_each(&[(); 5], |()| todo!("task 1"));
+        let mut attempts = AttemptsAtTable::default();
+        let outcomes = [(); 5].map(|()| attempts.attempt(&mut || todo!("task 1")));
         let given_up = outcomes.iter().filter(|o| **o == ElementOutcome::Skipped);
         assert_eq!(given_up.count(), 5 - Panic::MAX_PER_QUESTION);
         assert!(matches!(&outcomes[0], ElementOutcome::Panicked(p) if p.is_unimplemented()));

@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Question, Table, Words};
+use super::{Function, Input, Output, Question, Submission, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::interval::Interval;
 use crate::ray::Ray;
@@ -48,6 +48,14 @@ impl Function for BBoxHit {
 
     fn question(table: Table<Self>) -> Question {
         Question::BBoxHit(table)
+    }
+
+    fn calls<'a>(
+        submission: &'a dyn Submission,
+        corners: &'a Corners,
+    ) -> impl Fn(&Query) -> Option<Interval> + 'a {
+        let Corners { min, max } = *corners;
+        move |query| submission.intersect_box(min, max, &query.ray, query.times)
     }
 }
 

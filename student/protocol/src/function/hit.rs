@@ -5,11 +5,12 @@ use std::borrow::Cow;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Input, Output, Question, Table, View, Words};
+use super::{Function, Input, Output, Question, Submission, Table, View, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::packed;
 use crate::ray::Ray;
 use crate::shape::Shape;
+use crate::submission::Aggregate;
 use crate::trace::Trace;
 use crate::tree::TreeNode;
 use crate::value::{Fields, Record, Value, fields};
@@ -90,6 +91,25 @@ impl Function for Hit {
 
     fn question(table: Table<Self>) -> Question {
         Question::Hit(table)
+    }
+
+    fn calls<'a>(
+        submission: &'a dyn Submission,
+        subject: &'a Geometry,
+    ) -> impl Fn(&Ray) -> Option<Trace> + 'a {
+        let aggregate: Box<dyn Aggregate> = match subject {
+            Geometry::List { shapes } => submission.primitive_list(shapes),
+            Geometry::Tree {
+                shapes,
+                nodes,
+                root,
+            } => submission.prebuilt_tree(shapes, nodes, *root as usize),
+            Geometry::BuiltTree {
+                shapes,
+                max_leaf_size,
+            } => submission.build(shapes, *max_leaf_size as usize),
+        };
+        move |ray| aggregate.closest_hit(ray)
     }
 }
 

@@ -1,5 +1,7 @@
-//! Functions: the methods of a submission that an exam calls in tables, once per row; and the questions,
-//! each of which is such a table, or one of the few things that are none.
+//! Functions: the methods of a submission that an exam calls in tables, once per row.
+//!
+//! Each function is declared in its own file. The lists of all functions are here: the questions, each
+//! of which is a table or one of the few things that are none; and the methods of a submission.
 
 mod bbox_hit;
 mod hit;
@@ -10,21 +12,26 @@ mod table;
 
 use std::fmt::Debug;
 
-use glam::UVec2;
+use glam::{UVec2, Vec3};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::answer::{Answer, ElementOutcome};
+use crate::interval::Interval;
 use crate::packed;
+use crate::ray::Ray;
 use crate::shape::Shape;
+use crate::submission::{Aggregate, CameraRays, Hierarchy};
+use crate::tree::TreeNode;
 use crate::value::Record;
+use crate::view::PinholeCamera;
 
 pub use bbox_hit::{BBoxHit, Corners, Query};
 pub use hit::{Geometry, Hit};
 pub use reflect::{LocalDirection, Reflect};
 pub use rows::{Input, NoView, Rows, View};
 pub use sample_ray::SampleRay;
-pub use table::{AnyTable, Table};
+pub use table::{AnyTable, Attempts, Table};
 
 /// A question. It consists of elements (the rows of a table, or a tree or a picture as a whole) that
 /// are answered separately, so that a panic affects only its own element.
@@ -76,6 +83,36 @@ impl Question {
     }
 }
 
+/// A submission's files, called through the given file `world.rs`, which implements this
+/// trait. The methods convert the cameras, shapes and nodes in a scene or a question to the
+/// submission's own types.
+pub trait Submission: Sync {
+    /// Calls `Camera::new`.
+    fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays>;
+
+    /// Creates a list of primitives, without a tree.
+    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate>;
+
+    /// Calls `BBox::hit` of the box between these corners.
+    fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
+
+    /// Calls `reflect`, in a frame whose +z is the normal.
+    fn reflect(&self, _toward_viewer: Vec3) -> Vec3 {
+        unimplemented!("this assignment has no mirrors")
+    }
+
+    /// Calls `Bvh::build`.
+    fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy>;
+
+    /// Calls `Bvh::from_nodes`.
+    fn prebuilt_tree(
+        &self,
+        shapes: &[Shape],
+        nodes: &[TreeNode],
+        root: usize,
+    ) -> Box<dyn Hierarchy>;
+}
+
 /// A method of a submission, with the types of what it is called on and with, and of what it returns.
 pub trait Function: Copy + Debug + PartialEq + 'static {
     /// The value that the method is called on.
@@ -93,6 +130,12 @@ pub trait Function: Copy + Debug + PartialEq + 'static {
 
     /// Returns the question that asks for the calls of a table.
     fn question(table: Table<Self>) -> Question;
+
+    /// Converts the subject to a submission's own type, and returns what calls the method on it.
+    fn calls<'a>(
+        submission: &'a dyn Submission,
+        subject: &'a Self::Subject,
+    ) -> impl Fn(&Self::Input) -> Self::Output + 'a;
 }
 
 /// A value that is sent to the probe or from it, and written to exam files.

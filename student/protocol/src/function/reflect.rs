@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Question, Table, Words};
+use super::{Function, Input, Output, Question, Submission, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Fields, Record, fields};
 
@@ -35,6 +35,15 @@ impl Function for Reflect {
 
     fn question(table: Table<Self>) -> Question {
         Question::Reflect(table)
+    }
+
+    fn calls<'a>(
+        submission: &'a dyn Submission,
+        (): &'a (),
+    ) -> impl Fn(&LocalDirection) -> LocalDirection + 'a {
+        |toward_viewer| LocalDirection {
+            direction: submission.reflect(toward_viewer.direction),
+        }
     }
 }
 

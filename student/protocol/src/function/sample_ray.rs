@@ -3,7 +3,7 @@
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Input, Output, Question, Table, View, Words};
+use super::{Function, Input, Output, Question, Submission, Table, View, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::ray::Ray;
 use crate::value::{Fields, Record, fields};
@@ -28,6 +28,14 @@ impl Function for SampleRay {
 
     fn question(table: Table<Self>) -> Question {
         Question::SampleRay(table)
+    }
+
+    fn calls<'a>(
+        submission: &'a dyn Submission,
+        camera: &'a PinholeCamera,
+    ) -> impl Fn(&Sample) -> Ray + 'a {
+        let camera = submission.camera(camera);
+        move |sample| camera.ray(sample.pixel, sample.offset)
     }
 }
 

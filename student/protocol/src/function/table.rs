@@ -5,7 +5,8 @@ use std::ops::Range;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Output, Question, Rows, View, Words};
+use super::{Function, Output, Question, Rows, Submission, View, Words};
+use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Record, Value};
 
 /// A question that calls a function of a subject once per row.
@@ -26,6 +27,12 @@ impl<F: Function> Table<F> {
             rows: Rows::List(rows),
         }
     }
+}
+
+/// Runs the calls of one table.
+pub trait Attempts {
+    /// Runs `call`, and returns how that ended.
+    fn attempt(&mut self, call: &mut dyn FnMut()) -> ElementOutcome<()>;
 }
 
 /// A table of any function.
@@ -56,6 +63,10 @@ pub trait AnyTable {
 
     /// Returns an upper bound on the size of one row of the answer on the wire, in bytes.
     fn max_row_bytes(&self) -> usize;
+
+    /// Returns a submission's answer. The subject is converted in the first attempt, so that a panic in
+    /// a constructor is reported like any other panic.
+    fn answer(&self, submission: &dyn Submission, attempts: &mut dyn Attempts) -> Answer;
 
     /// Returns a question with only these rows, as a list.
     ///
@@ -104,6 +115,23 @@ impl<F: Function> AnyTable for Table<F> {
 
     fn max_row_bytes(&self) -> usize {
         F::Output::MAX_BYTES
+    }
+
+    fn answer(&self, submission: &dyn Submission, attempts: &mut dyn Attempts) -> Answer {
+        let mut call = None;
+        let mut outcome = |row| {
+            let mut output = None;
+            let ended = attempts.attempt(&mut || {
+                let call = call.get_or_insert_with(|| F::calls(submission, &self.subject));
+                output = Some(call(row));
+            });
+            match (ended, output) {
+                (ElementOutcome::Value(()), Some(output)) => ElementOutcome::Value(output),
+                (ElementOutcome::Panicked(panic), _) => ElementOutcome::Panicked(panic),
+                (ElementOutcome::Value(()) | ElementOutcome::Skipped, _) => ElementOutcome::Skipped,
+            }
+        };
+        F::Output::answer(self.rows.to_vec().iter().map(&mut outcome).collect())
     }
 
     fn subset(&self, rows: Range<usize>) -> Question {

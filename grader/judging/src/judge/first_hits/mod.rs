@@ -7,13 +7,12 @@
 use std::iter;
 
 use arrayvec::ArrayVec;
-use glam::{Vec2, Vec3};
 use protocol::{ElementOutcome, Trace};
 
 use crate::describe;
 use crate::exam::Surface;
 use crate::judge::{
-    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Mismatch,
+    Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Position,
     Threshold, deviation,
 };
 use crate::types::{direction, length, uv};
@@ -104,23 +103,16 @@ impl Comparison for FirstHits<'_> {
         of_each.into_iter().filter_map(measured).collect()
     }
 
-    fn mismatches(&self) -> Option<Vec<Option<Mismatch>>> {
-        let mismatch = |(outcome, deviations): (&ElementOutcome<_>, Deviations)| match outcome {
-            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Some(Mismatch::NO_ANSWER),
-            // Judging stops at the first wrong quantity.
-            ElementOutcome::Value(_) => {
-                let wrong = deviations.iter().zip(QUANTITIES);
-                let mut wrong = wrong.filter(|(deviation, _)| !deviation.is_right());
-                wrong.next().map(|(deviation, (aspect, _))| Mismatch {
-                    aspect,
-                    deviation: deviation.value,
-                })
-            }
+    fn positions(&self) -> Option<Vec<Position>> {
+        let position = |(outcome, deviations): (&ElementOutcome<_>, Deviations)| {
+            outcome.value()?;
+            let aspects = QUANTITIES.map(|(aspect, _)| aspect);
+            Some(aspects.into_iter().zip(deviations).collect())
         };
         let is_whole = self.answers.len() == self.hits.len();
         is_whole.then(|| {
             let positions = self.answers.iter().zip(self.deviations_by_position());
-            positions.map(mismatch).collect()
+            positions.map(position).collect()
         })
     }
 }
@@ -220,10 +212,6 @@ fn deviations(got: &Trace, wanted: &Surface, scale: f32) -> [Deviation; QUANTITI
     ]
 }
 
-fn hit_at(distance: f32) -> String {
-    format!("a hit at distance {}", describe::number(distance))
-}
-
 fn failure_kind(
     quantity: usize,
     answer: &ElementOutcome<Option<Trace>>,
@@ -235,16 +223,16 @@ fn failure_kind(
         ElementOutcome::Skipped => return FailureKind::Protocol("skipped".to_owned()),
     };
     let (aspect, _) = QUANTITIES[quantity];
-    let text = |hit: Option<(f32, Vec3, Vec2)>| match (aspect, hit) {
+    let text = |hit: Option<Surface>| match (aspect, hit) {
         (_, None) => "no hit".to_owned(),
-        (Aspect::Normal, Some((_, normal, _))) => describe::point(normal),
-        (Aspect::Uv, Some((_, _, uv))) => describe::uv(uv),
-        (_, Some((distance, ..))) => hit_at(distance),
+        (Aspect::Normal, Some(hit)) => describe::point(hit.normal),
+        (Aspect::Uv, Some(hit)) => describe::uv(hit.uv),
+        (_, Some(hit)) => format!("a hit at distance {}", describe::number(hit.depth)),
     };
     FailureKind::Wrong {
         what: aspect.name().to_owned(),
-        got: text(got.map(|trace| (trace.distance, trace.normal, trace.uv))),
-        wanted: text(wanted.map(|surface| (surface.depth, surface.normal, surface.uv))),
+        got: text(got.map(Surface::from)),
+        wanted: text(wanted.copied()),
     }
 }
 

@@ -1,6 +1,7 @@
 use glam::{Vec2, Vec3};
 
 use super::*;
+use crate::judge::Mismatch;
 use crate::tests::HIT;
 
 fn judge(
@@ -16,9 +17,9 @@ fn judge(
     };
     let judgement = picture.judge();
     // A mask shows exactly the positions that are counted.
-    let mismatches = picture
-        .mismatches()
-        .expect("there are as many answers as rays");
+    let positions = picture.positions();
+    let positions = positions.expect("there are as many answers as rays");
+    let mismatches: Vec<_> = positions.iter().map(Mismatch::first_at).collect();
     let tallies = picture.tallies();
     for ((aspect, _), tally) in QUANTITIES.iter().zip(&tallies) {
         let found = mismatches.iter().flatten();

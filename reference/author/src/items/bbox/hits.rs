@@ -23,6 +23,7 @@ pub(super) const THROUGH: Declaration = Declaration {
            answer is the interval that these three intervals and the argument times have in \
            common, or None if there is none.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
+    tests: &["Returns the part…"],
     questions: |rng| questions(rng, USUAL, is_ahead),
     ..Declaration::in_group(groups::BOXES)
 };
@@ -33,6 +34,7 @@ pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
     look: "Compare the axes with each other, and with times: it is a miss if and only if the \
            latest entry comes after the earliest exit, however small both are.",
     section: "boxes.md#the-slab-intervals-must-overlap",
+    tests: &["Returns the part…"],
     questions: |rng| {
         questions(rng, EVERY_SIZE, |call| {
             is_ahead(call) && crosses_all_slabs(call)
@@ -46,6 +48,7 @@ pub(super) const OCTANTS: Declaration = Declaration {
     title: "rays in all directions enter and leave at the right times",
     look: "On an axis where the direction is negative, the ray reaches the larger plane first.",
     section: "boxes.md#a-negative-direction-swaps-the-planes",
+    tests: &["Returns the part…"],
     questions: |rng| questions(rng, USUAL, is_ordinary),
     ..Declaration::in_group(groups::BOXES)
 };
@@ -57,6 +60,7 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
            by zero gives infinities that say so, if your comparisons handle them. A component that \
            is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
+    tests: &["A component of `ray.dir`…", "Then the ray is parallel…"],
     questions: |rng| {
         let sizes = [EVERY_SIZE, USUAL, USUAL].concat();
         let parallel = questions(rng, &sizes, |call| !call.is_flat() && call.is_parallel());
@@ -71,6 +75,7 @@ pub(super) const FLAT: Declaration = Declaration {
     look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the same \
            time, and that is a hit.",
     section: "boxes.md#flat-boxes-can-be-hit",
+    tests: &["A flat box (`min…"],
     questions: |rng| questions(rng, EVERY_SIZE, BoxCall::is_flat),
     ..Declaration::in_group(groups::BOXES)
 };

@@ -7,20 +7,20 @@ mod times;
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Corners, Interval, Question, Ray};
 
-use crate::domains::bbox::{BoxCall, tables};
-use crate::items::{DeclaredItem, draw_items};
+use crate::domains::bbox::{BOX, BoxCall, tables};
+use crate::items::{AuthoredTask, POINTS};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
 type Query = (Ray, Interval);
 
 /// The sizes of most boxes. Smaller ones are asked where an absolute number could decide.
 const USUAL: &[usize] = &[5, 4, 6, 7, 8];
 
-/// Returns the items of the task `bbox`.
-pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all = [
+/// The task `bbox`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
         hits::THROUGH,
         hits::SLAB_AFTER_SLAB,
         hits::OCTANTS,
@@ -31,9 +31,11 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         times::TIMES_NOT_RANGE,
         hits::AXIS_PARALLEL,
         hits::FLAT,
-    ];
-    draw_items(seed, &all)
-}
+    ],
+    domain: Some(&BOX),
+    points: POINTS,
+    ..AuthoredTask::NEW
+};
 
 fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
     let expected = |(ray, times): &Query| {

@@ -11,6 +11,7 @@ pub(super) const BEHIND: Declaration = Declaration {
     look: "Behind the origin the times are negative, so nothing of the ray's way through the box \
            is within times. An interval that would end before it begins is a miss.",
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
+    tests: &["Returns the part…"],
     questions: |rng| {
         questions(rng, USUAL, |call| {
             is_ordinary(call) && call.is_unlimited() && !call.starts_inside()
@@ -25,6 +26,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
     look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
            times.",
     section: "boxes.md#clip-the-result-to-times",
+    tests: &["The result is clipped…"],
     questions: |rng| {
         questions(rng, USUAL, |call| {
             let is_hit = call.ray64().max == f64::INFINITY && call.starts_inside();
@@ -40,6 +42,7 @@ pub(super) const CLIPPED: Declaration = Declaration {
     look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
            only if the box is entered after times.max or left before times.min.",
     section: "boxes.md#clip-the-result-to-times",
+    tests: &["The result is clipped…"],
     questions: |rng| {
         questions(rng, EVERY_SIZE, |call| {
             is_ordinary(call) && !call.is_unlimited() && call.crossing().is_some()
@@ -54,6 +57,7 @@ pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     look: "The ray then crosses no plane within times, but it is a hit, from times.min to \
            times.max.",
     section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
+    tests: &["The result is clipped…"],
     questions: |rng| {
         questions(rng, USUAL, |call| {
             let ray64 = call.ray64();
@@ -70,6 +74,7 @@ pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
     title: "the times argument counts, not the ray's own range",
     look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
+    tests: &["Use `times` and ignore…"],
     questions: |rng| {
         questions(rng, USUAL, |call| {
             let by_range = call.bounds.span(&Ray64::from(&call.ray));

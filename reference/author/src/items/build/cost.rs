@@ -115,6 +115,7 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
            depends on the areas of boxes around whole primitives and on their numbers. The \
            cheapest need not be along the longest axis.",
     section: "building.md#try-all-three-axes-at-every-node",
+    tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| cost_questions(rng, meshes::strands, &[(128, 1), (256, 2), (1023, 4)]),
     ..Declaration::ALONE
 };
@@ -125,17 +126,18 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
     look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
            buckets from the left and from the right.",
     section: "building.md#areas-and-counts-in-the-cost-formula",
+    tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| cost_questions(rng, meshes::sheets, &[(255, 2), (512, 1), (1024, 8)]),
     ..Declaration::ALONE
 };
 
 pub(super) const COST_TOWN: Declaration = Declaration {
     id: "build.cost_town",
-    points: 2,
     title: "areas and counts decide together, for crowds on an open field",
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",
     section: "building.md#keep-track-of-the-best-cost",
+    tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| cost_questions(rng, meshes::town, &[(512, 1), (2048, 4), (4500, 8)]),
     ..Declaration::ALONE
 };

@@ -12,14 +12,15 @@ use judging::exam::{ExamQuestion, TreeCheck};
 use protocol::Shape;
 
 use super::meshes;
-use crate::items::{DeclaredItem, draw_items};
+use crate::domains::build::BUILD;
+use crate::items::{AuthoredTask, POINTS};
 use crate::seed::Seed;
 
 pub use cost::relative_cost;
 
-/// Returns the items of the task `build`.
-pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all = [
+/// The task `build`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
         structure::PARTITION,
         structure::CONTAINS,
         structure::TIGHT,
@@ -38,14 +39,21 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         // task is stopped after two crashes.
         unusual_inputs::COINCIDENT,
         unusual_inputs::CONCENTRIC,
-    ];
-    let mut items = draw_items(seed, &all);
-    let control = control(seed);
-    for item in &mut items {
-        item.questions().push(control.clone());
-    }
-    items
-}
+    ],
+    domain: Some(&BUILD),
+    untested: &[(
+        "You may reorder the primitives and the nodes.",
+        "A permission: every item accepts any order.",
+    )],
+    finish: |seed, items| {
+        let control = control(seed);
+        for item in items {
+            item.questions().push(control.clone());
+        }
+    },
+    points: POINTS,
+    ..AuthoredTask::NEW
+};
 
 /// Returns the last question of every item, whose answer is wrong if there is no tree or if half of
 /// the primitives are in one leaf. Its primitives are far apart, so that no heuristic prefers to keep

@@ -69,6 +69,7 @@ pub(super) const ONE_SPLIT: Declaration = Declaration {
            areas and the counts of its sides: does your code try it, does it compute that cost, \
            and does your root have these two sides?",
     section: "building.md#which-partitions-to-try",
+    tests: &["Use 8 or more buckets…"],
     questions: one_split,
     ..Declaration::ALONE
 };

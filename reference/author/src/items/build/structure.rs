@@ -61,12 +61,12 @@ fn soup_questions_of_size(
 
 pub(super) const PARTITION: Declaration = Declaration {
     id: "build.partition",
-    points: 2,
     title: "every primitive is in exactly one leaf",
     look: "Return a tree whose root is nodes[root]: from there, l and r, which are indices into \
            nodes, lead to the leaves. A leaf holds start..start + size of the list that you \
            return, and together the leaves hold each primitive once.",
     section: "building.md#a-leaf-is-a-slice-of-the-list",
+    tests: &["Every primitive is…"],
     questions: |rng| {
         let many = soup_questions(rng, &[Partition], &[(37, 1), (200, 4)]);
         with_domain(
@@ -82,12 +82,12 @@ pub(super) const PARTITION: Declaration = Declaration {
 
 pub(super) const CONTAINS: Declaration = Declaration {
     id: "build.contains",
-    points: 2,
     title: "every box contains everything below it",
     look: "A node's box encloses the whole boxes of all primitives below it. Those of a leaf are \
            start..start + size in the list that you return: compare a leaf's box with them, and \
            the boxes of the nodes above with those of their children.",
     section: "building.md#the-contract",
+    tests: &["The box of a node…"],
     questions: |rng| {
         let many = soup_questions(rng, &[Contains], &[(64, 1), (300, 4)]);
         with_domain(many, rng, &[Contains], 7, &[Scattered, DifferentSizes])
@@ -101,6 +101,7 @@ pub(super) const TIGHT: Declaration = Declaration {
     look: "A node's box is the union of its primitives' boxes. A box that starts at the origin \
            instead of BBox::EMPTY, or is the parent's box, is too large.",
     section: "building.md#start-each-box-empty",
+    tests: &["The box of a node…"],
     questions: |rng| {
         let many = soup_questions(rng, &[Tight], &[(64, 1), (150, 4)]);
         with_domain(many, rng, &[Tight], 10, &[Scattered, FlatBoxes])
@@ -110,11 +111,11 @@ pub(super) const TIGHT: Declaration = Declaration {
 
 pub(super) const LEAF_SIZE: Declaration = Declaration {
     id: "build.leaf_size",
-    points: 2,
     title: "no leaf holds more than max_leaf_size primitives",
     look: "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
            cheaper by the heuristic.",
     section: "building.md#when-a-node-becomes-a-leaf",
+    tests: &["A node is a leaf…"],
     questions: |rng| {
         let crowd = &mut rng.sequence("build.leaf_size.crowd");
         let crowd = build_question(&[LeafSize], meshes::soup(crowd, 100, 0.3, 2.5), 1);
@@ -136,6 +137,7 @@ pub(super) const STOPS: Declaration = Declaration {
     look: "A node is a leaf if and only if it has at most max_leaf_size primitives. That holds for \
            every node, the root included, and for every max_leaf_size.",
     section: "building.md#when-a-node-becomes-a-leaf",
+    tests: &["A node is a leaf…"],
     questions: |rng| {
         let checks = [Stops, LeafSize];
         let mut questions = soup_questions(rng, &[Stops], &[(64, 2), (160, 8)]);

@@ -36,6 +36,7 @@ pub(super) const NEGATIVE: Declaration = Declaration {
     look: "A box that grows from zero never goes below zero, and a cast to usize turns negative \
            numbers into 0.",
     section: "building.md#start-each-box-empty",
+    tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
         let far = dvec3(-20.0, -30.0, -10.0);
         let triangles = (0..80).map(|_| {
@@ -65,6 +66,7 @@ pub(super) const COINCIDENT: Declaration = Declaration {
     look: "If all centres coincide, no plane separates the primitives. A leaf with all of them is \
            too large, and a side with none of them gets you no further: split them by count.",
     section: "building.md#when-all-centres-coincide",
+    tests: &["If all centres coincide,…"],
     questions: |rng| {
         let center = rng.point(2.0);
         let same = meshes::random_flat_triangle(rng, center, 0.5);
@@ -89,6 +91,7 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
     look: "Their boxes differ, but their centres coincide, so no plane between buckets of centres \
            separates them on any axis. Split them by count.",
     section: "building.md#when-all-centres-coincide",
+    tests: &["If all centres coincide,…"],
     questions: |rng| {
         let center = rng.point(2.0);
         let step = rng.uniform(0.2, 0.3) as f32;
@@ -106,6 +109,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
            their extent gives NaN. Both the search for the cheapest partition and the partition \
            itself need another axis.",
     section: "building.md#an-axis-without-extent",
+    tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
         let question = |axis: usize| {
             let start = rng.point(4.0);
@@ -128,6 +132,7 @@ pub(super) const COLLINEAR: Declaration = Declaration {
     title: "a row of primitives works as well, along any axis",
     look: "Along two axes all centres coincide. Find the third one, whether it is x, y or z.",
     section: "building.md#an-axis-without-extent",
+    tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
         let question = |axis: usize| {
             let start = rng.point(4.0);
@@ -149,6 +154,7 @@ pub(super) const OUTLIER: Declaration = Declaration {
     look: "Most of the others are then in one bucket. The split still helps: they are in a smaller \
            node, which gets buckets of its own.",
     section: "building.md#one-primitive-far-from-the-others",
+    tests: &["Every primitive is…", "The box of a node…"],
     questions: outlier,
     ..Declaration::in_group(groups::TREES)
 };
@@ -179,6 +185,7 @@ pub(super) const ONE_OR_NONE: Declaration = Declaration {
     look: "For no primitives, build no nodes or one leaf of size 0. For one primitive, build one \
            leaf.",
     section: "building.md#very-small-inputs",
+    tests: &["Without primitives, the…"],
     questions: |rng| {
         let checks = [Partition, Contains];
         let one = meshes::soup(rng, 1, 2.0, 0.5);

@@ -14,13 +14,14 @@ use glam::{UVec2, Vec2, uvec2};
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::{PinholeCamera, Question, Rows, Sample, SampleRay, Table};
 
-use crate::items::{DeclaredItem, draw_items};
+use crate::domains::camera::CAMERA;
+use crate::items::{AuthoredTask, POINTS};
 use crate::oracle;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 
-/// Returns the items of the task `camera`.
-pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all = [
+/// The task `camera`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
         sensor::CORNERS,
         sensor::FIELD_OF_VIEW,
         sensor::ASPECT_RATIO,
@@ -33,9 +34,21 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         ray::UNIT_LENGTH,
         ray::ORIGIN_AND_RANGE,
         ray::PICTURE,
-    ];
-    draw_items(seed, &all)
-}
+    ],
+    domain: Some(&CAMERA),
+    untested: &[
+        (
+            "[`Ray::new`] sets both.",
+            "A way to do what the sentence before asks.",
+        ),
+        (
+            "Convert them with `as_vec2()` before you divide.",
+            "A way to do what the other sentences ask.",
+        ),
+    ],
+    points: POINTS,
+    ..AuthoredTask::NEW
+};
 
 fn camera_question(judged: &[&str], camera: PinholeCamera, rows: Rows<Sample>) -> ExamQuestion {
     let direction = |sample: &Sample| oracle::camera::direction(&camera, *sample).as_vec3();

@@ -11,11 +11,11 @@ use crate::seed::Rng;
 
 pub(super) const OFFSET: Declaration = Declaration {
     id: "camera.offset",
-    points: 2,
     title: "the offset moves the ray within its pixel",
     look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the film, \
            measured in pixels. Each component is used as it is given, on its own axis.",
     section: "camera.md#the-offset-is-measured-in-pixels",
+    tests: &["`offset` is the position…"],
     questions: |rng| {
         let mut question = |length: u32, along: [UVec2; 2]| {
             let samples = (0..24).map(|_| {
@@ -42,6 +42,7 @@ pub(super) const OFFSET_AXES: Declaration = Declaration {
     title: "the offset's x moves the ray to the right, and its y moves it up",
     look: "The two components are independent, and each belongs to its own axis.",
     section: "camera.md#the-offset-is-measured-in-pixels",
+    tests: &["`offset` is the position…"],
     questions: |rng| {
         let samples = (0..24).map(|i| {
             let small = rng.uniform(0.05, 0.25) as f32;
@@ -76,6 +77,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
     look: "The film has 3840 columns and 2160 rows. Work out one position by hand: pixel + offset, \
            divided by these numbers in floating point, gives two fractions between 0 and 1.",
     section: "camera.md#integer-division-gives-zero",
+    tests: &["Pixel (x, y) covers…", "`pixel` and `film`…"],
     questions: |rng| {
         let film = uvec2(3840, 2160);
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
@@ -132,6 +134,7 @@ pub(super) const UNIT_LENGTH: Declaration = Declaration {
     look: "Distances along a ray are measured in lengths of its direction. Ray::new normalises the \
            direction; filling in the fields yourself does not.",
     section: "camera.md#the-direction-has-length-one",
+    tests: &["The ray's `dir` has…"],
     questions: |rng| {
         let spread = spread_question(&["direction", "unit_direction"], rng);
         [
@@ -148,6 +151,7 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
     title: "the ray starts at the camera and has no end",
     look: "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from 0 to ∞.",
     section: "camera.md#the-ray-starts-at-the-camera",
+    tests: &["The ray's `dir` has…"],
     questions: |rng| {
         let spread = spread_question(&["direction", "origin", "range"], rng);
         [
@@ -161,11 +165,11 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "camera.picture",
-    points: 2,
     title: "every pixel of a picture looks in the right direction",
     look: "Five positions in each pixel are compared. See which of them are wrong: those at one \
            edge, in one half, or all except the middles of pixels?",
     section: "grading.md#reading-a-wrong-picture",
+    tests: &["Returns the ray that…"],
     questions: |rng| {
         let camera = camera(rng.uniform(45.0, 75.0), 1.5, uvec2(64, 64));
         let rows = Rows::Picture(camera.film);

@@ -24,6 +24,7 @@ pub(in crate::items) const CORNERS: Declaration = Declaration {
     look: "The sensor spans −1 to 1 in x and y, at z = −1. Work one position out by hand: (pixel + \
            offset) / film runs from 0 to 1.",
     section: "camera.md#from-pixel-to-sensor",
+    tests: &["Returns the ray that…", "The sensor is the…"],
     questions: corners,
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -45,11 +46,11 @@ fn corners(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
     id: "camera.field_of_view",
-    points: 2,
     title: "the sensor's height is 2·tan(fov/2)",
     look: "vertical_fov is the full angle, in degrees. Draw the triangle from the camera to the \
            middle and the upper edge of the sensor: which angle is at the camera?",
     section: "camera.md#half-the-angle-and-twice-the-tangent",
+    tests: &["The sensor is the…"],
     questions: |rng| {
         let film = UVec2::splat(odd_size(rng, 9, 31));
         let question = |part| {
@@ -68,6 +69,7 @@ pub(super) const ASPECT_RATIO: Declaration = Declaration {
            Across the film, a position divided by film.x, the number of columns, is a fraction of \
            that width.",
     section: "camera.md#the-size-of-the-sensor",
+    tests: &["The sensor is the…"],
     questions: |rng| {
         let films = [
             uvec2(rng.integer(13, 19), odd_size(rng, 7, 11)),
@@ -93,6 +95,7 @@ pub(super) const OTHER_ASPECT: Declaration = Declaration {
     look: "Pixels need not be square: the film only says how many pixels the sensor is divided \
            into.",
     section: "camera.md#the-aspect-ratio-is-not-that-of-the-film",
+    tests: &["The sensor is the…"],
     questions: |rng| {
         // Each film is asked with other aspect ratios, one after the other.
         let questions = [uvec2(9, 9), uvec2(16, 5), uvec2(5, 9)].map(|film| {
@@ -117,6 +120,7 @@ pub(super) const FILM: Declaration = Declaration {
            fraction of the sensor's width, and (pixel.y + offset.y) / film.y is a fraction of its \
            height.",
     section: "camera.md#each-axis-has-its-own-size",
+    tests: &["The film's pixels…", "`pixel` and `film`…"],
     questions: |rng| {
         let films = [
             uvec2(odd_size(rng, 13, 21), odd_size(rng, 3, 7)),
@@ -140,6 +144,7 @@ pub(super) const BOTTOM_LEFT: Declaration = Declaration {
     look: "y points up on the film, as it does in space: a small y looks down, and a small x looks \
            left.",
     section: "camera.md#row-zero-is-at-the-bottom",
+    tests: &["The film's pixels…"],
     questions: |rng| {
         let sizes = [rng.integer(6, 9), rng.integer(10, 15)];
         let question = |n: u32| {

@@ -5,16 +5,16 @@ mod surface;
 
 use judging::exam::ExamQuestion;
 
-use crate::domains::sphere::{Line, tables};
-use crate::items::{DeclaredItem, draw_items, shape_question};
-use crate::seed::{Rng, Seed};
+use crate::domains::sphere::{Line, SPHERE, tables};
+use crate::items::{AuthoredTask, POINTS, shape_question};
+use crate::seed::Rng;
 
 /// The sizes of most spheres. Smaller ones are asked where an absolute number could decide.
 const USUAL: &[usize] = &[5, 4, 6, 3, 7, 8, 5, 4, 6, 7];
 
-/// Returns the items of the task `sphere`.
-pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all = [
+/// The task `sphere`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
         roots::NEAR_SIDE,
         roots::BESIDE,
         roots::RADIUS,
@@ -29,9 +29,11 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         surface::UV_RADIUS,
         surface::ORIGIN_AND_MATERIAL,
         surface::PICTURE,
-    ];
-    draw_items(seed, &all)
-}
+    ],
+    domain: Some(&SPHERE),
+    points: POINTS,
+    ..AuthoredTask::NEW
+};
 
 /// Creates questions about spheres of these sizes. Their rays belong to an idea, and every other one is
 /// a hit.

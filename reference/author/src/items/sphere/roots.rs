@@ -17,6 +17,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
            to end, and compare them with those in your code. From outside, the smaller root is the \
            distance; a negative discriminant is a miss.",
     section: "sphere.md#the-quadratic-equation",
+    tests: &["Returns the ray's…"],
     questions: |rng| questions(rng, &["distance"], USUAL, is_ahead),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
@@ -27,6 +28,7 @@ pub(super) const BESIDE: Declaration = Declaration {
     look: "Without a real root there is no hit, and with two there may be one: work out the value \
            under the square root for the ray shown, before you take the root.",
     section: "sphere.md#the-square-root-of-a-negative-number",
+    tests: &["Returns the ray's…"],
     questions: |rng| questions(rng, &[], USUAL, is_ahead),
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
@@ -37,6 +39,7 @@ pub(super) const RADIUS: Declaration = Declaration {
     look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so can \
            distances: compare each root with ray.range, not with a small constant.",
     section: "sphere.md#the-radius-is-not-always-one",
+    tests: &["Returns the ray's…", "`distance` is the…"],
     questions: |rng| {
         let all = [
             "distance",
@@ -62,6 +65,7 @@ pub(super) const BEHIND: Declaration = Declaration {
     look: "Behind the ray both roots are negative, and so outside ray.range; ahead of it both are \
            positive. Work out both for the ray shown.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         questions(rng, &["distance"], USUAL, |line| {
             line.is_unlimited() && line.roots[0] * line.roots[1] > 0.0
@@ -77,6 +81,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
            Nothing but the roots and ray.range decides whether there is a hit, and the root that \
            is in the range is its distance.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
+    tests: &["If only the far intersection…"],
     questions: |rng| {
         questions(rng, &["distance"], USUAL, |line| {
             line.is_unlimited() && (line.misses() || line.roots[0] < 0.0)
@@ -91,6 +96,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
     look: "The range need not start at 0. If the near root is outside the range and the far root \
            is inside, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
+    tests: &["If only the far intersection…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |line| {
             line.ray64.min > line.roots[0]
@@ -106,6 +112,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
            sphere, inside it or behind it: which of the two roots are in the range of the ray \
            shown?",
     section: "sphere.md#check-each-root-by-itself",
+    tests: &["`ray.range` includes both…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |line| {
             !line.misses() && line.ray64.min == 0.0 && line.ray64.max.is_finite()
@@ -121,6 +128,7 @@ pub(super) const RANGE_WITHIN: Declaration = Declaration {
            left the sphere. A root is a hit if and only if it is in ray.range, however small it \
            is.",
     section: "sphere.md#check-each-root-by-itself",
+    tests: &["`ray.range` includes both…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |line| {
             !line.misses() && line.ray64.min > 0.0

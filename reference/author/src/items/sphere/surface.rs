@@ -14,6 +14,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
+    tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["position"], USUAL, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
@@ -24,6 +25,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
            surface, so it is never flipped toward the ray.",
     section: "sphere.md#the-normal-points-away-from-the-centre",
+    tests: &["`normal` has length…"],
     questions: |rng| questions(rng, &["normal", "unit_normal"], USUAL, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
@@ -35,6 +37,7 @@ pub(super) const UV: Declaration = Declaration {
            must be one. Check the vector that you pass: where does it start, which way does it \
            point, and how long is it?",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
+    tests: &["`uv` is computed…"],
     questions: |rng| {
         questions(rng, &["uv"], USUAL, |line| {
             line.misses() || line.roots[0] > 0.0
@@ -49,6 +52,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
     look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
            is as long as the radius.",
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
+    tests: &["`uv` is computed…"],
     questions: |rng| questions(rng, &["uv"], USUAL, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
@@ -59,18 +63,19 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     look: "Copy both: the origin from the ray that you were given, even if you computed with a \
            shifted one, and the shape's number from the sphere.",
     section: "sphere.md#what-to-return",
+    tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["origin", "shape"], EVERY_SIZE, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)
 };
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "sphere.picture",
-    points: 2,
     title: "a picture of spheres is correct in hits, depth, normals and uv",
     look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong all \
            over, how does it differ from the others: in its radius, in its centre, or in that the \
            camera is inside it?",
     section: "grading.md#reading-a-wrong-picture",
+    tests: &["Returns the ray's…"],
     questions: picture,
     ..Declaration::ALONE
 };

@@ -20,6 +20,7 @@ pub(super) const OWN_TREE: Declaration = Declaration {
            closest one or loses its hit. If all other items of both tasks pass, look for something \
            that your tree has and the exam's trees do not.",
     section: "traversal.md#your-own-builder-and-your-own-traversal",
+    tests: &["Returns the ray's…"],
     questions: own_tree,
     needs: &[
         groups::TRIANGLE_HITS,
@@ -130,6 +131,7 @@ pub(super) const PICTURE: Declaration = Declaration {
            primitives should it test? If a piece is missing there, see whether your code skips it \
            or loses it to a farther hit.",
     section: "grading.md#reading-a-wrong-picture",
+    tests: &["Returns the ray's…"],
     questions: picture,
     needs: &[
         groups::TRIANGLE_HITS,
@@ -163,11 +165,11 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
 /// The item that compares a path-traced picture with the reference's.
 pub(super) const RADIANCE: Declaration = Declaration {
     id: "traverse.radiance",
-    points: 2,
     title: "all tasks together render the Cornell box",
     look: "The framework draws every random number, so the picture must be the same except for a few \
            pixels. If only this item fails, look at the output of cargo render.",
     section: "grading.md#reading-a-wrong-picture",
+    tests: &["Returns the ray's…"],
     questions: |rng| vec![path_traced_picture(rng), linear_scan_control(rng)],
     needs: &[
         groups::TRIANGLE_HITS,

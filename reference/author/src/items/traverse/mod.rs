@@ -19,15 +19,15 @@ use protocol::{Question, Ray};
 
 use self::placed::{Mover, is_clear_of_faces};
 use super::meshes;
-use crate::domains::traverse;
-use crate::items::{Declaration, DeclaredItem, draw_items, groups};
+use crate::domains::traverse::{self, TRAVERSE};
+use crate::items::{AuthoredTask, Declaration, POINTS, groups};
 use crate::oracle::Ray64;
-use crate::seed::{Rng, Seed};
+use crate::seed::Rng;
 use crate::tree::{Tree, construction, decoy};
 
-/// Returns the items of the task `traverse`.
-pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all = [
+/// The task `traverse`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
         without_decoys::CLOSEST_HIT,
         without_decoys::FIRST_BOX_EMPTY,
         without_decoys::RANGE,
@@ -45,14 +45,17 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         end_to_end::OWN_TREE,
         end_to_end::PICTURE,
         end_to_end::RADIANCE,
-    ];
-    let mut items = draw_items(seed, &all);
-    let mut mover = Mover::new(seed);
-    for item in &mut items {
-        mover.move_all(item.questions());
-    }
-    items
-}
+    ],
+    domain: Some(&TRAVERSE),
+    finish: |seed, items| {
+        let mut mover = Mover::new(seed);
+        for item in items {
+            mover.move_all(item.questions());
+        }
+    },
+    points: POINTS,
+    ..AuthoredTask::NEW
+};
 
 /// The fields of an item about traversal that is wrong if triangles or boxes are. The others are empty.
 const TRAVERSAL: Declaration = Declaration {

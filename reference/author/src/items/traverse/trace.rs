@@ -21,6 +21,7 @@ pub(super) const TRACE: Declaration = Declaration {
     look: "Primitive::hit returns the trace, and you may return it as it is. Its origin is that of \
            the ray that you were given, and its normal does not depend on where the ray comes from.",
     section: "traversal.md#the-algorithm",
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         let counts = [(1, 1), (3, 3), (24, 1), (33, 6)];
         let question =

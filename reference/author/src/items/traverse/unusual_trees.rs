@@ -18,6 +18,7 @@ pub(super) const ROOT: Declaration = Declaration {
     look: "The root is nodes[root]. Any other node can be first or last in nodes, even a child or \
            one that is not part of the tree, and a node is a leaf if and only if l == r.",
     section: "traversal.md#the-root-can-be-any-node",
+    tests: &["The tree can be 60…"],
     questions: root,
     ..TRAVERSAL
 };
@@ -86,6 +87,7 @@ pub(super) const NO_NODES: Declaration = Declaration {
     look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for every leaf. \
            In the first case there is no node at index root, in the second no primitive at start.",
     section: "traversal.md#an-empty-tree-has-no-nodes",
+    tests: &["The tree can be 60…"],
     questions: no_nodes,
     ..TRAVERSAL
 };

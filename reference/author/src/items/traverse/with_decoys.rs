@@ -127,11 +127,11 @@ fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
 
 pub(super) const SKIPS_MISSED: Declaration = Declaration {
     id: "traverse.skips_missed",
-    points: 2,
     title: "a node whose box the ray misses is not entered",
     look: "This is what the tree is for. In this exam, some leaves hold primitives outside their \
            boxes: a traversal that enters a missed box finds them.",
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
+    tests: &["Do not enter a node whose box the…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::Missed);
         // The slides enter the left child if both are missed, and may enter it if only the right one is
@@ -152,11 +152,11 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
 
 pub(super) const PRUNES: Declaration = Declaration {
     id: "traverse.prunes",
-    points: 2,
     title: "a node that begins beyond the closest hit is not entered",
     look: "First search the child whose box the ray enters first. After that, if the entry of the \
            other box is beyond the closest hit so far, nothing in it can be nearer: skip it.",
     section: "traversal.md#order-the-children-and-prune",
+    tests: &["Do not enter a node whose box begins…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::SubtreePruned);
         // The leaf is itself a child of the fork, so no further comparison happens on the way to it.
@@ -180,6 +180,11 @@ pub(super) const NEARER_FIRST: Declaration = Declaration {
            the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, \
            even where l comes second.",
     section: "traversal.md#compare-the-entry-of-the-second-child",
+    tests: &[
+        "If the ray hits the…",
+        "Do not take the slides'…",
+        "It compares `hit2.t`,…",
+    ],
     questions: nearer_first,
     ..TRAVERSAL
 };
@@ -213,6 +218,12 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
            beyond the closest hit so far. If both boxes are missed, enter neither, although the \
            slides always enter `first`.",
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
+    tests: &[
+        "Do not enter a node whose box the…",
+        "Do not enter a node whose box begins…",
+        "Do not take the slides'…",
+        "It also enters `first`…",
+    ],
     questions: |rng| {
         let missed_alone = missed_alone(|node| node.l);
         let with_sibling = missed_with_sibling(|node| node.l);

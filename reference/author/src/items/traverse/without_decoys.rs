@@ -24,6 +24,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
            to be tested, and which of their hits is the closest? Then see which primitives your \
            code tests, and which hit it keeps after each.",
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
+    tests: &["Returns the ray's…", "Boxes overlap, so…"],
     questions: |rng| {
         // At least half of the hits are found after a farther one.
         let kind = |rng: &mut Rng, tree: &Tree| {
@@ -109,6 +110,7 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
            Until something is hit, there is no closest hit to compare with, and no child may be \
            skipped because of one.",
     section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
+    tests: &["Boxes overlap, so…"],
     questions: |rng| {
         // Small triangles leave most of a node's box empty.
         let tree = soup_tree(rng, 40, 0.5, 1);
@@ -125,6 +127,7 @@ pub(super) const RANGE: Declaration = Declaration {
            closest such hit is the answer. Find all hits of the ray shown, and see where your code \
            takes another one or none.",
     section: "traversal.md#only-a-hit-shortens-the-ray",
+    tests: &["Returns the ray's…"],
     questions: range,
     ..TRAVERSAL
 };
@@ -176,6 +179,7 @@ pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
     look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, be \
            it that of the first primitive, of the last one or of one in between.",
     section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
+    tests: &["Returns the ray's…"],
     questions: leaf_of_several,
     ..TRAVERSAL
 };
@@ -236,6 +240,7 @@ pub(super) const DEEP: Declaration = Declaration {
     look: "A stack of fixed size must be large enough, and every node that is pushed must be \
            popped again.",
     section: "traversal.md#deep-trees",
+    tests: &["The tree can be 60…"],
     questions: deep,
     ..TRAVERSAL
 };
@@ -274,6 +279,7 @@ pub(super) const FLAT: Declaration = Declaration {
     look: "A ray enters and leaves a flat box at the same time. If your box test is correct, check \
            how you use its result: an interval of one point is not empty.",
     section: "traversal.md#a-flat-box-has-equal-entry-and-exit",
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         // Axis-parallel triangles, one per leaf.
         let triangles = (0..36).map(|i| {
@@ -299,6 +305,7 @@ pub(super) const MIXED: Declaration = Declaration {
     title: "a tree can hold spheres and triangles",
     look: "Primitive::hit tests either kind, and their distances are compared in the same way.",
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         let shapes = (0..36).map(|i| {
             let center = rng.point(2.0);

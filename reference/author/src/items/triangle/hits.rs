@@ -22,12 +22,16 @@ fn is_through(plane: &Plane) -> bool {
 
 pub(super) const INSIDE: Declaration = Declaration {
     id: "triangle.inside",
-    points: 2,
     title: "a ray through the inside hits the triangle at distance t",
     look: "Work out u, v and t by hand for the ray shown, and compare them with those in your \
            code. It is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
            then t is the distance.",
     section: "triangle.md#three-equations-for-three-unknowns",
+    tests: &[
+        "Returns the ray's…",
+        "The triangle can…",
+        "`distance` is the…",
+    ],
     questions: |rng| {
         questions(rng, &["distance"], USUAL, |plane| {
             is_ahead(plane) && plane.slope < 0.0 && is_steep(plane) && is_well_inside(plane)
@@ -38,11 +42,11 @@ pub(super) const INSIDE: Declaration = Declaration {
 
 pub(super) const OUTSIDE: Declaration = Declaration {
     id: "triangle.outside",
-    points: 2,
     title: "a ray that crosses the plane beyond an edge misses",
     look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
            weight of the opposite corner is negative.",
     section: "triangle.md#test-the-third-weight-too",
+    tests: &["Returns the ray's…", "The triangle can…"],
     questions: |rng| questions(rng, &[], USUAL, |plane| is_ahead(plane) && is_steep(plane)),
     ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
@@ -52,6 +56,7 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
     title: "a triangle is hit from behind as well",
     look: "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
+    tests: &["The triangle can…"],
     questions: |rng| {
         questions(rng, &["distance"], USUAL, |plane| {
             is_ahead(plane) && plane.slope > 0.0 && is_steep(plane) && is_well_inside(plane)
@@ -66,6 +71,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
     look: "A ray through the triangle hits it if and only if t is in ray.range, however small the \
            triangle is. Which comparison in your code decides about the ray shown?",
     section: "triangle.md#check-both-ends-of-the-range",
+    tests: &["`ray.range` includes both…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |plane| {
             is_through(plane) && plane.ray64.min == 0.0 && plane.ray64.max.is_finite()
@@ -80,6 +86,7 @@ pub(super) const RANGE_MIN: Declaration = Declaration {
     look: "The range has two ends, and its start need not be 0. Compare t with these two, and with \
            no constant, however small.",
     section: "triangle.md#check-both-ends-of-the-range",
+    tests: &["`ray.range` includes both…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |plane| {
             is_through(plane) && plane.ray64.min > 0.0
@@ -94,6 +101,7 @@ pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
     look: "Work out t for the ray shown. Behind the ray it is negative, although the weights look \
            like those of a hit; ahead of the ray it is in ray.range.",
     section: "triangle.md#hits-behind-the-origin-do-not-count",
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         questions(rng, &["distance"], USUAL, |plane| {
             is_through(plane) && plane.is_unlimited()
@@ -108,6 +116,7 @@ pub(super) const TINY: Declaration = Declaration {
     look: "The determinant is small for small triangles too, not only for parallel rays: compare \
            it with zero, not with a small number.",
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
+    tests: &["Triangles of every…"],
     questions: |rng| {
         let all = ["distance", "position", "normal", "uv", "origin", "shape"];
         questions(rng, &all, &[EVERY_SIZE, fields::TINY].concat(), |plane| {
@@ -148,6 +157,7 @@ pub(super) const GRAZING: Declaration = Declaration {
     look: "The determinant is small if the ray is almost parallel to the triangle. That is no reason \
            for a miss: only zero is.",
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
+    tests: &["Triangles of every…"],
     questions: |rng| {
         let all = ["distance", "position", "uv", "origin", "shape"];
         questions(rng, &all, USUAL, |plane| !is_steep(plane))
@@ -162,6 +172,7 @@ pub(super) const DEGENERATE: Declaration = Declaration {
     title: "a triangle that has no area or is parallel to the ray is missed",
     look: "The determinant is then zero, and dividing by it gives no usable number: return a miss.",
     section: "triangle.md#when-the-denominator-is-zero",
+    tests: &["A triangle without…"],
     questions: degenerate,
     ..Declaration::ALONE
 };

@@ -6,16 +6,16 @@ mod surface;
 
 use judging::exam::ExamQuestion;
 
-use crate::domains::triangle::{Plane, tables};
-use crate::items::{DeclaredItem, draw_items, shape_question};
-use crate::seed::{Rng, Seed};
+use crate::domains::triangle::{Plane, TRIANGLE, tables};
+use crate::items::{AuthoredTask, POINTS, shape_question};
+use crate::seed::Rng;
 
 /// The sizes of most triangles. Smaller ones, whose determinants are tiny, are the idea of an item.
 const USUAL: &[usize] = &[5, 4, 6, 7, 8];
 
-/// Returns the items of the task `triangle`.
-pub fn items(seed: Seed) -> Vec<DeclaredItem> {
-    let all = [
+/// The task `triangle`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
         hits::INSIDE,
         hits::OUTSIDE,
         surface::POSITION,
@@ -32,9 +32,15 @@ pub fn items(seed: Seed) -> Vec<DeclaredItem> {
         hits::DEGENERATE,
         surface::ORIGIN_AND_MATERIAL,
         scene::PICTURE,
-    ];
-    draw_items(seed, &all)
-}
+    ],
+    domain: Some(&TRIANGLE),
+    untested: &[(
+        "It does not have to have length one.",
+        "The answer is normalised before it is compared.",
+    )],
+    points: POINTS,
+    ..AuthoredTask::NEW
+};
 
 /// Creates questions about triangles of these sizes. Their rays belong to an idea, and every other one
 /// is a hit.

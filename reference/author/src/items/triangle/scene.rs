@@ -8,12 +8,12 @@ use crate::seed::Rng;
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "triangle.picture",
-    points: 3,
     title: "a picture of triangles is correct in hits, depth, normals and uv",
     look: "It shows a smooth hill, a square made of two triangles, triangles seen from behind and \
            some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
            triangles?",
     section: "grading.md#reading-a-wrong-picture",
+    tests: &["Returns the ray's…"],
     questions: |rng| {
         let shapes = picture_shapes(&mut rng.sequence("triangle.picture"));
         let camera = picture::camera_at_origin(64);

@@ -19,6 +19,7 @@ pub(super) const POSITION: Declaration = Declaration {
     title: "position is the point where the ray hits the triangle",
     look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
     section: "triangle.md#what-to-return",
+    tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["position"], USUAL, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
@@ -29,6 +30,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
            p2, and w = 1 − u − v. The normal of the flat face is not used.",
     section: "triangle.md#interpolate-the-given-normals",
+    tests: &["`normal` and `uv`…"],
     questions: |rng| questions(rng, &["normal"], USUAL, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
@@ -39,6 +41,7 @@ pub(super) const UV: Declaration = Declaration {
     look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and p2, \
            and w = 1 − u − v. The barycentric u and v are only its weights.",
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
+    tests: &["`normal` and `uv`…"],
     questions: |rng| questions(rng, &["uv"], USUAL, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
@@ -49,6 +52,7 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
     look: "Close to a corner, that corner's weight is nearly 1 and the two others are nearly 0. w \
            = 1 − u − v belongs to p0, u to p1 and v to p2.",
     section: "triangle.md#each-weight-belongs-to-its-corner",
+    tests: &["`normal` and `uv`…"],
     questions: |rng| {
         questions(rng, &["uv"], USUAL, |plane| {
             is_from_the_front(plane)
@@ -64,6 +68,7 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
     look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
            ray.",
     section: "triangle.md#do-not-flip-the-normal",
+    tests: &["Do not flip the normal…"],
     questions: |rng| questions(rng, &["normal"], USUAL, is_from_either_side),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };
@@ -73,6 +78,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     title: "the trace holds the ray's origin and the triangle's shape",
     look: "Copy both: the origin from the ray, and the shape's number from the triangle.",
     section: "triangle.md#what-to-return",
+    tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["origin", "shape"], USUAL, is_from_either_side),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)
 };

@@ -52,7 +52,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
         }
     },
     points: POINTS,
-    ..AuthoredTask::NEW
 };
 
 /// Returns the last question of every item, whose answer is wrong if there is no tree or if half of

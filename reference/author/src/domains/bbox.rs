@@ -434,9 +434,13 @@ impl BoxCall {
             .max(self.bounds.min.abs())
             .max(self.bounds.max.abs());
         let is_lost = |axis: usize| {
-            if is_flat.test(axis) {
+            let speed = f64::from(self.ray.dir[axis].abs());
+            if is_flat.test(axis) && is_still.test(axis) {
                 // A ray in the plane of a flat box is not tested.
-                is_still.test(axis) && (origin - self.bounds.min)[axis].abs() < longer
+                (origin - self.bounds.min)[axis].abs() < longer
+            } else if is_flat.test(axis) {
+                // Where a slanting ray crosses the plane depends on the rounding of the time.
+                8.0 * EPSILON * coordinates.max_element() > 0.25 * longer * speed
             } else {
                 // A ray in the plane of a face is not tested, either.
                 let sides = [self.bounds.min, self.bounds.max];

@@ -62,7 +62,8 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
 }
 
 /// Returns the gap between two centres at which the best partition splits along this axis. Returns
-/// `None` if the best partition is along another axis, or if another one is nearly as good.
+/// `None` if the best partition is along another axis, or if another one is nearly as good. That includes
+/// partitions of a few primitives by no plane.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     /// The minimum cost of the second-best partition, relative to the best.
     const MIN_RATIO: f64 = 1.05;
@@ -76,8 +77,27 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
         return None;
     };
     let centers = sorted_centers(boxes, axis);
-    (best.axis == axis && second.cost >= MIN_RATIO * best.cost)
+    (best.axis == axis
+        && second.cost >= MIN_RATIO * best.cost
+        && no_sides_are_cheaper(boxes, best.cost))
         .then(|| (centers[best.left - 1], centers[best.left]))
+}
+
+/// Returns whether all ways to divide a few primitives cost at least as much, by a plane or not. Where
+/// centres coincide along an axis, rounding may sort them in any order.
+fn no_sides_are_cheaper(boxes: &[Bounds], cost: f64) -> bool {
+    /// The largest number of primitives for which all ways are tried.
+    const FEW: usize = 10;
+    if boxes.len() > FEW {
+        return true;
+    }
+    let side_cost = |mask: usize, side: usize| {
+        let of_side = (0..boxes.len()).filter(|index| mask >> index & 1 == side);
+        let indices: Vec<usize> = of_side.collect();
+        bounds_of(boxes, &indices).area() * indices.len() as f64
+    };
+    (1..(1 << boxes.len()) - 1)
+        .all(|mask| side_cost(mask, 0) + side_cost(mask, 1) >= cost * (1.0 - 1e-9))
 }
 
 fn sorted_centers(boxes: &[Bounds], axis: usize) -> Vec<f64> {

@@ -143,9 +143,9 @@ const ANGLE: Aspect<CameraCall> = Aspect {
 
 /// Parts of the vertical fields of view for each class of [`ANGLE`].
 const ANGLES: [[(f64, f64); 3]; 3] = [
-    [(1.0, 1.0), (1.0, 10.0), (10.0, 15.0)],
+    [(1.0, 1.0), (5.0, 10.0), (10.0, 15.0)],
     [(16.0, 30.0), (30.0, 60.0), (60.0, 120.0)],
-    [(121.0, 150.0), (150.0, 175.0), (175.0, 175.0)],
+    [(175.0, 175.0), (165.0, 175.0), (121.0, 150.0)],
 ];
 
 /// Parts of the aspect ratios for each class of [`SENSOR`].

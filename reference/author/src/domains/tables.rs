@@ -43,6 +43,14 @@ impl<C: Call> Generator<'_, C> {
             rng.retry(|rng| self.table(rng, size, &mut balances))
         };
         let mut tables: Vec<Drawn<C>> = sizes.iter().enumerate().map(table).collect();
+        if let Some((subject, inputs)) = tables.last_mut() {
+            // The last call hits, so that an answer that is kept shows in the first call of the next table.
+            let is_hit = |input: &C::Input| C::new(*subject, *input).is_hit();
+            if let Some(hit) = inputs.iter().rposition(is_hit) {
+                let hit = inputs.remove(hit);
+                inputs.push(hit);
+            }
+        }
         let again = tables.last().and_then(|last| self.with_other_subject(last));
         tables.extend(again);
         tables

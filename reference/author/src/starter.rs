@@ -10,8 +10,7 @@ use grader::handed_out::HandedOut;
 use crate::generated_file::GeneratedFile;
 
 /// Generates every file of an assignment's starter from its reference in the workspace at `root`:
-/// for the folder that students edit, and for the copy that is embedded in the grader. Also generates
-/// the declarations of modules in the root of the reference's crate.
+/// for the folder that students edit, and for the copy that is embedded in the grader.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let folders = [
         format!("{}/src", handed_out.student),
@@ -22,12 +21,11 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
     let given = given.map(|file| file.name);
     for file in handed_out.file_names().chain(given) {
         let path = root.join(handed_out.reference).join(file);
-        let mut source = files::read_to_string(&path)?;
-        if file == handed_out.given[0].name {
-            source = with_modules(&source, handed_out);
-            let path = format!("{}/{file}", handed_out.reference);
-            generated.push(GeneratedFile::new(path, &*source));
-        }
+        let source = if file == handed_out.given[0].name {
+            reference_root(root, handed_out)?.contents
+        } else {
+            files::read_to_string(&path)?
+        };
         let starter =
             projection::starter(&source).map_err(|error| anyhow!("{}:{error}", path.display()))?;
         for folder in &folders {
@@ -35,6 +33,13 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
         }
     }
     Ok(generated)
+}
+
+/// Generates the root of the reference's crate, in which each file is declared.
+pub fn reference_root(root: &Path, handed_out: &HandedOut) -> Result<GeneratedFile> {
+    let path = format!("{}/{}", handed_out.reference, handed_out.given[0].name);
+    let source = files::read_to_string(root.join(&path))?;
+    Ok(GeneratedFile::new(path, with_modules(&source, handed_out)))
 }
 
 /// Returns the root of the crate with a declaration for each of its files in place of those at its end.

@@ -37,7 +37,8 @@ pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
     let root = Path::new(ROOT);
     match command {
         Command::Starter(check) => {
-            let files = starter::generated_files(root, authoring.handed_out)?;
+            let mut files = starter::generated_files(root, authoring.handed_out)?;
+            files.push(starter::reference_root(root, authoring.handed_out)?);
             generate(&files, check.mode(), "starter")
         }
         Command::Exams(check) => {

@@ -35,14 +35,14 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
     Ok(generated)
 }
 
-/// Generates the root of the reference's crate, in which each file is declared.
+/// Generates `lib.rs` of the reference's crate, which declares a module for each file.
 pub fn reference_root(root: &Path, handed_out: &HandedOut) -> Result<GeneratedFile> {
     let path = format!("{}/{}", handed_out.reference, handed_out.given[0].name);
     let source = files::read_to_string(root.join(&path))?;
     Ok(GeneratedFile::new(path, with_modules(&source, handed_out)))
 }
 
-/// Returns the root of the crate with a declaration for each of its files in place of those at its end.
+/// Replaces the declarations at the end of the crate's `lib.rs` with one for each file.
 fn with_modules(root: &str, handed_out: &HandedOut) -> String {
     let (before, _) = root.split_once("pub mod ").unwrap_or((root, ""));
     let given = handed_out.given.iter().skip(1).map(|file| file.name);

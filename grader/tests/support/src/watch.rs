@@ -1,4 +1,4 @@
-//! Runs `cargo grade --watch`, and reads its reports.
+//! Runs `cargo grade --watch` and reads its reports.
 
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, ChildStdout, Command, Stdio};

@@ -210,7 +210,7 @@ fn is_meant(text: &str, sentence: &str) -> bool {
     }
 }
 
-/// Returns the reason why a class of an aspect is not asked for what a column counts.
+/// Returns why the exam does not ask a class for what a column counts, if it has a reason.
 fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Option<&'static str> {
     let mut reasons = domain.not_asked().iter();
     let found = reasons.find(|reason| reason.is_about(aspect, class, column));

@@ -27,7 +27,7 @@ const GRADING: (&str, &str) = (
 const NEXT: &str = "Next: ";
 
 /// Generates the pages that list an assignment's tasks in the workspace at `root`: each with its list
-/// replaced, and with everything else as it is. A chapter ends with a link to the next one.
+/// replaced, and everything else unchanged. A chapter ends with a link to the next one.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let mut chapters: Vec<&str> = Vec::new();
     let (mut links, mut chapter_rows, mut task_rows) = (Vec::new(), Vec::new(), Vec::new());

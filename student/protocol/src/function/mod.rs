@@ -1,7 +1,7 @@
 //! Functions: the methods of a submission that an exam calls in tables, once per row.
 //!
-//! Each function is declared in its own file. The lists of all functions are here: the questions, each
-//! of which is a table or one of the few things that are none; and the methods of a submission.
+//! Each function is declared in its own file. Here are the two lists that name them all: `Question`, whose
+//! few other variants are no tables, and the methods of `Submission`.
 
 mod bbox_hit;
 mod hit;
@@ -131,7 +131,7 @@ pub trait Function: Copy + Debug + PartialEq + 'static {
     /// Returns the question that asks for the calls of a table.
     fn question(table: Table<Self>) -> Question;
 
-    /// Converts the subject to a submission's own type, and returns what calls the method on it.
+    /// Converts the subject to a submission's own type and returns a closure that calls the method on it.
     fn calls<'a>(
         submission: &'a dyn Submission,
         subject: &'a Self::Subject,

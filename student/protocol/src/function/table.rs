@@ -31,7 +31,7 @@ impl<F: Function> Table<F> {
 
 /// Runs the calls of one table.
 pub trait Attempts {
-    /// Runs `call`, and returns how that ended.
+    /// Runs `call` and returns how it ended.
     fn attempt(&mut self, call: &mut dyn FnMut()) -> ElementOutcome<()>;
 }
 

@@ -128,7 +128,7 @@ fn bits_arrive_where_students_see_everything() {
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    // Outputs in which the same bits arrive share a table.
+    // Outputs that carry the same bits share a table.
     let mut tables: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for output in rows[0].1.keys() {
         let mut table = String::new();

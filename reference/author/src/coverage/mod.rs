@@ -2,7 +2,6 @@
 //! often the exam asks each class of each function's domain. What is not asked has a reason, beside the
 //! task's items or the function's domain.
 
-mod classes;
 mod contract;
 
 use std::path::Path;
@@ -14,14 +13,12 @@ use judging::exam::Exam;
 
 use crate::authoring::Authoring;
 use crate::domains::Domain;
+use crate::domains::classes::{Cell, Classes, FEWEST};
 use crate::generated_file::GeneratedFile;
 use crate::items::AuthoredTask;
-use classes::Classes;
 
 /// The table, relative to the folder of an assignment's solutions.
 const TABLE: &str = "coverage.md";
-/// The fewest answers of a class, so that no mistake passes by luck.
-const FEWEST: usize = 2;
 
 /// The table, and what is wrong with it.
 #[derive(Debug)]
@@ -119,24 +116,29 @@ impl Coverage {
 
     fn add_function(&mut self, domain: &dyn Domain, exam: &Exam) {
         let function = domain.function();
-        let classes = Classes::count(domain, exam);
+        let classes = Classes::count(domain, &exam.items);
         let mut reasons: Vec<&str> = Vec::new();
         let columns = &classes.columns;
         let mut rows = String::new();
-        for (aspect, (name, names)) in domain.aspects().into_iter().enumerate() {
-            for (class, class_name) in names.iter().enumerate() {
-                rows += &format!("| {name} | {class_name} |");
-                for column in columns {
-                    let count = classes.times(aspect, class, column);
-                    let reason = reason(domain, name, class_name, column);
-                    let place = format!("{name} {class_name:?} for {column}");
-                    let shown = self.shown(function, &place, count, reason, &mut reasons);
-                    rows += &format!(" {shown} |");
-                }
-                rows.push('\n');
+        for cells in classes.cells(domain).chunks(columns.len().max(1)) {
+            rows += &format!("| {} | {} |", cells[0].aspect, cells[0].class);
+            for cell in cells {
+                rows += &format!(" {} |", self.shown(function, cell, &mut reasons));
+            }
+            rows.push('\n');
+        }
+        for pair in classes.pairs(domain) {
+            let [(first, class), (second, other)] = pair.classes;
+            if pair.is_missing() {
+                self.problems.push(format!(
+                    "{function} is never asked at {first} {class:?} with {second} {other:?}"
+                ));
+            } else if pair.count > 0 {
+                self.asked += 1;
+            } else {
+                self.excused += 1;
             }
         }
-        self.check_pairs(domain, &classes);
         self.table.contents += &format!(
             "\n## `{function}`\n\n| aspect | class | {} |\n|---|---|{}\n{rows}",
             columns.join(" | "),
@@ -148,21 +150,17 @@ impl Coverage {
     }
 
     /// Returns a count, or the letter of the reason why it is small. Without a reason, that is a problem.
-    fn shown<'a>(
-        &mut self,
-        function: &str,
-        place: &str,
-        count: usize,
-        reason: Option<&'a str>,
-        reasons: &mut Vec<&'a str>,
-    ) -> String {
+    fn shown(&mut self, function: &str, cell: &Cell, reasons: &mut Vec<&'static str>) -> String {
+        let count = cell.count;
         if count >= FEWEST {
             self.asked += 1;
             return count.to_string();
         }
-        let Some(why) = reason else {
-            let problem = format!("{function} is asked {count} times at {place}");
-            self.problems.push(problem);
+        let Some(why) = cell.reason else {
+            self.problems.push(format!(
+                "{function} is asked {count} times at {} {:?} for {}",
+                cell.aspect, cell.class, cell.column
+            ));
             return format!("**{count}**");
         };
         self.excused += 1;
@@ -172,34 +170,6 @@ impl Coverage {
             reasons.len() - 1
         }))
     }
-
-    /// Checks that each pair of classes of two aspects about shape is asked.
-    fn check_pairs(&mut self, domain: &dyn Domain, classes: &Classes) {
-        const COLUMN: &str = "pairs";
-        let (function, aspects) = (domain.function(), domain.aspects());
-        let find = |name: &str| aspects.iter().position(|aspect| aspect.0 == name);
-        for [first, second] in domain.pairs() {
-            let (Some(a), Some(b)) = (find(first), find(second)) else {
-                self.problems
-                    .push(format!("{function} has no aspects {first} and {second}"));
-                continue;
-            };
-            for (i, class) in aspects[a].1.iter().enumerate() {
-                for (j, other) in aspects[b].1.iter().enumerate() {
-                    let count = classes.times_together([(a, i), (b, j)]);
-                    let of_first = reason(domain, first, class, COLUMN);
-                    let reason = of_first.or_else(|| reason(domain, second, other, COLUMN));
-                    match (count, reason) {
-                        (1.., _) => self.asked += 1,
-                        (0, Some(_)) => self.excused += 1,
-                        (0, None) => self.problems.push(format!(
-                            "{function} is never asked at {first} {class:?} with {second} {other:?}"
-                        )),
-                    }
-                }
-            }
-        }
-    }
 }
 
 /// Returns whether a text is a sentence, or its beginning up to an ellipsis.
@@ -208,13 +178,6 @@ fn is_meant(text: &str, sentence: &str) -> bool {
         Some(beginning) => sentence.starts_with(beginning),
         None => sentence == text,
     }
-}
-
-/// Returns why the exam does not ask a class for what a column counts, if it has a reason.
-fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Option<&'static str> {
-    let mut reasons = domain.not_asked().iter();
-    let found = reasons.find(|reason| reason.is_about(aspect, class, column));
-    found.map(|reason| reason.why)
 }
 
 fn letter(index: usize) -> String {

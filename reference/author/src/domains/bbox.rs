@@ -440,7 +440,12 @@ impl BoxCall {
                 (origin - self.bounds.min)[axis].abs() < longer
             } else if is_flat.test(axis) {
                 // Where a slanting ray crosses the plane depends on the rounding of the time.
-                8.0 * EPSILON * coordinates.max_element() > 0.25 * longer * speed
+                let late = 8.0 * EPSILON * coordinates.max_element() / speed;
+                let is_far = |other: usize| {
+                    let away = late * f64::from(self.ray.dir[other].abs());
+                    !is_flat.test(other) && away > 0.25 * margins[other]
+                };
+                late > 0.25 * longer || (0..3).any(is_far)
             } else {
                 // A ray in the plane of a face is not tested, either.
                 let sides = [self.bounds.min, self.bounds.max];

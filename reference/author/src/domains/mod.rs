@@ -9,6 +9,7 @@ mod balance;
 pub mod bbox;
 pub mod build;
 pub mod camera;
+pub mod classes;
 mod decoys;
 pub mod fields;
 pub mod shape;

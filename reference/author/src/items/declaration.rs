@@ -4,7 +4,7 @@ use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
 
 use crate::domains::Domain;
-use crate::items::distinct::draw_items;
+use crate::items::complete;
 use crate::seed::{Rng, Seed};
 
 /// A task as its authors have it: its items, and what the contract says that they do not test.
@@ -40,9 +40,7 @@ impl AuthoredTask {
             let points = found.map_or(item.points, |(_, points)| *points);
             Declaration { points, ..*item }
         });
-        let mut items = draw_items(seed, &declarations.collect::<Vec<_>>());
-        (self.finish)(seed, &mut items);
-        items
+        complete::draw_items(seed, self, &declarations.collect::<Vec<_>>())
     }
 }
 

@@ -1,9 +1,6 @@
 //! Final exams share no question with the practice exam, whose answers everybody has. An item is
 //! drawn again as long as the practice exam's answers would earn points in it.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex};
-
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge, one_row_answers_all};
 use protocol::Answer;
@@ -11,32 +8,15 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// Draws items. Those of a final exam differ from those of the practice exam in every question.
-pub(super) fn draw_items(seed: Seed, items: &[Declaration]) -> Vec<DeclaredItem> {
-    items.iter().map(|item| draw_distinct(seed, item)).collect()
-}
-
-fn draw_distinct(seed: Seed, item: &Declaration) -> DeclaredItem {
+/// Draws an item that differs from this one of the practice exam in every question.
+pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
-    if seed == Seed::PRACTICE {
-        return item.draw(seed);
-    }
-    let practice = practice_item(item);
-    let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), &practice);
+    let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), practice);
     std::iter::successors(Some(seed), |seed| Some(seed.next()))
         .take(MAX_ATTEMPTS)
         .map(|seed| item.draw(seed))
         .find(is_distinct)
         .expect("some numbers differ from those of the practice exam")
-}
-
-/// Returns an item of the practice exam. It is drawn once, however many exams are generated.
-fn practice_item(item: &Declaration) -> Arc<Item> {
-    static DRAWN: Mutex<BTreeMap<&str, Arc<Item>>> = Mutex::new(BTreeMap::new());
-    let mut drawn = DRAWN.lock().expect("no item panics while it is drawn");
-    let known = drawn.entry(item.id);
-    let practice = known.or_insert_with(|| Arc::new(item.draw(Seed::PRACTICE).item().clone()));
-    Arc::clone(practice)
 }
 
 /// Returns whether the correct answer to a question of the one item earns points for a question of

@@ -7,6 +7,7 @@
 pub mod bbox;
 pub mod build;
 pub mod camera;
+mod complete;
 mod declaration;
 mod distinct;
 mod groups;

@@ -65,9 +65,6 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
 /// `None` if the best partition is along another axis, or if another one is nearly as good. That includes
 /// partitions of a few primitives by no plane.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
-    /// The minimum cost of the second-best partition, relative to the best.
-    const MIN_RATIO: f64 = 1.05;
-
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)
         .flat_map(|axis| partitions(boxes, &indices, axis))
@@ -79,8 +76,20 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let centers = sorted_centers(boxes, axis);
     (best.axis == axis
         && second.cost >= MIN_RATIO * best.cost
+        && given_order_is_worse(boxes, best.cost)
         && no_sides_are_cheaper(boxes, best.cost))
-        .then(|| (centers[best.left - 1], centers[best.left]))
+    .then(|| (centers[best.left - 1], centers[best.left]))
+}
+
+/// The minimum cost of the second-best partition, relative to the best.
+const MIN_RATIO: f64 = 1.05;
+
+/// Returns whether it is worse to split the primitives in the order they are given in, which a builder keeps
+/// along an axis where all centres coincide.
+fn given_order_is_worse(boxes: &[Bounds], cost: f64) -> bool {
+    let indices: Vec<usize> = (0..boxes.len()).collect();
+    let costs = partition_costs(boxes, &indices);
+    costs.into_iter().all(|other| other >= MIN_RATIO * cost)
 }
 
 /// Returns whether all ways to divide a few primitives cost at least as much, by a plane or not. Where
@@ -183,6 +192,16 @@ fn partitions(boxes: &[Bounds], indices: &[usize], axis: usize) -> Vec<Partition
     sort_by_center(boxes, &mut sorted, axis);
     let center = |i: usize| boxes[sorted[i]].center()[axis];
 
+    let costs = partition_costs(boxes, &sorted).into_iter();
+    (1..)
+        .zip(costs)
+        .filter(|&(left, _)| center(left - 1) < center(left))
+        .map(|(left, cost)| Partition { axis, left, cost })
+        .collect()
+}
+
+/// Returns the costs of splitting a row of primitives after the first, after the second, and so on.
+fn partition_costs(boxes: &[Bounds], row: &[usize]) -> Vec<f64> {
     // The areas of the boxes around all primitives up to and including each one.
     let accumulated_areas = |order: &mut dyn Iterator<Item = &usize>| -> Vec<f64> {
         let mut bounds = Bounds::around([]);
@@ -193,17 +212,11 @@ fn partitions(boxes: &[Bounds], indices: &[usize], axis: usize) -> Vec<Partition
             })
             .collect()
     };
-    let before = accumulated_areas(&mut sorted.iter());
-    let mut after = accumulated_areas(&mut sorted.iter().rev());
+    let before = accumulated_areas(&mut row.iter());
+    let mut after = accumulated_areas(&mut row.iter().rev());
     after.reverse();
-
-    (1..sorted.len())
-        .filter(|&left| center(left - 1) < center(left))
-        .map(|left| Partition {
-            axis,
-            left,
-            cost: before[left - 1] * left as f64 + after[left] * (sorted.len() - left) as f64,
-        })
+    (1..row.len())
+        .map(|left| before[left - 1] * left as f64 + after[left] * (row.len() - left) as f64)
         .collect()
 }
 

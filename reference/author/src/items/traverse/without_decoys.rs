@@ -125,7 +125,7 @@ fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
                 let hit = tree.expected_hit(&Ray64::from(&ray));
                 if let Some(hit) = hit.filter(|_| count % 2 == 0) {
                     let side = sizes[hit.shape as usize];
-                    let ahead = rng.uniform(0.014, 0.017) * side;
+                    let ahead = rng.uniform(0.009, 0.011) * side;
                     let start = hit.position - ahead * ray.dir.as_dvec3();
                     ray.origin = start.as_vec3();
                     ray.range.min = 0.0;

@@ -1,0 +1,202 @@
+//! How often the classes of a function's domain are asked.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use judging::exam::{Item, Key, TreeCheck};
+
+use super::Domain;
+
+/// The fewest answers of a class, so that no mistake passes by luck.
+pub const FEWEST: usize = 2;
+
+/// The column of calls whose answer is not `None`.
+const PRESENT: &str = "some";
+/// The column of calls whose answer is `None`.
+const ABSENT: &str = "`None`";
+
+/// How often each class of each aspect is asked, for hits, misses, and each quantity of a hit.
+#[derive(Debug)]
+pub struct Classes {
+    /// The columns that occur.
+    pub columns: Vec<String>,
+    counts: BTreeMap<(usize, usize, String), usize>,
+    /// How often each pair of classes is asked.
+    pairs: BTreeMap<[(usize, usize); 2], usize>,
+}
+
+impl Classes {
+    /// Counts the calls of a function in an exam's items.
+    pub fn count<'a>(domain: &dyn Domain, items: impl IntoIterator<Item = &'a Item>) -> Self {
+        let mut counted = Classes {
+            columns: Vec::new(),
+            counts: BTreeMap::new(),
+            pairs: BTreeMap::new(),
+        };
+        let mut judged_anywhere = BTreeSet::new();
+        for asked in items.into_iter().flat_map(|item| &item.questions) {
+            let Key::Table { judged, rows, .. } = &asked.key else {
+                let judged = judged_of_tree(&asked.key);
+                judged_anywhere.extend(judged.iter().map(|&name| name.to_owned()));
+                counted.add_all(&domain.classes(&asked.question), |_| {
+                    std::iter::once(PRESENT)
+                        .chain(judged.iter().copied())
+                        .collect()
+                });
+                continue;
+            };
+            judged_anywhere.extend(judged.iter().cloned());
+            counted.add_all(&domain.classes(&asked.question), |row| {
+                if rows.is_present(row) {
+                    let quantities = judged.iter().map(String::as_str);
+                    std::iter::once(PRESENT).chain(quantities).collect()
+                } else {
+                    vec![ABSENT]
+                }
+            });
+        }
+        let used: BTreeSet<String> = counted.counts.keys().map(|key| key.2.clone()).collect();
+        let quantities = judged_anywhere.into_iter().filter(|it| used.contains(it));
+        let fixed = [PRESENT, ABSENT].map(str::to_owned).into_iter();
+        counted.columns = fixed
+            .filter(|it| used.contains(it))
+            .chain(quantities)
+            .collect();
+        counted
+    }
+
+    fn add_all<'a>(
+        &mut self,
+        calls: &[Vec<Option<usize>>],
+        columns: impl Fn(usize) -> Vec<&'a str>,
+    ) {
+        for (row, classes) in calls.iter().enumerate() {
+            let classes = classes.iter().enumerate();
+            let classes = classes.filter_map(|(aspect, class)| Some((aspect, (*class)?)));
+            let classes: Vec<(usize, usize)> = classes.collect();
+            for &(aspect, class) in &classes {
+                for column in columns(row) {
+                    let key = (aspect, class, column.to_owned());
+                    *self.counts.entry(key).or_default() += 1;
+                }
+                for &other in &classes {
+                    *self.pairs.entry([(aspect, class), other]).or_default() += 1;
+                }
+            }
+        }
+    }
+
+    /// Returns how often each class is asked: class by class, with the columns in their order.
+    pub fn cells(&self, domain: &dyn Domain) -> Vec<Cell> {
+        let mut cells = Vec::new();
+        for (aspect, (name, classes)) in domain.aspects().into_iter().enumerate() {
+            for (class, class_name) in classes.iter().enumerate() {
+                for column in &self.columns {
+                    let key = (aspect, class, column.clone());
+                    cells.push(Cell {
+                        aspect: name,
+                        class: class_name,
+                        column: column.clone(),
+                        count: self.counts.get(&key).copied().unwrap_or(0),
+                        reason: reason(domain, name, class_name, column),
+                    });
+                }
+            }
+        }
+        cells
+    }
+
+    /// Returns how often each pair of classes is asked that shall be asked together. Panics if the domain
+    /// has a pair of aspects that it does not have.
+    pub fn pairs(&self, domain: &dyn Domain) -> Vec<Pair> {
+        /// The column of pairs in a domain's reasons.
+        const COLUMN: &str = "pairs";
+        let aspects = domain.aspects();
+        let find = |name: &str| {
+            let found = aspects.iter().position(|aspect| aspect.0 == name);
+            found.expect("a pair names two aspects of its domain")
+        };
+        let mut pairs = Vec::new();
+        for names in domain.pairs() {
+            let [a, b] = names.map(find);
+            for (i, class) in aspects[a].1.iter().enumerate() {
+                for (j, other) in aspects[b].1.iter().enumerate() {
+                    let count = self.pairs.get(&[(a, i), (b, j)]).copied().unwrap_or(0);
+                    let of_first = reason(domain, names[0], class, COLUMN);
+                    let of_second = || reason(domain, names[1], other, COLUMN);
+                    pairs.push(Pair {
+                        classes: [(names[0], class), (names[1], other)],
+                        count,
+                        reason: of_first.or_else(of_second),
+                    });
+                }
+            }
+        }
+        pairs
+    }
+}
+
+/// How often a class is asked for what a column counts.
+#[derive(Debug)]
+pub struct Cell {
+    /// The aspect.
+    pub aspect: &'static str,
+    /// The class of the aspect.
+    pub class: &'static str,
+    /// What is counted.
+    pub column: String,
+    /// How many answers there are.
+    pub count: usize,
+    /// Why an exam need not ask it.
+    pub reason: Option<&'static str>,
+}
+
+impl Cell {
+    /// Returns whether it should be asked more often.
+    pub fn is_missing(&self) -> bool {
+        self.count < FEWEST && self.reason.is_none()
+    }
+}
+
+/// How often the classes of two aspects are asked together.
+#[derive(Debug)]
+pub struct Pair {
+    /// The aspects, each with its class.
+    pub classes: [(&'static str, &'static str); 2],
+    /// How many answers there are.
+    pub count: usize,
+    /// Why an exam need not ask it.
+    pub reason: Option<&'static str>,
+}
+
+impl Pair {
+    /// Returns whether it should be asked.
+    pub fn is_missing(&self) -> bool {
+        self.count == 0 && self.reason.is_none()
+    }
+}
+
+/// Returns why an exam does not ask a class for what a column counts, if it has a reason.
+fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Option<&'static str> {
+    let mut reasons = domain.not_asked().iter();
+    let found = reasons.find(|reason| reason.is_about(aspect, class, column));
+    found.map(|reason| reason.why)
+}
+
+/// Returns the names of what is judged about a tree.
+fn judged_of_tree(key: &Key) -> Vec<&'static str> {
+    let Key::Tree {
+        checks, sweep_cost, ..
+    } = key
+    else {
+        return Vec::new();
+    };
+    let checks = checks.iter().map(|check| match check {
+        TreeCheck::Partition => "partition",
+        TreeCheck::Contains => "contents",
+        TreeCheck::Tight => "tightness",
+        TreeCheck::Split => "split",
+        TreeCheck::LeafSize => "leaf size",
+        TreeCheck::Stops => "stops",
+    });
+    checks.chain(sweep_cost.map(|_| "cost")).collect()
+}

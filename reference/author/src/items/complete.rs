@@ -1,0 +1,98 @@
+//! Every exam asks every class of a task's domain: items are drawn again until it does.
+
+use std::collections::BTreeMap;
+use std::mem;
+use std::sync::{Arc, Mutex};
+
+use super::declaration::{AuthoredTask, Declaration, DeclaredItem};
+use super::distinct::draw_distinct;
+use crate::domains::Domain;
+use crate::domains::classes::Classes;
+use crate::seed::Seed;
+
+/// How often each item is drawn again at most.
+const ATTEMPTS: usize = 24;
+
+/// Draws the items of a task. Those of a final exam differ from those of the practice exam in every
+/// question.
+pub(super) fn draw_items(
+    seed: Seed,
+    task: &AuthoredTask,
+    items: &[Declaration],
+) -> Vec<DeclaredItem> {
+    if seed == Seed::PRACTICE {
+        return draw_complete(seed, task, items, |seed, index| items[index].draw(seed));
+    }
+    let practice = practice_items(task, items);
+    draw_complete(seed, task, items, |seed, index| {
+        draw_distinct(seed, &items[index], practice[index].item())
+    })
+}
+
+/// Returns the items of the practice exam. They are drawn once, however many exams are generated.
+fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<DeclaredItem>> {
+    static DRAWN: Mutex<BTreeMap<Vec<&str>, Arc<Vec<DeclaredItem>>>> = Mutex::new(BTreeMap::new());
+    let mut drawn = DRAWN.lock().expect("no item panics while it is drawn");
+    let known = drawn.entry(items.iter().map(|item| item.id).collect());
+    let practice = known.or_insert_with(|| Arc::new(draw_items(Seed::PRACTICE, task, items)));
+    Arc::clone(practice)
+}
+
+/// Draws the items of a task. As long as a class of the task's domain is missing, an item that could ask
+/// it is drawn again. It is kept if fewer classes are missing then.
+fn draw_complete(
+    seed: Seed,
+    task: &AuthoredTask,
+    items: &[Declaration],
+    draw: impl Fn(Seed, usize) -> DeclaredItem,
+) -> Vec<DeclaredItem> {
+    let finish = |drawn: &[DeclaredItem]| {
+        let mut finished = drawn.to_vec();
+        (task.finish)(seed, &mut finished);
+        finished
+    };
+    let mut drawn: Vec<DeclaredItem> = (0..items.len()).map(|index| draw(seed, index)).collect();
+    let mut finished = finish(&drawn);
+    let Some(domain) = task.domain else {
+        return finished;
+    };
+    let mut missing = missing_columns(domain, &finished);
+    let mut seeds = vec![seed; items.len()];
+    for index in (0..ATTEMPTS).flat_map(|_| 0..items.len()) {
+        if missing.is_empty() {
+            break;
+        }
+        if !asks_any(domain, &drawn[index], &missing) {
+            continue;
+        }
+        seeds[index] = seeds[index].next();
+        let before = mem::replace(&mut drawn[index], draw(seeds[index], index));
+        let other = finish(&drawn);
+        let still_missing = missing_columns(domain, &other);
+        if still_missing.len() < missing.len() {
+            (finished, missing) = (other, still_missing);
+        } else {
+            drawn[index] = before;
+        }
+    }
+    finished
+}
+
+/// Returns the column of each class that is missing, or an empty name for a pair of classes.
+fn missing_columns(domain: &dyn Domain, drawn: &[DeclaredItem]) -> Vec<String> {
+    let classes = Classes::count(domain, drawn.iter().map(DeclaredItem::item));
+    let cells = classes.cells(domain).into_iter();
+    let cells = cells
+        .filter(|cell| cell.is_missing())
+        .map(|cell| cell.column);
+    let pairs = classes.pairs(domain).into_iter();
+    let pairs = pairs.filter(|pair| pair.is_missing());
+    cells.chain(pairs.map(|_| String::new())).collect()
+}
+
+/// Returns whether an item asks the domain's function for something that one of these columns counts.
+fn asks_any(domain: &dyn Domain, item: &DeclaredItem, columns: &[String]) -> bool {
+    let asked = Classes::count(domain, [item.item()]).columns;
+    let is_asked = |column: &String| column.is_empty() || asked.contains(column);
+    !asked.is_empty() && columns.iter().any(is_asked)
+}

@@ -445,7 +445,10 @@ impl BoxCall {
                     let away = late * f64::from(self.ray.dir[other].abs());
                     !is_flat.test(other) && away > 0.25 * margins[other]
                 };
-                late > 0.25 * longer || (0..3).any(is_far)
+                let time = (self.bounds.min - origin)[axis] / f64::from(self.ray.dir[axis]);
+                let ends = [self.times.min, self.times.max].map(f64::from);
+                let is_at_an_end = ends.iter().any(|end| (end - time).abs() < late);
+                is_at_an_end || late > 0.25 * longer || (0..3).any(is_far)
             } else {
                 // A ray in the plane of a face is not tested, either.
                 let sides = [self.bounds.min, self.bounds.max];

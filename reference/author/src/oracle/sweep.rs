@@ -73,9 +73,15 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let [best, second, ..] = &all[..] else {
         return None;
     };
+    let mut sorted = indices.clone();
+    sort_by_center(boxes, &mut sorted, best.axis);
+    let sides = sorted.split_at(best.left);
+    let is_clear_elsewhere =
+        (0..3).all(|other| other == axis || is_clear_along(boxes, sides, other));
     let centers = sorted_centers(boxes, axis);
     (best.axis == axis
         && second.cost >= MIN_RATIO * best.cost
+        && is_clear_elsewhere
         && given_order_is_worse(boxes, best.cost)
         && no_sides_are_cheaper(boxes, best.cost))
     .then(|| (centers[best.left - 1], centers[best.left]))
@@ -83,6 +89,25 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
+
+/// Returns whether rounding does not decide if a plane across this axis has these sides, too: the centres of
+/// the sides are clearly apart, or clearly mixed, or all are equal.
+fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {
+    /// How wrong a centre may be, relative to the largest coordinate.
+    const ERROR: f64 = 5e-7;
+    let ends = |side: &[usize]| {
+        let centers = side.iter().map(|&index| boxes[index].center()[axis]);
+        centers.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), center| {
+            (min.min(center), max.max(center))
+        })
+    };
+    let (first, second) = (ends(sides.0), ends(sides.1));
+    let coordinates = [first.0, first.1, second.0, second.1].map(f64::abs);
+    let error = ERROR * coordinates.into_iter().fold(0.0, f64::max);
+    let are_equal = first.0 == first.1 && first == second;
+    let gaps = [second.0 - first.1, first.0 - second.1];
+    are_equal || gaps.iter().all(|gap| gap.abs() > error)
+}
 
 /// Returns whether it is worse to split the primitives in the order they are given in, which a builder keeps
 /// along an axis where all centres coincide.

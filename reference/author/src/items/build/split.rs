@@ -106,21 +106,24 @@ pub(super) const ONE_SPLIT: Declaration = Declaration {
 struct Drawn {
     shapes: Vec<Shape>,
     max_leaf_size: usize,
+    /// The axis of the best split.
+    axis: usize,
     /// The smallest extent that decides.
     detail: f64,
 }
 
 impl Drawn {
-    fn new(shapes: Vec<Shape>, max_leaf_size: usize) -> Drawn {
+    fn new(shapes: Vec<Shape>, max_leaf_size: usize, axis: usize) -> Drawn {
         Drawn {
             shapes,
             max_leaf_size,
+            axis,
             detail: f64::INFINITY,
         }
     }
 
     /// Returns the question at a place that is so near that coordinates in single precision have
-    /// digits for the detail.
+    /// digits for the detail, and the best split is still the only one.
     fn question(&self, rng: &mut Rng, size: usize) -> ExamQuestion {
         /// The largest coordinate, in extents of the detail.
         const MOST: f64 = 1e5;
@@ -130,7 +133,7 @@ impl Drawn {
                 [&self.shapes, &shapes].map(|all| Bounds::enclosing(all.iter().map(scan::bounds)));
             let detail = self.detail * after.diagonal() / before.diagonal();
             let largest = after.min.abs().max(after.max.abs()).max_element();
-            (largest <= MOST * detail).then_some(shapes)
+            (largest <= MOST * detail && is_unambiguous(&shapes, self.axis)).then_some(shapes)
         });
         cost_question(shapes, self.max_leaf_size as u32)
     }
@@ -155,7 +158,8 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
                 ..layout
             };
             let is_mirrored = (number + axis).is_multiple_of(2);
-            drawn.push(Drawn::new(row(rng, &layout, axis, is_mirrored), 8 * times));
+            let shapes = row(rng, &layout, axis, is_mirrored);
+            drawn.push(Drawn::new(shapes, 8 * times, axis));
         }
     }
     for (index, count) in [3, 4, 5, 6, 8].into_iter().enumerate() {
@@ -165,17 +169,18 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
             _ => ALIGNMENTS[index / 2 % ALIGNMENTS.len()],
         };
         let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
-        drawn.push(Drawn::new(shapes, count - 1));
+        drawn.push(Drawn::new(shapes, count - 1, axis));
     }
     for count in 3..=7 {
         let axis = rng.index(3);
-        drawn.push(Drawn::new(uneven(rng, count, axis), count - 1));
+        drawn.push(Drawn::new(uneven(rng, count, axis), count - 1, axis));
     }
     for count in [16_usize, 64, 129, 256, 513, 1000] {
         let (axis, is_mirrored) = (rng.index(3), rng.coin());
         let largest = 6 * count / 10 + count.div_ceil(64);
         let leaf_size = largest + rng.index(count - largest);
-        drawn.push(Drawn::new(many(rng, count, axis, is_mirrored), leaf_size));
+        let shapes = many(rng, count, axis, is_mirrored);
+        drawn.push(Drawn::new(shapes, leaf_size, axis));
     }
     for (index, (count, least)) in STACKS.iter().enumerate() {
         let ratio = least * rng.log_uniform(1.1, 8.0);
@@ -388,6 +393,7 @@ fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
     Drawn {
         shapes,
         max_leaf_size: count.div_ceil(2),
+        axis,
         detail: space,
     }
 }
@@ -414,6 +420,7 @@ fn layers(rng: &mut Rng) -> Drawn {
     Drawn {
         shapes,
         max_leaf_size: 4 * IN_EACH,
+        axis,
         detail: 0.1,
     }
 }

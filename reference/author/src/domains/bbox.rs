@@ -48,7 +48,11 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
         ),
         not_asked(
             "outcome",
-            &["narrowly misses", "narrowly misses a flat box"],
+            &[
+                "narrowly misses",
+                "narrowly misses a flat box",
+                "narrowly misses a flat strip",
+            ],
             &[],
             "The box is missed.",
         ),
@@ -128,7 +132,7 @@ const FORM: Aspect<BoxCall> = Aspect {
         parts.sort_by(f64::total_cmp);
         let [least, middle, _] = parts;
         let class = match (flat, least) {
-            (Some(_), _) if middle < THREAD => 5,
+            (Some(_), _) if middle < THREAD => FLAT_AND_THIN,
             (Some(axis), _) => 6 + axis,
             (None, _) if middle < THREAD => 4,
             (None, 0.75..) => 0,
@@ -140,6 +144,8 @@ const FORM: Aspect<BoxCall> = Aspect {
     },
 };
 
+/// The class of flat boxes that are thin as well.
+const FLAT_AND_THIN: usize = 5;
 /// The sides of a box below which it is thin, relative to the longest.
 const THIN: f64 = 0.02;
 /// The second longest side of a box below which it is thin along two axes, relative to the longest.
@@ -183,12 +189,17 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
         "too early",
         "narrowly misses",
         "narrowly misses a flat box",
+        "narrowly misses a flat strip",
     ],
     class: |call| {
         let line = Ray64::from(&call.ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
         let (min, max) = (f64::from(call.times.min), f64::from(call.times.max));
         Some(match call.bounds.span(&line) {
-            None if call.is_narrow_miss(&line) => 7 + usize::from(call.is_flat()),
+            None if call.is_narrow_miss(&line) => match (call.is_flat(), (FORM.class)(call)) {
+                (false, _) => 7,
+                (true, Some(FLAT_AND_THIN)) => 9,
+                (true, _) => 8,
+            },
             None => 4,
             Some((enter, _)) if enter > max => 5,
             Some((_, leave)) if leave < min => 6,

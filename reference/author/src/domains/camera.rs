@@ -4,7 +4,8 @@ use glam::{UVec2, Vec2, uvec2};
 use protocol::{PinholeCamera, Question, Sample};
 
 use super::fields::class_up_to;
-use super::{Aspect, FunctionDomain};
+use super::{Aspect, FunctionDomain, not_asked};
+use crate::oracle::camera;
 use crate::seed::Rng;
 
 /// The domain of `Camera::sample_ray`.
@@ -20,6 +21,8 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ROW,
         OFFSET_X,
         OFFSET_Y,
+        LARGE_PIXEL_X,
+        LARGE_PIXEL_Y,
         ANGLE,
         SENSOR,
     ],
@@ -30,7 +33,12 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ["sensor", "rows of the film"],
     ],
     calls,
-    not_asked: &[],
+    not_asked: &[not_asked(
+        "",
+        &["of a large film"],
+        &["origin", "range", "unit_direction"],
+        "The place in a pixel changes the direction only.",
+    )],
 };
 
 /// A call of `Camera::sample_ray`.
@@ -93,7 +101,7 @@ const ROWS: Aspect<CameraCall> = Aspect {
 };
 
 /// The classes of positions on a film with more than two pixels along an axis.
-const POSITIONS: &[&str] = &["first", "last", "between"];
+const POSITIONS: &[&str] = &["first", "last", "in the middle", "elsewhere"];
 
 const COLUMN: Aspect<CameraCall> = Aspect {
     name: "column",
@@ -128,6 +136,35 @@ const OFFSET_Y: Aspect<CameraCall> = Aspect {
     classes: OFFSETS,
     class: |call| Some(offset_class(call.sample.offset.y)),
 };
+
+/// Pixels of a large film that are so wide that the offset shows.
+const LARGE_PIXEL_X: Aspect<CameraCall> = Aspect {
+    name: "wide pixel",
+    classes: &["of a large film"],
+    class: |call| call.has_large_pixel(0).then_some(0),
+};
+
+/// Pixels of a large film that are so high that the offset shows.
+const LARGE_PIXEL_Y: Aspect<CameraCall> = Aspect {
+    name: "high pixel",
+    classes: &["of a large film"],
+    class: |call| call.has_large_pixel(1).then_some(0),
+};
+
+impl CameraCall {
+    /// Returns whether the film has many pixels along an axis, and yet the offset in this one shows.
+    fn has_large_pixel(&self, axis: usize) -> bool {
+        /// The least number of pixels.
+        const MANY: u32 = 2048;
+        /// The least angle that shows.
+        const LEAST: f64 = 2e-3;
+        let mut in_the_middle = self.sample;
+        in_the_middle.offset[axis] = 0.5;
+        let [one, other] =
+            [self.sample, in_the_middle].map(|sample| camera::direction(&self.camera, sample));
+        self.camera.film[axis] >= MANY && one.angle_between(other) > LEAST
+    }
+}
 
 /// The angles of view.
 const ANGLE: Aspect<CameraCall> = Aspect {
@@ -186,7 +223,8 @@ fn position_class(position: u32, count: u32) -> Option<usize> {
     (count > 2).then(|| match position {
         0 => 0,
         _ if position + 1 == count => 1,
-        _ => 2,
+        _ if (2 * position + 1).abs_diff(count) <= 1 => 2,
+        _ => 3,
     })
 }
 
@@ -295,9 +333,10 @@ fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
 
 /// Draws a pixel of a film, often one at an edge, and a position in it.
 pub fn sample(rng: &mut Rng, film: UVec2) -> Sample {
-    let mut position = |count: u32| match rng.index(4) {
+    let mut position = |count: u32| match rng.index(5) {
         0 => 0,
         1 => count - 1,
+        2 => count / 2,
         _ => rng.index(count as usize) as u32,
     };
     Sample {

@@ -20,7 +20,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
     calls: shape::calls,
     function: "Triangle::hit",
     subject_aspects: &[
-        SIZE, PLACE, OCTANT, NUMBER, PLANE, FACING, FORM, EDGE_ALONG, TILES, NORMALS, SPREAD,
+        SIZE, PLACE, OCTANT, NUMBER, PLANE, FACING, FORM, ANGLES, EDGE_ALONG, TILES, NORMALS,
+        SPREAD,
     ],
     aspects: &[
         START,
@@ -157,6 +158,29 @@ const FORM: Aspect<ShapeCall> = Aspect {
         })
     },
 };
+
+/// The angles of the triangle, almost all of which are usual.
+const ANGLES: Aspect<ShapeCall> = Aspect {
+    name: "angles",
+    classes: &[
+        "almost right at p0",
+        "almost right at p1",
+        "almost right at p2",
+        "usual",
+    ],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        let cosine = |corner: usize| {
+            let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
+            side(1).dot(side(2))
+        };
+        let right = (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT);
+        Some(right.unwrap_or(3))
+    },
+};
+
+/// The largest cosine of an angle that is almost right.
+const ALMOST_RIGHT: f64 = 3e-3;
 
 /// The edges of the triangle.
 const EDGE_ALONG: Aspect<ShapeCall> = Aspect {
@@ -573,13 +597,23 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
     });
     let corner = rng.index(3);
     let (second, third) = ((corner + 1) % 3, (corner + 2) % 3);
-    match rng.index(4) {
+    match rng.index(5) {
         // The side opposite a corner is so short that the corner is narrow.
         0 => corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03)),
         // A corner is so close to the side opposite it that the triangle is flat there.
         1 => {
             let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
             corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, 0.04));
+        }
+        // The angle at a corner is almost right.
+        2 => {
+            let side = corners[second] - corners[corner];
+            let other = corners[third] - corners[corner];
+            let part = other.dot(side) / side.length_squared();
+            let slant = rng.sign() * rng.uniform(0.5, 0.9) * ALMOST_RIGHT;
+            let across = other - part * side;
+            let along = slant * across.length() / side.length();
+            corners[third] = corners[corner] + across + along * side;
         }
         _ => {}
     }

@@ -1,6 +1,6 @@
 //! Items about the offset within the pixel, and about the ray itself.
 
-use glam::{UVec2, uvec2};
+use glam::{UVec2, Vec2, uvec2};
 use judging::exam::ExamQuestion;
 use protocol::{Rows, Sample};
 
@@ -84,7 +84,14 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         let film = uvec2(3840, 2160);
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
         let usual_samples = (0..24).map(|_| sample(rng, film)).collect();
-        let mut all = vec![(usual, usual_samples)];
+        // In the middle of the widest view, even the pixels of a large film are large.
+        let film = UVec2::from([(); 2].map(|()| rng.integer(2048, 4096)));
+        let wide = camera(rng.uniform(170.0, 175.0), 1.0, film);
+        let in_the_middle = (0..12).map(|_| Sample {
+            pixel: film / 2,
+            offset: Vec2::new(offset(rng), offset(rng)),
+        });
+        let mut all = vec![(usual, usual_samples), (wide, in_the_middle.collect())];
         all.extend(cameras(rng));
         let all = all.into_iter();
         all.map(|(camera, samples)| direction_question(camera, samples))

@@ -422,6 +422,6 @@ mod tests {
         };
         assert!(is_clear(0.0, 9.0) && is_clear(0.9, 9.0) && is_clear(1.1, 9.0));
         assert!(!is_clear(0.999, 9.0) && !is_clear(1.001, 9.0));
-        assert!(!is_clear(0.0, 4.01) && !is_clear(0.0, 6.01) && is_clear(0.0, 5.0));
+        assert!(!is_clear(0.0, 4.005) && !is_clear(0.0, 6.005) && is_clear(0.0, 5.0));
     }
 }

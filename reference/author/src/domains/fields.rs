@@ -284,7 +284,7 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     };
     let max = match rng.index(6) {
         0..=1 => f64::INFINITY,
-        2 => rng.log_uniform(f64::from(FAR), 1e30),
+        2 => rng.log_uniform(min.max(FAR.into()), 1e30),
         _ => rng.uniform(min, 1.2 * furthest),
     };
     Interval::new(min as f32, max as f32)

@@ -10,7 +10,6 @@ pub mod bbox;
 pub mod build;
 pub mod camera;
 pub mod classes;
-mod decoys;
 pub mod fields;
 pub mod shape;
 pub mod sphere;

@@ -49,7 +49,7 @@ impl Line {
     }
 
     /// Returns how far a point of the ray on the sphere is from the axis through the poles, in radii.
-    pub(super) fn from_pole(&self, distance: f64) -> f64 {
+    pub(super) fn pole_distance(&self, distance: f64) -> f64 {
         let radial = (self.ray64.at(distance) - self.sphere.center) / self.sphere.radius;
         radial.x.hypot(radial.z)
     }
@@ -102,7 +102,7 @@ impl Line {
         let error = self.distance_error();
         let position = error + 2.0 * EPSILON * coordinates;
         let normal = position / self.sphere.radius;
-        let from_pole = self.from_pole(distance);
+        let from_pole = self.pole_distance(distance);
         match quantity {
             "distance" => error <= PART * 1e-4 * coordinates.max(distance),
             "position" => position <= PART * 1e-4 * coordinates.max(distance),

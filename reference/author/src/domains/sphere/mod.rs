@@ -122,7 +122,7 @@ const LATITUDE: Aspect<ShapeCall> = Aspect {
     classes: &["near a pole", "anywhere"],
     class: |call| {
         let line = Line::of(call)?;
-        Some(usize::from(line.from_pole(line.hits().next()?) > NEAR))
+        Some(usize::from(line.pole_distance(line.hits().next()?) > NEAR))
     },
 };
 

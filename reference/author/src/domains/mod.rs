@@ -11,6 +11,7 @@ pub mod build;
 pub mod camera;
 pub mod classes;
 pub mod fields;
+mod placed;
 pub mod shape;
 pub mod sphere;
 mod tables;
@@ -24,6 +25,7 @@ use protocol::Question;
 use crate::seed::Rng;
 
 pub use balance::Balance;
+pub use placed::Placed;
 pub use tables::{Drawn, Generator};
 
 /// One way in which calls differ, divided into classes.

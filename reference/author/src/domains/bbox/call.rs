@@ -3,8 +3,8 @@
 use glam::Vec3;
 use protocol::{Interval, Query, Question, Ray};
 
-use crate::domains::Call;
 use crate::domains::fields;
+use crate::domains::{Call, Placed};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -45,7 +45,7 @@ pub(super) fn calls(question: &Question) -> Vec<BoxCall> {
 impl BoxCall {
     /// Returns half of the longest side.
     pub(super) fn size(&self) -> f64 {
-        0.5 * (self.bounds.max - self.bounds.min).max_element()
+        self.bounds.half_side()
     }
 
     /// Returns the part of the ray that is asked about.
@@ -134,5 +134,11 @@ impl Call for BoxCall {
         let leave = if leave.is_finite() { leave } else { 0.0 };
         let times = fields::range(rng, leave + 2.0 * self.size());
         Some(BoxCall { times, ..*self })
+    }
+}
+
+impl Placed for BoxCall {
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds)
     }
 }

@@ -71,7 +71,7 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
 /// Draws a ray in this direction. Some start far away in another.
 fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
-    let size = 0.5 * sides.max_element();
+    let size = bounds.half_side();
     let target = match rng.index(4) {
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
@@ -109,7 +109,7 @@ fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Inter
 /// on its long way to the box.
 fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
-    let size = 0.5 * sides.max_element();
+    let size = bounds.half_side();
     let axis = rng.index(3);
     let mut dir = DVec3::ZERO;
     dir[(axis + 1 + rng.index(2)) % 3] = rng.sign();

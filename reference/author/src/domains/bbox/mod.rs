@@ -8,8 +8,8 @@ use protocol::{Interval, Ray};
 
 use self::call::calls;
 use super::fields::{
-    DIAGONALS, DIRECTIONS, DISTANCES, OCTANTS, PLACES, SIZES, diagonal_class, direction_class,
-    distance_class, history_class, octant, place_class, range_class, size_class,
+    DIAGONALS, DIRECTIONS, DISTANCES, diagonal_class, direction_class, distance_class,
+    history_class, range_class,
 };
 use super::{Aspect, Call, FunctionDomain, not_asked};
 use crate::oracle::Ray64;
@@ -21,7 +21,7 @@ pub use draw::tables;
 /// The domain of `BBox::hit`.
 pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     function: "BBox::hit",
-    subject_aspects: &[SIZE, PLACE, OCTANT, FORM],
+    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, FORM],
     aspects: &[
         START, DISTANCE, OUTCOME, DIRECTION, DIAGONAL, SLANT, TIMES, RAYS_RANGE, HISTORY,
     ],
@@ -81,27 +81,6 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             "Far from the origin, no coordinate of a tiny box is exact enough.",
         ),
     ],
-};
-
-/// The size of the box: half of its longest side.
-const SIZE: Aspect<BoxCall> = Aspect {
-    name: "size",
-    classes: SIZES,
-    class: |call| Some(size_class(call.size())),
-};
-
-/// The position of the box.
-const PLACE: Aspect<BoxCall> = Aspect {
-    name: "place",
-    classes: PLACES,
-    class: |call| Some(place_class(call.bounds.center(), call.size())),
-};
-
-/// The octant of the box's position.
-const OCTANT: Aspect<BoxCall> = Aspect {
-    name: "octant",
-    classes: OCTANTS,
-    class: |call| octant(call.bounds.center()),
 };
 
 /// The form of the box.

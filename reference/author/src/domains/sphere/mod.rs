@@ -3,9 +3,7 @@
 mod draw;
 mod line;
 
-use super::shape::{
-    self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
-};
+use super::shape::{self, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
 use super::{Aspect, FunctionDomain, not_asked};
 
 pub use draw::tables;
@@ -16,7 +14,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Sphere::hit",
-    subject_aspects: &[SIZE, PLACE, OCTANT, NUMBER],
+    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, NUMBER],
     aspects: &[
         START, DISTANCE, LINE, LATITUDE, DIRECTION, RANGE, END, HISTORY,
     ],

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::decoy::{Decoy, Outside};
+use crate::domains::Placed;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::tree::Tree;
@@ -53,6 +54,13 @@ impl TraverseCall {
         } else {
             tree.expected_hit(&ray64)
         }
+    }
+}
+
+impl Placed for TraverseCall {
+    fn bounds(&self) -> Option<Bounds> {
+        let bounds = self.subject.bounds;
+        (bounds.half_side() > 0.0).then_some(bounds)
     }
 }
 
@@ -106,10 +114,6 @@ impl Subject {
             leaves,
             tree,
         })
-    }
-
-    pub(super) fn size(&self) -> f64 {
-        0.5 * (self.bounds.max - self.bounds.min).max_element()
     }
 
     /// Returns the number of nodes that can be reached.

@@ -15,10 +15,8 @@ pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
     const FARTHEST: f64 = 27.0;
     let bounds = tree.bounds(tree.root);
     let target = bounds.center() + rng.point(0.45) * (bounds.max - bounds.min);
-    let sizes = tree.shapes.iter().map(|shape| {
-        let bounds = scan::bounds(shape);
-        0.5 * (bounds.max - bounds.min).max_element()
-    });
+    let sizes = tree.shapes.iter();
+    let sizes = sizes.map(|shape| scan::bounds(shape).half_side());
     let smallest = sizes.fold(f64::INFINITY, f64::min);
     let farthest = FARTHEST * smallest - bounds.diagonal();
     let dir = direction(rng);
@@ -64,9 +62,8 @@ pub fn ray_in_a_corner(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let path = tree.path(leaf);
     let bounds = tree.bounds(path[rng.index(path.len())]);
     let from_middle = target - bounds.center();
-    let half_side = 0.5 * (bounds.max - bounds.min).max_element();
     let dir = from_middle.try_normalize()?;
-    let start = bounds.center() + half_side * rng.uniform(1.02, 1.1) * dir;
+    let start = bounds.center() + bounds.half_side() * rng.uniform(1.02, 1.1) * dir;
     let is_ahead = from_middle.length() > start.distance(bounds.center());
     let ray = Ray::new(start.as_vec3(), dir.as_vec3());
     let is_hit = tree.leaf_of_hit(&Ray64::from(&ray)) == Some(leaf);

@@ -12,8 +12,7 @@ use protocol::Shape;
 use self::call::calls;
 use super::build::kind;
 use super::fields::{
-    DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction_class, history_class,
-    octant, place_class, powers_of_two, range_class, size_class,
+    DIRECTIONS, RANGES, class_up_to, direction_class, history_class, powers_of_two, range_class,
 };
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
@@ -36,9 +35,9 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         LEAF_SIZE,
         ROOT,
         COUNT,
-        SIZE,
-        PLACE,
-        OCTANT,
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT_OF_ALL,
         KIND,
         START,
         DIRECTION,
@@ -234,37 +233,6 @@ const COUNT: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The size of the tree.
-const SIZE: Aspect<TraverseCall> = Aspect {
-    name: "size",
-    classes: SIZES,
-    class: |call| {
-        let size = call.subject.size();
-        (size > 0.0).then(|| size_class(size))
-    },
-};
-
-/// The position of the tree.
-const PLACE: Aspect<TraverseCall> = Aspect {
-    name: "place",
-    classes: PLACES,
-    class: |call| {
-        let size = call.subject.size();
-        (size > 0.0).then(|| place_class(call.subject.bounds.center(), size))
-    },
-};
-
-/// The octant of the tree, if it is in one.
-const OCTANT: Aspect<TraverseCall> = Aspect {
-    name: "octant",
-    classes: OCTANTS,
-    class: |call| {
-        let Bounds { min, max } = call.subject.bounds;
-        let is_in_one = call.subject.size() > 0.0 && (min * max).min_element() > 0.0;
-        is_in_one.then(|| octant(min)).flatten()
-    },
-};
-
 /// The kinds of the primitives.
 const KIND: Aspect<TraverseCall> = Aspect {
     name: "kind",
@@ -289,7 +257,7 @@ const START: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let subject = &call.subject;
         let start = call.ray.origin.as_dvec3();
-        if subject.size() <= 0.0 {
+        if subject.bounds.half_side() <= 0.0 {
             return None;
         }
         let holds =

@@ -37,7 +37,7 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
     let corners = corners(rng);
     let bounds = Bounds::around(corners);
-    let factor = 2.0 * size / (bounds.max - bounds.min).max_element();
+    let factor = size / bounds.half_side();
     let start = if rng.index(6) == 0 {
         -factor * corners[0]
     } else {
@@ -131,8 +131,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     let [w0, w1, w2] = weights(rng);
     let target = w0 * p0 + w1 * p1 + w2 * p2;
     let front = (p1 - p0).cross(p2 - p0).normalize();
-    let bounds = scan::bounds(shape);
-    let size = 0.5 * (bounds.max - bounds.min).max_element();
+    let size = scan::bounds(shape).half_side();
     let kind = rng.index(6);
     let dir = match kind {
         0 => {

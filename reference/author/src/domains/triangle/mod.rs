@@ -9,9 +9,7 @@ use glam::Vec2;
 use protocol::Shape;
 
 use self::plane::corner_normals;
-use super::shape::{
-    self, DIRECTION, DISTANCE, HISTORY, NUMBER, OCTANT, PLACE, RANGE, SIZE, ShapeCall,
-};
+use super::shape::{self, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::scan;
 
@@ -24,7 +22,17 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
     calls: shape::calls,
     function: "Triangle::hit",
     subject_aspects: &[
-        SIZE, PLACE, OCTANT, NUMBER, PLANE, FACING, FORM, ANGLES, EDGE_ALONG, TILES, NORMALS,
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT,
+        NUMBER,
+        PLANE,
+        FACING,
+        FORM,
+        ANGLES,
+        EDGE_ALONG,
+        TILES,
+        NORMALS,
         SPREAD,
     ],
     aspects: &[

@@ -3,12 +3,9 @@
 use glam::{DVec3, Vec3};
 
 use super::call::BoxCall;
-use crate::domains::fields::FURTHEST_SIZES;
+use crate::domains::fields::{EPSILON, FURTHEST_SIZES};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
-
-/// The relative error of one operation in single precision.
-const EPSILON: f64 = 6e-8;
 
 impl BoxCall {
     /// Returns whether every correct formula in single precision agrees on the outcome: it would be the

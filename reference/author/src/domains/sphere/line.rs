@@ -2,13 +2,10 @@
 
 use protocol::Shape;
 
-use crate::domains::fields::FURTHEST_SIZES;
+use crate::domains::fields::{EPSILON, FURTHEST_SIZES};
 use crate::domains::shape::ShapeCall;
 use crate::oracle::Ray64;
 use crate::oracle::sphere::Sphere;
-
-/// The relative error of one operation in single precision.
-const EPSILON: f64 = 6e-8;
 
 /// The line of a call's ray, and the sphere.
 #[derive(Clone, Copy, Debug)]

@@ -3,12 +3,9 @@
 use glam::DVec3;
 use protocol::Shape;
 
-use crate::domains::fields::{FURTHEST, FURTHEST_SIZES};
+use crate::domains::fields::{EPSILON, FURTHEST, FURTHEST_SIZES};
 use crate::domains::shape::ShapeCall;
 use crate::oracle::{Ray64, scan, triangle};
-
-/// The relative error of one operation in single precision.
-const EPSILON: f64 = 6e-8;
 
 /// The point where a call's ray crosses the plane of the triangle.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ mod contract;
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use grader::files;
 use judging::assignment::TaskInfo;
 use judging::exam::Exam;
@@ -15,7 +15,7 @@ use crate::authoring::Authoring;
 use crate::domains::Domain;
 use crate::domains::classes::{Cell, Classes, FEWEST};
 use crate::generated_file::GeneratedFile;
-use crate::items::AuthoredTask;
+use crate::items::{AuthoredTask, Declaration};
 
 /// The table, relative to the folder of an assignment's solutions.
 const TABLE: &str = "coverage.md";
@@ -66,7 +66,8 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
         asked: 0,
         excused: 0,
     };
-    for (task, authored) in handed_out.assignment.tasks.iter().zip(authoring.tasks) {
+    for task in handed_out.assignment.tasks {
+        let authored = authored_task(task.id, authoring.tasks)?;
         let file = files::read_to_string(root.join(handed_out.reference).join(task.file))?;
         coverage.add_task(task, &contract::sentences(&file, task), authored);
     }
@@ -74,6 +75,16 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
         coverage.add_function(domain, exam);
     }
     Ok(coverage)
+}
+
+/// Returns the authored task with the items of the task with this id.
+fn authored_task(id: &str, tasks: &[&'static AuthoredTask]) -> Result<&'static AuthoredTask> {
+    let is_of_task = |item: &Declaration| item.id.split_once('.').is_some_and(|it| it.0 == id);
+    let mut tasks = tasks.iter().copied();
+    let found = tasks.find(|task| task.items.iter().any(is_of_task));
+    found.with_context(|| {
+        format!("no item is of the task `{id}`; add one whose id begins with `{id}.`")
+    })
 }
 
 impl Coverage {
@@ -190,7 +201,7 @@ mod tests {
 
     use super::*;
     use crate::authoring::RAYS;
-    use crate::items::{self, Declaration};
+    use crate::items;
 
     /// Returns the coverage of boxes by an exam of some of their items.
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
@@ -209,6 +220,16 @@ mod tests {
         new.retain(|line| !asked.contains(line));
         let not_asked = "BBox::hit is asked 0 times at form \"flat along x\" for some";
         assert!(new.iter().any(|line| line == not_asked), "{new:?}");
+    }
+
+    #[test]
+    fn a_task_is_found_by_the_ids_of_its_items() {
+        let reversed: Vec<_> = RAYS.tasks.iter().rev().copied().collect();
+        let found = authored_task("bbox", &reversed).expect("boxes have items");
+        assert!(found.items[0].id.starts_with("bbox."));
+        let error = authored_task("box", &reversed).expect_err("no task has this id");
+        let expected = "no item is of the task `box`; add one whose id begins with `box.`";
+        assert_eq!(error.to_string(), expected);
     }
 
     #[test]

@@ -5,11 +5,8 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use protocol::{Question, Shape};
 
-use super::fields::{
-    OCTANTS, PLACES, SIZES, class_up_to, octant, place_class, powers_of_two, size_class,
-    without_repetition,
-};
-use super::{Aspect, FunctionDomain, not_asked};
+use super::fields::{class_up_to, powers_of_two, without_repetition};
+use super::{Aspect, FunctionDomain, Placed, not_asked};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{scan, sweep};
 
@@ -38,23 +35,17 @@ impl BuildCall {
         })
     }
 
-    fn bounds(&self) -> Bounds {
-        Bounds::enclosing(self.shapes.iter().map(scan::bounds))
-    }
-
     fn centers(&self) -> Vec<DVec3> {
         let boxes = self.shapes.iter().map(scan::bounds);
         boxes.map(|bounds| bounds.center()).collect()
     }
-
-    /// Returns half of the largest side of the box around everything.
-    fn size(&self) -> f64 {
-        half_side(&self.bounds())
-    }
 }
 
-fn half_side(bounds: &Bounds) -> f64 {
-    0.5 * (bounds.max - bounds.min).max_element()
+impl Placed for BuildCall {
+    fn bounds(&self) -> Option<Bounds> {
+        let boxes = self.shapes.iter().map(scan::bounds);
+        (!self.shapes.is_empty()).then(|| Bounds::enclosing(boxes))
+    }
 }
 
 /// The domain of `Bvh::build`.
@@ -65,9 +56,9 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         COUNT,
         LEAF_SIZE,
         LEAVES,
-        SIZE,
-        PLACE,
-        OCTANT,
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT_OF_ALL,
         KIND,
         ARRANGEMENT,
         ARRANGEMENT_ALONG_ANY_AXIS,
@@ -263,9 +254,9 @@ pub const DRAWN: &[Aspect<BuildCall>] = &[
     COUNT,
     LEAF_SIZE,
     LEAVES,
-    SIZE,
-    PLACE,
-    OCTANT,
+    Aspect::SIZE,
+    Aspect::PLACE,
+    Aspect::OCTANT_OF_ALL,
     KIND,
     ARRANGEMENT,
 ];
@@ -340,34 +331,6 @@ const LEAVES: Aspect<BuildCall> = Aspect {
             _ if count == leaf + 1 => 2,
             _ => 3 + class_up_to(&[2, 8], count.div_ceil(leaf)),
         })
-    },
-};
-
-/// The size of the whole.
-const SIZE: Aspect<BuildCall> = Aspect {
-    name: "size",
-    classes: SIZES,
-    class: |call| (!call.shapes.is_empty()).then(|| size_class(call.size())),
-};
-
-/// The position of the whole.
-const PLACE: Aspect<BuildCall> = Aspect {
-    name: "place",
-    classes: PLACES,
-    class: |call| {
-        let middle = call.bounds().center();
-        (!call.shapes.is_empty()).then(|| place_class(middle, call.size()))
-    },
-};
-
-/// The octant of everything, if it is in one.
-const OCTANT: Aspect<BuildCall> = Aspect {
-    name: "octant",
-    classes: OCTANTS,
-    class: |call| {
-        let Bounds { min, max } = call.bounds();
-        let is_in_one = !call.shapes.is_empty() && (min * max).min_element() > 0.0;
-        is_in_one.then(|| octant(min)).flatten()
     },
 };
 
@@ -495,12 +458,12 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
     let around = Bounds::around(centers.iter().copied());
     let extent = around.max - around.min;
     let flat: Vec<usize> = (0..3).filter(|&axis| extent[axis] == 0.0).collect();
-    let boxes = call.bounds();
+    let boxes = call.bounds()?;
     let is_flat = |axis: usize| boxes.max[axis] == boxes.min[axis];
     let sizes = call
         .shapes
         .iter()
-        .map(|shape| half_side(&scan::bounds(shape)));
+        .map(|shape| scan::bounds(shape).half_side());
     let (least, most) = sizes.fold((f64::INFINITY, 0.0), |(least, most), size: f64| {
         (size.min(least), size.max(most))
     });
@@ -514,7 +477,7 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
         _ if call.shapes.iter().any(is_without_area) => 15,
         _ if most > SIZE_RATIO * least => 13,
         _ if centers.len() > 2
-            && extent_without_farthest(&centers) * OUTLIER < half_side(&around) =>
+            && extent_without_farthest(&centers) * OUTLIER < around.half_side() =>
         {
             12
         }
@@ -548,7 +511,7 @@ fn extent_without_farthest(points: &[DVec3]) -> f64 {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
     sorted.pop();
-    half_side(&Bounds::around(sorted))
+    Bounds::around(sorted).half_side()
 }
 
 #[cfg(test)]

@@ -13,6 +13,9 @@ pub const FURTHEST: f64 = 1000.0;
 /// The distance from which a thing is seen at most, in its sizes: half of its longest side, or its radius.
 pub const FURTHEST_SIZES: f64 = 30.0;
 
+/// The relative error of one operation in single precision.
+pub const EPSILON: f64 = 6e-8;
+
 /// The classes of lengths: decades, named by their beginnings.
 pub const SIZES: &[&str] = &[
     "below 1e-4",

@@ -10,8 +10,8 @@ pub mod bbox;
 pub mod build;
 pub mod camera;
 pub mod classes;
-mod decoys;
 pub mod fields;
+mod placed;
 pub mod shape;
 pub mod sphere;
 mod tables;
@@ -25,6 +25,7 @@ use protocol::Question;
 use crate::seed::Rng;
 
 pub use balance::Balance;
+pub use placed::Placed;
 pub use tables::{Drawn, Generator};
 
 /// One way in which calls differ, divided into classes.

@@ -1,13 +1,14 @@
 //! Calls of `hit` of a single shape, and what all shapes have in common.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::fields::{
-    self, DIRECTIONS, DISTANCES, NUMBERS, OCTANTS, PLACES, RANGES, SIZES, direction_class,
-    distance_class, history_class, number_class, octant, place_class, range_class, size_class,
+    self, DIRECTIONS, DISTANCES, NUMBERS, RANGES, direction_class, distance_class, history_class,
+    number_class, range_class,
 };
-use super::{Aspect, Call};
+use super::{Aspect, Call, Placed};
+use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
@@ -26,7 +27,7 @@ impl ShapeCall {
     /// Returns the call of a smaller shape with the same centre.
     pub fn smaller(&self) -> Self {
         const FACTOR: f32 = 0.75;
-        let middle = self.middle().as_vec3();
+        let middle = scan::bounds(&self.shape).center().as_vec3();
         let scaled = |point: Vec3| middle + FACTOR * (point - middle);
         let mut call = ShapeCall::new(moved(&self.shape, scaled), self.ray);
         if let Shape::Sphere { radius, .. } = &mut call.shape {
@@ -54,35 +55,15 @@ impl ShapeCall {
 
     /// Returns half of the largest side of the shape's box.
     pub fn size(&self) -> f64 {
-        let bounds = scan::bounds(&self.shape);
-        0.5 * (bounds.max - bounds.min).max_element()
-    }
-
-    fn middle(&self) -> DVec3 {
-        scan::bounds(&self.shape).center()
+        scan::bounds(&self.shape).half_side()
     }
 }
 
-/// The size of the shape.
-pub const SIZE: Aspect<ShapeCall> = Aspect {
-    name: "size",
-    classes: SIZES,
-    class: |call| Some(size_class(call.size())),
-};
-
-/// The position of the shape.
-pub const PLACE: Aspect<ShapeCall> = Aspect {
-    name: "place",
-    classes: PLACES,
-    class: |call| Some(place_class(call.middle(), call.size())),
-};
-
-/// The octant of the shape's position.
-pub const OCTANT: Aspect<ShapeCall> = Aspect {
-    name: "octant",
-    classes: OCTANTS,
-    class: |call| octant(call.middle()),
-};
+impl Placed for ShapeCall {
+    fn bounds(&self) -> Option<Bounds> {
+        Some(scan::bounds(&self.shape))
+    }
+}
 
 /// The number of the shape.
 pub const NUMBER: Aspect<ShapeCall> = Aspect {

@@ -37,14 +37,13 @@ impl Place {
     /// twice this size.
     pub(super) fn around(shapes: &[Shape], size: f64, center: DVec3) -> Self {
         let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
-        let half_side = 0.5 * (bounds.max - bounds.min).max_element();
-        if half_side <= 0.0 || shapes.is_empty() {
+        if bounds.half_side() <= 0.0 || shapes.is_empty() {
             return Place {
                 scale: size,
                 offset: center,
             };
         }
-        let scale = size / half_side;
+        let scale = size / bounds.half_side();
         Place {
             scale,
             offset: center - scale * bounds.center(),
@@ -66,10 +65,7 @@ impl Place {
     pub(super) fn keeps_digits(self, shapes: &[Shape]) -> bool {
         /// The largest coordinate, in sizes of the smallest shape.
         const MOST: f64 = 8000.0;
-        let sides = shapes.iter().map(|shape| {
-            let bounds = scan::bounds(shape);
-            0.5 * (bounds.max - bounds.min).max_element()
-        });
+        let sides = shapes.iter().map(|shape| scan::bounds(shape).half_side());
         let smallest = sides
             .filter(|side| *side > 0.0)
             .fold(f64::INFINITY, f64::min);

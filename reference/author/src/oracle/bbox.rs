@@ -64,6 +64,11 @@ impl Bounds {
         self.min.distance(self.max)
     }
 
+    /// Returns half of the longest side.
+    pub fn half_side(&self) -> f64 {
+        0.5 * (self.max - self.min).max_element()
+    }
+
     /// Returns the centre.
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)

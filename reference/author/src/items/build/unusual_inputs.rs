@@ -22,9 +22,10 @@ fn with_domain(
     arrangements: &[Arrangement],
 ) -> Vec<ExamQuestion> {
     // Only the last two items ask about primitives with one centre.
-    let checks: &[TreeCheck] = match split {
-        Split => &[Partition, Split, Contains],
-        _ => &[Partition, Contains, Tight, LeafSize, Stops],
+    let checks: &[TreeCheck] = if split == Split {
+        &[Partition, Split, Contains]
+    } else {
+        &[Partition, Contains, Tight, LeafSize, Stops]
     };
     let drawn = draw::questions(rng, checks, count, (arrangements, 66), |call| {
         let (all, most) = (call.shapes.len(), call.max_leaf_size as usize);

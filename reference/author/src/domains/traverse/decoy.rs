@@ -2,9 +2,6 @@
 
 use protocol::{Ray, Shape};
 
-use super::Aspect;
-use super::fields::class_up_to;
-use super::traverse::TraverseCall;
 use crate::oracle::{Ray64, scan};
 use crate::tree::Tree;
 use crate::tree::decoy::{self, SkipReason};
@@ -14,34 +11,14 @@ use crate::tree::traversal::MARGIN;
 /// its own box decides.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decoy {
-    reason: usize,
-    is_sphere: bool,
-    leaf_size: usize,
+    pub(super) reason: usize,
+    pub(super) is_sphere: bool,
+    pub(super) leaf_size: usize,
     /// Its place in its leaf.
-    place: usize,
-    level: usize,
-    is_flat: bool,
-    history: usize,
-}
-
-/// A primitive outside the box of its leaf.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Outside {
-    leaf: usize,
-    primitive: usize,
-}
-
-impl Outside {
-    /// Returns all primitives of a tree that are outside the box of their leaf.
-    pub(super) fn all(tree: &Tree) -> Vec<Outside> {
-        let ordinary = tree.ordinary_primitives();
-        let leaves = tree.leaves().into_iter();
-        let all = leaves.flat_map(|leaf| {
-            let primitives = tree.primitives(leaf);
-            primitives.map(move |primitive| Outside { leaf, primitive })
-        });
-        all.filter(|it| !ordinary[it.primitive]).collect()
-    }
+    pub(super) place: usize,
+    pub(super) level: usize,
+    pub(super) is_flat: bool,
+    pub(super) history: usize,
 }
 
 impl Decoy {
@@ -136,69 +113,22 @@ fn entry(tree: &Tree, node: usize, ray64: &Ray64) -> Option<f64> {
     span.map(|(entry, _)| entry)
 }
 
-/// The reason why the decoy is not asked.
-pub(super) const REASON: Aspect<TraverseCall> = Aspect {
-    name: "decoy",
-    classes: &[
-        "its box is missed",
-        "its box and its sibling's are missed",
-        "its box begins beyond the hit",
-        "its box and then its sibling's begin beyond the hit",
-        "its sibling's box and then its own begin beyond the hit",
-    ],
-    class: |call| Some(call.decoy()?.reason),
-};
+/// A primitive outside the box of its leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outside {
+    leaf: usize,
+    primitive: usize,
+}
 
-/// The kind of the decoy.
-pub(super) const KIND: Aspect<TraverseCall> = Aspect {
-    name: "decoy's kind",
-    classes: &["triangle", "sphere"],
-    class: |call| Some(usize::from(call.decoy()?.is_sphere)),
-};
-
-/// The number of primitives in the decoy's leaf.
-pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
-    name: "decoy's leaf",
-    classes: &["1", "2", "3", "4 or more"],
-    class: |call| Some(class_up_to(&[1, 2, 3], call.decoy()?.leaf_size)),
-};
-
-/// The place of the decoy in its leaf.
-pub(super) const PLACE: Aspect<TraverseCall> = Aspect {
-    name: "decoy's place",
-    classes: &["alone", "first", "in the middle", "last"],
-    class: |call| {
-        let decoy = call.decoy()?;
-        Some(match decoy.place {
-            _ if decoy.leaf_size == 1 => 0,
-            0 => 1,
-            place if place + 1 < decoy.leaf_size => 2,
-            _ => 3,
-        })
-    },
-};
-
-/// The level of the decoy's leaf.
-pub(super) const LEVEL: Aspect<TraverseCall> = Aspect {
-    name: "decoy's level",
-    classes: &["2 to 12", "13 to 24", "25 to 40", "41 to 60"],
-    class: |call| Some(class_up_to(&[12, 24, 40], call.decoy()?.level)),
-};
-
-/// The box of the decoy's leaf.
-pub(super) const BOX: Aspect<TraverseCall> = Aspect {
-    name: "decoy's box",
-    classes: &["thick", "flat"],
-    class: |call| Some(usize::from(call.decoy()?.is_flat)),
-};
-
-/// The call before that of a decoy.
-pub(super) const HISTORY: Aspect<TraverseCall> = Aspect {
-    name: "decoy's history",
-    classes: &[
-        "any",
-        "after a hit in its leaf",
-        "after a parallel ray that enters its box before its sibling's",
-    ],
-    class: |call| Some(call.decoy()?.history),
-};
+impl Outside {
+    /// Returns all primitives of a tree that are outside the box of their leaf.
+    pub(super) fn all(tree: &Tree) -> Vec<Outside> {
+        let ordinary = tree.ordinary_primitives();
+        let leaves = tree.leaves().into_iter();
+        let all = leaves.flat_map(|leaf| {
+            let primitives = tree.primitives(leaf);
+            primitives.map(move |primitive| Outside { leaf, primitive })
+        });
+        all.filter(|it| !ordinary[it.primitive]).collect()
+    }
+}

@@ -1,123 +1,28 @@
 //! The domain of `Bvh::hit`, of the exam's trees and of trees that the submission builds.
 
+mod call;
+mod decoy;
+mod decoy_aspects;
+mod draw;
+
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
-use glam::DVec3;
-use protocol::{Geometry, Question, Ray, Shape};
+use protocol::Shape;
 
+use self::call::calls;
 use super::build::kind;
-use super::decoys::{self, Decoy, Outside};
 use super::fields::{
-    DIRECTIONS, OCTANTS, PLACES, RANGES, SIZES, class_up_to, direction, direction_class,
-    history_class, octant, place_class, powers_of_two, range_class, size_class,
+    DIRECTIONS, RANGES, class_up_to, direction_class, history_class, powers_of_two, range_class,
 };
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::{Intersection, Ray64, scan};
-use crate::seed::Rng;
+use crate::oracle::{Ray64, scan};
 use crate::tree::Tree;
 
-/// A call of `Bvh::hit`.
-#[derive(Clone, Debug)]
-pub struct TraverseCall {
-    subject: Arc<Subject>,
-    ray: Ray,
-    previous: Option<Ray>,
-    decoy: Option<Decoy>,
-}
-
-impl TraverseCall {
-    /// Returns the decoy in front of the answer.
-    pub(super) fn decoy(&self) -> Option<Decoy> {
-        self.decoy
-    }
-
-    /// Returns the correct hit.
-    fn hit(&self) -> Option<Intersection> {
-        let ray64 = Ray64::from(&self.ray);
-        let Subject { tree, is_built, .. } = &*self.subject;
-        if *is_built {
-            scan::closest_hit(&ray64, &tree.shapes)
-        } else {
-            tree.expected_hit(&ray64)
-        }
-    }
-}
-
-/// A tree that rays are asked of.
-#[derive(Debug)]
-struct Subject {
-    /// The exam's tree. A tree that the submission builds has no nodes yet.
-    tree: Tree,
-    is_built: bool,
-    /// The box around all primitives in leaves.
-    bounds: Bounds,
-    leaves: Vec<usize>,
-    levels: usize,
-}
-
-impl Subject {
-    fn of(geometry: &Geometry) -> Option<Subject> {
-        let (tree, is_built) = match geometry {
-            Geometry::List { .. } => return None,
-            Geometry::Tree {
-                shapes,
-                nodes,
-                root,
-            } => (
-                Tree {
-                    shapes: shapes.clone(),
-                    nodes: nodes.clone(),
-                    root: *root as usize,
-                },
-                false,
-            ),
-            Geometry::BuiltTree { shapes, .. } => (
-                Tree {
-                    shapes: shapes.clone(),
-                    ..Tree::default()
-                },
-                true,
-            ),
-        };
-        let leaves = tree.leaves();
-        let bounds = if tree.nodes.is_empty() {
-            Bounds::enclosing(tree.shapes.iter().map(scan::bounds))
-        } else {
-            tree.bounds(tree.root)
-        };
-        let levels = leaves.iter().map(|&leaf| tree.path(leaf).len()).max();
-        Some(Subject {
-            levels: levels.unwrap_or(0),
-            is_built,
-            bounds,
-            leaves,
-            tree,
-        })
-    }
-
-    fn size(&self) -> f64 {
-        0.5 * (self.bounds.max - self.bounds.min).max_element()
-    }
-
-    /// Returns the number of nodes that can be reached.
-    fn nodes(&self) -> usize {
-        (2 * self.leaves.len()).saturating_sub(1)
-    }
-
-    /// Returns the primitives in leaves, or all that a tree is built over.
-    fn shapes(&self) -> Vec<&Shape> {
-        if self.is_built {
-            return self.tree.shapes.iter().collect();
-        }
-        let in_leaves = self
-            .leaves
-            .iter()
-            .flat_map(|&leaf| self.tree.primitives(leaf));
-        in_leaves.map(|index| &self.tree.shapes[index]).collect()
-    }
-}
+pub use call::TraverseCall;
+pub use draw::{
+    ray, ray_from_a_surface, ray_in_a_corner, ray_through_the_sphere_that_it_starts_on,
+};
 
 /// The domain of `Bvh::hit`.
 pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
@@ -130,9 +35,9 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         LEAF_SIZE,
         ROOT,
         COUNT,
-        SIZE,
-        PLACE,
-        OCTANT,
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT_OF_ALL,
         KIND,
         START,
         DIRECTION,
@@ -142,13 +47,13 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         IN_BOX,
         ON_SPHERE,
         ON_THE_WAY,
-        decoys::REASON,
-        decoys::KIND,
-        decoys::LEAF_SIZE,
-        decoys::PLACE,
-        decoys::LEVEL,
-        decoys::BOX,
-        decoys::HISTORY,
+        decoy_aspects::REASON,
+        decoy_aspects::KIND,
+        decoy_aspects::LEAF_SIZE,
+        decoy_aspects::PLACE,
+        decoy_aspects::LEVEL,
+        decoy_aspects::BOX,
+        decoy_aspects::HISTORY,
     ],
     pairs: &[
         ["decoy", "decoy's kind"],
@@ -231,28 +136,6 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         ),
     ],
 };
-
-fn calls(question: &Question) -> Vec<TraverseCall> {
-    let Question::Hit(table) = question else {
-        return Vec::new();
-    };
-    let Some(subject) = Subject::of(&table.subject).map(Arc::new) else {
-        return Vec::new();
-    };
-    let mut previous = None;
-    let rays = table.rows.to_vec();
-    let outside = Outside::all(&subject.tree);
-    let calls = rays.iter().map(|&ray| {
-        let previous = previous.replace(ray);
-        TraverseCall {
-            subject: Arc::clone(&subject),
-            decoy: Decoy::of(&subject.tree, &outside, &ray, previous.as_ref()),
-            previous,
-            ray,
-        }
-    });
-    calls.collect()
-}
 
 /// Where the tree comes from.
 const WAY: Aspect<TraverseCall> = Aspect {
@@ -350,37 +233,6 @@ const COUNT: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The size of the tree.
-const SIZE: Aspect<TraverseCall> = Aspect {
-    name: "size",
-    classes: SIZES,
-    class: |call| {
-        let size = call.subject.size();
-        (size > 0.0).then(|| size_class(size))
-    },
-};
-
-/// The position of the tree.
-const PLACE: Aspect<TraverseCall> = Aspect {
-    name: "place",
-    classes: PLACES,
-    class: |call| {
-        let size = call.subject.size();
-        (size > 0.0).then(|| place_class(call.subject.bounds.center(), size))
-    },
-};
-
-/// The octant of the tree, if it is in one.
-const OCTANT: Aspect<TraverseCall> = Aspect {
-    name: "octant",
-    classes: OCTANTS,
-    class: |call| {
-        let Bounds { min, max } = call.subject.bounds;
-        let is_in_one = call.subject.size() > 0.0 && (min * max).min_element() > 0.0;
-        is_in_one.then(|| octant(min)).flatten()
-    },
-};
-
 /// The kinds of the primitives.
 const KIND: Aspect<TraverseCall> = Aspect {
     name: "kind",
@@ -405,7 +257,7 @@ const START: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let subject = &call.subject;
         let start = call.ray.origin.as_dvec3();
-        if subject.size() <= 0.0 {
+        if subject.bounds.half_side() <= 0.0 {
             return None;
         }
         let holds =
@@ -519,81 +371,16 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// Draws a ray toward a point in a tree. It starts outside, far away or inside. No shape is farther away
-/// than 30 of its sizes.
-pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
-    /// The farthest start, in sizes of the smallest shape.
-    const FARTHEST: f64 = 27.0;
-    let bounds = tree.bounds(tree.root);
-    let target = bounds.center() + rng.point(0.45) * (bounds.max - bounds.min);
-    let sizes = tree.shapes.iter().map(|shape| {
-        let bounds = scan::bounds(shape);
-        0.5 * (bounds.max - bounds.min).max_element()
-    });
-    let smallest = sizes.fold(f64::INFINITY, f64::min);
-    let farthest = FARTHEST * smallest - bounds.diagonal();
-    let dir = direction(rng);
-    let near = rng.uniform(0.6, 1.0) * bounds.diagonal();
-    let distance = match rng.index(6) {
-        0 => rng.uniform(0.0, 0.2) * bounds.diagonal(),
-        1 => near.max(farthest.min(6.0 * bounds.diagonal())),
-        _ => near,
-    };
-    let start: DVec3 = target - distance * dir;
-    Ray::new(start.as_vec3(), dir.as_vec3())
-}
-
-/// Draws a ray that starts at the hit of another one. Its range begins later. Returns `None` if that one
-/// hits nothing.
-pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
-    let hit = tree.expected_hit(&Ray64::from(&ray(rng, tree)))?;
-    let later = 0.02 * tree.bounds(tree.root).diagonal();
-    let ray = Ray::new(hit.position.as_vec3(), direction(rng).as_vec3());
-    Some(ray.within(later as f32, f32::INFINITY))
-}
-
-/// Draws a ray that starts on a sphere and leads through it. Its range begins a little later. Returns
-/// `None` if it does not hit the same sphere.
-pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
-    let shape = &tree.shapes[rng.index(tree.shapes.len())];
-    let Shape::Sphere { center, radius, .. } = *shape else {
-        return None;
-    };
-    let (normal, dir) = (rng.direction(), direction(rng));
-    let start = center.as_dvec3() + f64::from(radius) * normal;
-    let ray = Ray::new(start.as_vec3(), dir.as_vec3()).within(0.06 * radius, f32::INFINITY);
-    let hit = tree.expected_hit(&Ray64::from(&ray))?;
-    (dir.dot(normal) < -0.3 && hit.shape == shape.number()).then_some(ray)
-}
-
-/// Draws a ray that starts in a box more than half a side beyond its middle, and hits something in the
-/// same box, which is in a corner. Returns `None` if nothing is there.
-pub fn ray_in_a_corner(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
-    let leaves = tree.leaves();
-    let leaf = leaves[rng.index(leaves.len())];
-    let target = tree.bounds(leaf).center();
-    let path = tree.path(leaf);
-    let bounds = tree.bounds(path[rng.index(path.len())]);
-    let from_middle = target - bounds.center();
-    let half_side = 0.5 * (bounds.max - bounds.min).max_element();
-    let dir = from_middle.try_normalize()?;
-    let start = bounds.center() + half_side * rng.uniform(1.02, 1.1) * dir;
-    let is_ahead = from_middle.length() > start.distance(bounds.center());
-    let ray = Ray::new(start.as_vec3(), dir.as_vec3());
-    let is_hit = tree.leaf_of_hit(&Ray64::from(&ray)) == Some(leaf);
-    (is_ahead && is_hit).then_some(ray)
-}
-
 #[cfg(test)]
 mod tests {
     use glam::{Vec3, vec3};
+    use protocol::{Question, Ray};
 
     use super::*;
     use crate::domains::Domain;
-    use crate::seed::Seed;
     use crate::tree::construction;
 
-    fn row_of_spheres() -> Tree {
+    pub(super) fn row_of_spheres() -> Tree {
         let spheres = (0..3).map(|index| Shape::Sphere {
             center: 4.0 * index as f32 * Vec3::X,
             radius: 1.0,
@@ -640,28 +427,5 @@ mod tests {
             names[1][12..14],
             [Some("from later to an end"), Some(history)]
         );
-    }
-
-    #[test]
-    fn rays_lead_toward_the_tree_from_not_too_far_away() {
-        let tree = row_of_spheres();
-        let mut rng = Seed(1).rng("domains.traverse");
-        for _ in 0..100 {
-            let ray = ray(&mut rng, &tree);
-            let span = tree.bounds(tree.root).span(&Ray64::from(&ray));
-            assert!(span.is_some(), "{ray:?}");
-            assert!(ray.origin.length() < 30.0 + 8.0, "{ray:?}");
-        }
-    }
-
-    #[test]
-    fn a_ray_from_a_surface_starts_where_another_one_hits() {
-        let tree = row_of_spheres();
-        let mut rng = Seed(2).rng("domains.traverse");
-        let ray = rng.retry(|rng| ray_from_a_surface(rng, &tree));
-        let start = ray.origin.as_dvec3();
-        let mut centers = (0..3).map(|index| 4.0 * f64::from(index) * DVec3::X);
-        assert!(centers.any(|center| (start.distance(center) - 1.0).abs() < 1e-5));
-        assert!(ray.range.min > 0.0);
     }
 }

@@ -1,0 +1,144 @@
+//! Calls of `BBox::hit`.
+
+use glam::Vec3;
+use protocol::{Interval, Query, Question, Ray};
+
+use crate::domains::fields;
+use crate::domains::{Call, Placed};
+use crate::oracle::Ray64;
+use crate::oracle::bbox::Bounds;
+use crate::seed::Rng;
+
+/// The components of a direction that are almost 0.
+pub(super) const SMALL_COMPONENT: f32 = 1e-4;
+
+/// A call of `BBox::hit`.
+#[derive(Clone, Copy, Debug)]
+pub struct BoxCall {
+    /// The box. Its corners are exact in single precision.
+    pub bounds: Bounds,
+    /// The ray.
+    pub ray: Ray,
+    /// The times.
+    pub times: Interval,
+    /// The arguments of the call before this one, if it was about the same box.
+    pub(super) before: Option<(Ray, Interval)>,
+}
+
+/// Returns the calls of a question about a box.
+pub(super) fn calls(question: &Question) -> Vec<BoxCall> {
+    let Question::BBoxHit(table) = question else {
+        return Vec::new();
+    };
+    let bounds = Bounds::new(table.subject.min, table.subject.max);
+    let rows = table.rows.to_vec();
+    let mut before = None;
+    let calls = rows.iter().map(|&Query { ray, times }| BoxCall {
+        bounds,
+        ray,
+        times,
+        before: before.replace((ray, times)),
+    });
+    calls.collect()
+}
+
+impl BoxCall {
+    /// Returns half of the longest side.
+    pub(super) fn size(&self) -> f64 {
+        self.bounds.half_side()
+    }
+
+    /// Returns the part of the ray that is asked about.
+    pub fn ray64(&self) -> Ray64 {
+        Ray64::from(&self.ray).within(self.times)
+    }
+
+    /// Returns whether the times are from 0 to ∞.
+    pub fn is_unlimited(&self) -> bool {
+        self.times == Interval::AHEAD
+    }
+
+    /// Returns whether the box has no thickness along an axis.
+    pub fn is_flat(&self) -> bool {
+        self.bounds.min.cmpeq(self.bounds.max).any()
+    }
+
+    /// Returns whether the direction has a component that is 0.
+    pub fn is_parallel(&self) -> bool {
+        self.ray.dir.cmpeq(Vec3::ZERO).any()
+    }
+
+    /// Returns whether the ray starts in the box.
+    pub fn starts_inside(&self) -> bool {
+        let start = Bounds::around([self.ray.origin.as_dvec3()]);
+        self.bounds.contains(&start)
+    }
+
+    /// Returns whether it matters that a component of the direction is almost 0, and not 0.
+    pub fn is_decided_by_slant(&self) -> bool {
+        let would_hit = self.with_zeros().map(|call| call.is_hit());
+        would_hit.is_some_and(|would_hit| would_hit != self.is_hit())
+    }
+
+    /// Returns the call with 0 for each component of the direction that is almost 0, or `None` if none
+    /// is.
+    fn with_zeros(&self) -> Option<BoxCall> {
+        let is_small = self.ray.dir.abs().cmplt(Vec3::splat(SMALL_COMPONENT));
+        let dir = Vec3::select(is_small, Vec3::ZERO, self.ray.dir);
+        let ray = Ray { dir, ..self.ray };
+        (dir != self.ray.dir).then_some(BoxCall { ray, ..*self })
+    }
+
+    /// Returns the times at which the ray's line enters and leaves the box, whatever the times are.
+    pub fn crossing(&self) -> Option<(f64, f64)> {
+        let whole = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
+        self.bounds.span(&Ray64::from(&self.ray).within(whole))
+    }
+
+    /// Returns whether this line, which misses the box, would hit one that is a little larger.
+    pub(super) fn is_narrow_miss(&self, line: &Ray64) -> bool {
+        /// By how much, in sizes.
+        const NARROW: f64 = 0.002;
+        let larger = self.bounds.grown(NARROW * self.size());
+        larger.span(line).is_some()
+    }
+}
+
+impl Call for BoxCall {
+    type Subject = Bounds;
+    type Input = (Ray, Interval);
+
+    fn new(bounds: Bounds, (ray, times): (Ray, Interval)) -> Self {
+        BoxCall {
+            bounds,
+            ray,
+            times,
+            before: None,
+        }
+    }
+
+    fn subject(&self) -> Bounds {
+        self.bounds
+    }
+
+    fn input(&self) -> (Ray, Interval) {
+        (self.ray, self.times)
+    }
+
+    fn is_hit(&self) -> bool {
+        self.bounds.span(&self.ray64()).is_some()
+    }
+
+    fn with_other_range(&self, rng: &mut Rng) -> Option<Self> {
+        let (_, leave) = self.bounds.span(&self.ray64())?;
+        let leave = if leave.is_finite() { leave } else { 0.0 };
+        let times = fields::range(rng, leave + 2.0 * self.size());
+        Some(BoxCall { times, ..*self })
+    }
+}
+
+impl Placed for BoxCall {
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds)
+    }
+}

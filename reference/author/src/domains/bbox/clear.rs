@@ -1,0 +1,100 @@
+//! Whether rounding in single precision can change the answer to a call of `BBox::hit`.
+
+use glam::{DVec3, Vec3};
+
+use super::call::BoxCall;
+use crate::domains::fields::{EPSILON, FURTHEST_SIZES};
+use crate::oracle::Ray64;
+use crate::oracle::bbox::Bounds;
+
+impl BoxCall {
+    /// Returns whether every correct formula in single precision agrees on the outcome: it would be the
+    /// same if the box and the times were a little larger or smaller.
+    pub fn is_clear(&self) -> bool {
+        /// How much larger or smaller, in sizes.
+        const MARGIN: f64 = 0.02;
+        /// The same for a thin box, in sides.
+        const THIN_MARGIN: f64 = 0.1;
+        let size = self.size();
+        let sides = self.bounds.max - self.bounds.min;
+        let margins = (THIN_MARGIN * sides).min(DVec3::splat(MARGIN * size));
+        let (shorter, longer) = (self.duration_margin(), MARGIN * size);
+        let is_flat = sides.cmpeq(DVec3::ZERO);
+        let is_still = self.ray.dir.cmpeq(Vec3::ZERO);
+        let origin = self.ray.origin.as_dvec3();
+        let coordinates = origin
+            .abs()
+            .max(self.bounds.min.abs())
+            .max(self.bounds.max.abs());
+        let is_lost = |axis: usize| {
+            let speed = f64::from(self.ray.dir[axis].abs());
+            if is_flat.test(axis) && is_still.test(axis) {
+                // A ray in the plane of a flat box is not tested.
+                (origin - self.bounds.min)[axis].abs() < longer
+            } else if is_flat.test(axis) {
+                // Where a slanting ray crosses the plane depends on the rounding of the time.
+                let late = 8.0 * EPSILON * coordinates.max_element() / speed;
+                let is_far = |other: usize| {
+                    let away = late * f64::from(self.ray.dir[other].abs());
+                    !is_flat.test(other) && away > 0.25 * margins[other]
+                };
+                let time = (self.bounds.min - origin)[axis] / f64::from(self.ray.dir[axis]);
+                let ends = [self.times.min, self.times.max].map(f64::from);
+                let is_at_an_end = ends.iter().any(|end| (end - time).abs() < late);
+                is_at_an_end || late > 0.25 * longer || (0..3).any(is_far)
+            } else {
+                // A ray in the plane of a face is not tested, either.
+                let sides = [self.bounds.min, self.bounds.max];
+                let is_in_plane = sides.iter().any(|side| side[axis] == origin[axis]);
+                is_still.test(axis) && is_in_plane
+                    || margins[axis] < 8.0 * EPSILON * coordinates.max_element()
+            }
+        };
+        let distance = (origin - self.bounds.center()).abs().max_element();
+        if distance > FURTHEST_SIZES * size
+            || (0..3).any(is_lost)
+            || self.is_decided_by_rounding(coordinates.max_element())
+        {
+            return false;
+        }
+        let hits_with = |sign: f64, margin: f64| {
+            let bounds = Bounds {
+                min: self.bounds.min - sign * margins,
+                max: self.bounds.max + sign * margins,
+            };
+            let ray64 = self.ray64();
+            let ray64 = Ray64 {
+                min: ray64.min - sign * margin,
+                max: ray64.max + sign * margin,
+                ..ray64
+            };
+            bounds.span(&ray64).is_some()
+        };
+        hits_with(1.0, longer) == hits_with(-1.0, shorter)
+    }
+
+    /// Returns whether the ray enters or leaves the box through a side that it is almost parallel to, so
+    /// that rounding changes the time.
+    fn is_decided_by_rounding(&self, coordinates: f64) -> bool {
+        /// The largest part of a tolerance that errors may take.
+        const PART: f64 = 0.3;
+        let ray64 = self.ray64();
+        let Some((enter, leave)) = self.bounds.span(&ray64) else {
+            return false;
+        };
+        (0..3).any(|axis| {
+            let speed = ray64.dir[axis];
+            let sides = [self.bounds.min, self.bounds.max];
+            let times = sides.map(|side| (side - ray64.origin)[axis] / speed);
+            let error = 4.0 * EPSILON * coordinates / speed.abs();
+            let decides = |end: f64| times.iter().any(|time| (time - end).abs() <= 4.0 * error);
+            speed != 0.0 && error > PART * 1e-4 * coordinates && (decides(enter) || decides(leave))
+        })
+    }
+
+    /// Returns by how much the times can be shortened at each end.
+    fn duration_margin(&self) -> f64 {
+        let ray64 = self.ray64();
+        (0.02 * self.size()).min(0.25 * (ray64.max - ray64.min))
+    }
+}

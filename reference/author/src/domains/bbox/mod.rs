@@ -1,0 +1,289 @@
+//! The domain of `BBox::hit`.
+
+mod call;
+mod clear;
+mod draw;
+
+use protocol::{Interval, Ray};
+
+use self::call::calls;
+use super::fields::{
+    DIAGONALS, DIRECTIONS, DISTANCES, diagonal_class, direction_class, distance_class,
+    history_class, range_class,
+};
+use super::{Aspect, Call, FunctionDomain, not_asked};
+use crate::oracle::Ray64;
+use crate::oracle::bbox::Bounds;
+
+pub use call::BoxCall;
+pub use draw::tables;
+
+/// The domain of `BBox::hit`.
+pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
+    function: "BBox::hit",
+    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, FORM],
+    aspects: &[
+        START, DISTANCE, OUTCOME, DIRECTION, DIAGONAL, SLANT, TIMES, RAYS_RANGE, HISTORY,
+    ],
+    pairs: &[["size", "direction"], ["size", "start"]],
+    calls,
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "outcome",
+            &["misses", "too late", "too early"],
+            &[],
+            "The box is missed.",
+        ),
+        not_asked(
+            "outcome",
+            &[
+                "enters and leaves",
+                "only leaves",
+                "only enters",
+                "inside throughout",
+            ],
+            &["`None`"],
+            "The box is hit.",
+        ),
+        not_asked(
+            "size",
+            &["500"],
+            &["pairs"],
+            "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
+        ),
+        not_asked(
+            "outcome",
+            &[
+                "narrowly misses",
+                "narrowly misses a flat box",
+                "narrowly misses a flat strip",
+            ],
+            &[],
+            "The box is missed.",
+        ),
+        not_asked(
+            "components below 1e-4",
+            &["lead into the box"],
+            &["`None`"],
+            "The box is hit.",
+        ),
+        not_asked(
+            "components below 1e-4",
+            &["lead past the box"],
+            &["some", "interval inside the box"],
+            "The box is missed.",
+        ),
+        not_asked(
+            "start",
+            &["on a face"],
+            &["pairs"],
+            "Far from the origin, no coordinate of a tiny box is exact enough.",
+        ),
+    ],
+};
+
+/// The form of the box.
+const FORM: Aspect<BoxCall> = Aspect {
+    name: "form",
+    classes: &[
+        "about a cube",
+        "ordinary",
+        "thin",
+        "thin as paper",
+        "thin along two axes",
+        "flat and thin",
+        "flat along x",
+        "flat along y",
+        "flat along z",
+    ],
+    class: |call| {
+        let sides = call.bounds.max - call.bounds.min;
+        let flat = (0..3).find(|&axis| sides[axis] == 0.0);
+        let mut parts = (sides / sides.max_element()).to_array();
+        parts.sort_by(f64::total_cmp);
+        let [least, middle, _] = parts;
+        let class = match (flat, least) {
+            (Some(_), _) if middle < THREAD => FLAT_AND_THIN,
+            (Some(axis), _) => 6 + axis,
+            (None, _) if middle < THREAD => 4,
+            (None, 0.75..) => 0,
+            (None, THIN..) => 1,
+            (None, PAPER..) => 2,
+            (None, _) => 3,
+        };
+        Some(class)
+    },
+};
+
+/// The class of flat boxes that are thin as well.
+const FLAT_AND_THIN: usize = 5;
+/// The sides of a box below which it is thin, relative to the longest.
+const THIN: f64 = 0.02;
+/// The second longest side of a box below which it is thin along two axes, relative to the longest.
+const THREAD: f64 = 0.0025;
+/// The shortest side of a box below which it is as thin as paper, relative to the longest.
+const PAPER: f64 = 0.0009;
+
+/// The start of the ray.
+const START: Aspect<BoxCall> = Aspect {
+    name: "start",
+    classes: &[
+        "up to 3 sizes away",
+        "up to 30 sizes away",
+        "inside",
+        "on a face",
+    ],
+    class: |call| {
+        let start = call.ray.origin.as_dvec3();
+        let sizes = (start - call.bounds.center()).abs().max_element() / call.size();
+        Some(match sizes {
+            _ if call.bounds.contains(&Bounds::around([start])) => {
+                let is_on_face = start.cmpeq(call.bounds.min) | start.cmpeq(call.bounds.max);
+                2 + usize::from(is_on_face.any() && !call.is_flat())
+            }
+            ..3.0 => 0,
+            _ => 1,
+        })
+    },
+};
+
+/// The distance at which the ray enters the box.
+const DISTANCE: Aspect<BoxCall> = Aspect {
+    name: "distance",
+    classes: DISTANCES,
+    class: |call| Some(distance_class(call.bounds.span(&call.ray64())?.0)),
+};
+
+/// How the ray's line crosses the box, and which part of that is in the times.
+const OUTCOME: Aspect<BoxCall> = Aspect {
+    name: "outcome",
+    classes: &[
+        "enters and leaves",
+        "only leaves",
+        "only enters",
+        "inside throughout",
+        "misses",
+        "too late",
+        "too early",
+        "narrowly misses",
+        "narrowly misses a flat box",
+        "narrowly misses a flat strip",
+    ],
+    class: |call| {
+        let line = Ray64::from(&call.ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
+        let (min, max) = (f64::from(call.times.min), f64::from(call.times.max));
+        Some(match call.bounds.span(&line) {
+            None if call.is_narrow_miss(&line) => match (call.is_flat(), (FORM.class)(call)) {
+                (false, _) => 7,
+                (true, Some(FLAT_AND_THIN)) => 9,
+                (true, _) => 8,
+            },
+            None => 4,
+            Some((enter, _)) if enter > max => 5,
+            Some((_, leave)) if leave < min => 6,
+            Some((enter, leave)) => match (enter >= min, leave <= max) {
+                (true, true) => 0,
+                (false, true) => 1,
+                (true, false) => 2,
+                (false, false) => 3,
+            },
+        })
+    },
+};
+
+/// The direction of the ray.
+const DIRECTION: Aspect<BoxCall> = Aspect {
+    name: "direction",
+    classes: DIRECTIONS,
+    class: |call| direction_class(call.ray.dir),
+};
+
+/// The exact diagonals among the directions.
+const DIAGONAL: Aspect<BoxCall> = Aspect {
+    name: "diagonal",
+    classes: DIAGONALS,
+    class: |call| diagonal_class(call.ray.dir),
+};
+
+/// The components of the direction that are almost 0, if they decide.
+const SLANT: Aspect<BoxCall> = Aspect {
+    name: "components below 1e-4",
+    classes: &["lead into the box", "lead past the box"],
+    class: |call| {
+        let is_missed = usize::from(!call.is_hit());
+        call.is_decided_by_slant().then_some(is_missed)
+    },
+};
+
+/// The times.
+const TIMES: Aspect<BoxCall> = Aspect {
+    name: "times",
+    classes: TIMES_CLASSES,
+    class: |call| times_class(call.times),
+};
+
+/// The ray's own range, which does not matter.
+const RAYS_RANGE: Aspect<BoxCall> = Aspect {
+    name: "the ray's own range",
+    classes: RANGE_CLASSES,
+    class: |call| times_class(call.ray.range),
+};
+
+/// Returns the class of an interval in [`RANGE_CLASSES`].
+fn times_class(times: Interval) -> Option<usize> {
+    match times {
+        _ if times.min > times.max => Some(8),
+        _ if times.min == times.max => Some(7),
+        _ if times.max == f32::MAX => Some(6),
+        _ => range_class(times),
+    }
+}
+
+/// The classes of times, and of the ray's own range, which may be empty.
+const TIMES_CLASSES: &[&str] = &[
+    "from 0 to ∞",
+    "from 0 to an end",
+    "from later to ∞",
+    "from later to an end",
+    "from 0 to a far end",
+    "from later to a far end",
+    "to the largest number",
+    "one point",
+];
+
+/// The same, with one more for a range that is empty.
+const RANGE_CLASSES: &[&str] = &[
+    "from 0 to ∞",
+    "from 0 to an end",
+    "from later to ∞",
+    "from later to an end",
+    "from 0 to a far end",
+    "from later to a far end",
+    "to the largest number",
+    "one point",
+    "empty",
+];
+
+/// The call before.
+const HISTORY: Aspect<BoxCall> = Aspect {
+    name: "call before",
+    classes: &[
+        "none",
+        "another ray",
+        "the same ray with other times",
+        "a parallel ray",
+        "another ray from the same start",
+    ],
+    class: |call| {
+        let before = call.before.as_ref().map(|(ray, _)| ray);
+        let is_parallel = |ray: &Ray| ray.dir == call.ray.dir && ray.origin != call.ray.origin;
+        if before.is_some_and(is_parallel) {
+            return Some(3);
+        }
+        if before.is_some_and(|ray| ray.origin == call.ray.origin && ray.dir != call.ray.dir) {
+            return Some(4);
+        }
+        Some(history_class(before, &call.ray))
+    },
+};

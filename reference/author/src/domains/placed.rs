@@ -1,0 +1,47 @@
+//! Aspects of calls about anything that has a size and a position.
+
+use super::Aspect;
+use super::fields::{OCTANTS, PLACES, SIZES, octant, place_class, size_class};
+use crate::oracle::bbox::Bounds;
+
+/// A call about something in space.
+pub trait Placed {
+    /// Returns the box around it, or `None` if there is nothing.
+    fn bounds(&self) -> Option<Bounds>;
+}
+
+impl<C: Placed> Aspect<C> {
+    /// The size: half of the longest side of the box.
+    pub const SIZE: Self = Aspect {
+        name: "size",
+        classes: SIZES,
+        class: |call| Some(size_class(call.bounds()?.half_side())),
+    };
+
+    /// The position of the box's centre.
+    pub const PLACE: Self = Aspect {
+        name: "place",
+        classes: PLACES,
+        class: |call| {
+            let bounds = call.bounds()?;
+            Some(place_class(bounds.center(), bounds.half_side()))
+        },
+    };
+
+    /// The octant of the box's centre.
+    pub const OCTANT: Self = Aspect {
+        name: "octant",
+        classes: OCTANTS,
+        class: |call| octant(call.bounds()?.center()),
+    };
+
+    /// The octant of the box, if it is in one.
+    pub const OCTANT_OF_ALL: Self = Aspect {
+        class: |call| {
+            let Bounds { min, max } = call.bounds()?;
+            let is_in_one = (min * max).min_element() > 0.0;
+            is_in_one.then(|| octant(min)).flatten()
+        },
+        ..Self::OCTANT
+    };
+}

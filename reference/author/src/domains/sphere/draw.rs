@@ -1,0 +1,152 @@
+//! Draws spheres, and rays in, around and beside them.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use protocol::{Interval, Ray, Shape};
+
+use super::line::Line;
+use super::{NEAR, SPHERE};
+use crate::domains::fields;
+use crate::domains::shape::ShapeCall;
+use crate::domains::{Call, Generator};
+use crate::oracle::scan;
+use crate::seed::Rng;
+
+/// Draws spheres of these sizes, each with rays that belong to an idea, every other one a hit. All
+/// correct formulas compute the judged quantities within their tolerances.
+pub fn tables(
+    rng: &mut Rng,
+    judged: &[&str],
+    sizes: &[usize],
+    belongs: impl Fn(&Line) -> bool,
+) -> Vec<(Shape, Vec<Ray>)> {
+    let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
+    let generator = Generator {
+        domain: &SPHERE,
+        subject: &drawn_shape,
+        input: &ray,
+        similar: &|call| similar(call, judged),
+        fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),
+    };
+    generator.tables(rng, sizes)
+}
+
+/// Draws a sphere with a radius of this class.
+fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
+    let radius = fields::size(rng, size);
+    Shape::Sphere {
+        center: fields::place(rng, radius).as_vec3(),
+        radius: radius as f32,
+        shape: fields::number(rng),
+    }
+}
+
+/// Draws a ray in, around or beside a sphere. Returns `None` if it would start too far away.
+fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
+    let bounds = scan::bounds(shape);
+    let (center, radius) = (bounds.center(), 0.5 * (bounds.max - bounds.min).x);
+    let dir = fields::direction(rng);
+    let approach = match rng.index(6) {
+        0 => 0.0,
+        1 | 2 => rng.uniform(0.0, 0.9),
+        3 => rng.uniform(0.9, 0.995),
+        4 => rng.uniform(1.005, 1.15),
+        _ => rng.uniform(1.15, 3.0),
+    };
+    let half_chord = radius * (1.0 - approach * approach).max(0.0).sqrt();
+    let beside = radius * rng.log_uniform(0.012, NEAR);
+    let ahead = match rng.index(9) {
+        0 => radius * rng.uniform(1.2, 10.0),
+        1 => radius * rng.uniform(10.0, 29.0),
+        2 => half_chord * rng.uniform(-0.9, 0.9),
+        3 => 0.0,
+        4 => half_chord * rng.sign(),
+        5 => half_chord + beside,
+        6 => (half_chord - beside) * rng.sign(),
+        7 => radius * rng.log_uniform(1e-4, 0.04) * rng.sign(),
+        _ => -radius * rng.log_uniform(1.2, 29.0),
+    };
+    let target = if rng.index(8) > 0 {
+        center + approach * radius * rng.perpendicular_to(dir)
+    } else {
+        // Near a pole.
+        let from_pole = rng.log_uniform(0.012, NEAR);
+        let height = rng.sign() * (1.0 - from_pole * from_pole).sqrt();
+        let turn = rng.uniform(0.0, TAU);
+        let pole = DVec3::new(from_pole * turn.cos(), height, from_pole * turn.sin());
+        center + radius * pole
+    };
+    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, radius)?;
+    let ray = Ray::new(origin.as_vec3(), dir.as_vec3());
+    let range = match rng.index(8) {
+        0 => range_from_a_root(rng, &Line::of(&ShapeCall::new(*shape, ray))?)?,
+        _ => fields::range(rng, ahead.max(0.0) + 2.0 * radius),
+    };
+    Some(ray.within(range.min, range.max))
+}
+
+/// Draws a range that begins or ends just before or behind a root.
+fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
+    let beside = line.sphere.radius * rng.log_uniform(0.0101, 0.02);
+    let end = (line.roots[rng.index(2)] + rng.sign() * beside) as f32;
+    let range = if rng.coin() {
+        Interval::new(end, f32::INFINITY)
+    } else {
+        Interval::new(0.0, end)
+    };
+    (end >= 0.0).then_some(range)
+}
+
+/// Returns a call whose answer differs in what is judged: another sphere is hit, or at another place.
+fn similar(call: &ShapeCall, judged: &[&str]) -> ShapeCall {
+    let Shape::Sphere { center, .. } = call.shape else {
+        return *call;
+    };
+    if judged.contains(&"shape") {
+        call.with_other_number()
+    } else if judged.contains(&"position") {
+        call.moved_to_origin(center)
+    } else {
+        call.smaller()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::Seed;
+
+    /// The quadratic formula in full, in single precision.
+    fn distance(ray: &Ray, shape: &Shape) -> Option<f32> {
+        let Shape::Sphere { center, radius, .. } = *shape else {
+            return None;
+        };
+        let from_center = ray.origin - center;
+        let (a, b) = (ray.dir.dot(ray.dir), 2.0 * ray.dir.dot(from_center));
+        let discriminant = b * b - 4.0 * a * (from_center.dot(from_center) - radius * radius);
+        let root = |sign: f32| (-b + sign * discriminant.sqrt()) / (2.0 * a);
+        [root(-1.0), root(1.0)]
+            .into_iter()
+            .find(|&t| ray.range.contains(t))
+    }
+
+    #[test]
+    fn a_usual_formula_in_single_precision_stays_within_the_tolerances() {
+        for seed in 0..8 {
+            let mut rng = Seed(seed).rng("sphere");
+            for (shape, rays) in tables(&mut rng, &["distance"], fields::EVERY_SIZE, |_| true) {
+                for ray in rays {
+                    let line = Line::of(&ShapeCall::new(shape, ray)).expect("a sphere");
+                    let (got, expected) = (distance(&ray, &shape), line.hits().next());
+                    assert_eq!(got.is_some(), expected.is_some(), "{ray:?} {shape:?}");
+                    let error = f64::from(got.unwrap_or(0.0)) - expected.unwrap_or(0.0);
+                    assert!(
+                        error.abs() < 0.5e-4 * line.coordinates(),
+                        "{ray:?} {shape:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The domain of `Sphere::hit`.
+
+mod draw;
+mod line;
+
+use super::shape::{self, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
+use super::{Aspect, FunctionDomain, not_asked};
+
+pub use draw::tables;
+pub use line::Line;
+
+/// The domain of `Sphere::hit`.
+pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
+    pairs: &[["size", "direction"], ["size", "start"]],
+    calls: shape::calls,
+    function: "Sphere::hit",
+    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, NUMBER],
+    aspects: &[
+        START, DISTANCE, LINE, LATITUDE, DIRECTION, RANGE, END, HISTORY,
+    ],
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked("latitude", &[], &["`None`"], "A miss has no latitude."),
+        not_asked(
+            "place",
+            &["1,000 sizes away"],
+            &["normal", "unit_normal", "uv"],
+            "So far from the origin, rounding the centre changes the normal by more than its tolerance allows.",
+        ),
+        not_asked(
+            "start",
+            &["behind"],
+            &[],
+            "A sphere behind the ray is not hit.",
+        ),
+        not_asked(
+            "line",
+            &["grazing, outside", "outside"],
+            &[],
+            "A line outside of the sphere hits nothing.",
+        ),
+        not_asked(
+            "size",
+            &["500"],
+            &["pairs"],
+            "Nothing is 30 radii away from such a sphere in a scene whose coordinates end at a thousand.",
+        ),
+        not_asked(
+            "distance",
+            &["2000"],
+            &["normal", "unit_normal", "origin", "position", "shape", "uv"],
+            "Only the largest spheres are hit so far away, so an exam may ask it for the distance alone.",
+        ),
+    ],
+};
+
+/// The start of the ray, seen from the sphere.
+const START: Aspect<ShapeCall> = Aspect {
+    name: "start",
+    classes: &[
+        "in front, up to 10 radii away",
+        "in front, up to 30 radii away",
+        "inside",
+        "at the centre",
+        "on the surface",
+        "behind",
+        "just in front",
+        "just inside",
+        "almost at the centre",
+    ],
+    class: |call| {
+        let line = Line::of(call)?;
+        let Line { sphere, ray64, .. } = line;
+        let leads_away = ray64.dir.dot(sphere.center - ray64.origin) < 0.0;
+        let is_near = line
+            .roots
+            .into_iter()
+            .any(|root| root > 0.0 && root < NEAR * sphere.radius);
+        Some(match line.start() {
+            ..1e-6 => 3,
+            ..0.05 => 8,
+            0.999..1.001 => 4,
+            ..1.0 if is_near => 7,
+            ..1.0 => 2,
+            _ if leads_away => 5,
+            _ if is_near => 6,
+            ..10.0 => 0,
+            _ => 1,
+        })
+    },
+};
+
+/// The distance from a root that counts as near, in radii.
+const NEAR: f64 = 0.1;
+
+/// The distance of the ray's line from the centre.
+const LINE: Aspect<ShapeCall> = Aspect {
+    name: "line",
+    classes: &[
+        "through the centre",
+        "inside",
+        "grazing, inside",
+        "grazing, outside",
+        "outside",
+    ],
+    class: |call| {
+        Some(match Line::of(call)?.approach {
+            ..1e-3 => 0,
+            ..0.9 => 1,
+            ..1.0 => 2,
+            ..1.15 => 3,
+            _ => 4,
+        })
+    },
+};
+
+/// The distance of the hit from the axis through the poles.
+const LATITUDE: Aspect<ShapeCall> = Aspect {
+    name: "latitude",
+    classes: &["near a pole", "anywhere"],
+    class: |call| {
+        let line = Line::of(call)?;
+        Some(usize::from(line.pole_distance(line.hits().next()?) > NEAR))
+    },
+};
+
+/// The ends of the range, seen from the roots.
+const END: Aspect<ShapeCall> = Aspect {
+    name: "end of the range",
+    classes: &["just before or behind a root", "anywhere"],
+    class: |call| {
+        let line = Line::of(call)?;
+        let ends = [line.ray64.min, line.ray64.max];
+        let mut distances = ends
+            .iter()
+            .flat_map(|end| line.roots.map(|root| (root - end).abs()));
+        Some(usize::from(
+            !distances.any(|it| it < 0.02 * line.sphere.radius),
+        ))
+    },
+};

@@ -1,0 +1,72 @@
+//! How the decoys of calls of `Bvh::hit` differ.
+
+use super::call::TraverseCall;
+use crate::domains::Aspect;
+use crate::domains::fields::class_up_to;
+
+/// The reason why the decoy is not asked.
+pub(super) const REASON: Aspect<TraverseCall> = Aspect {
+    name: "decoy",
+    classes: &[
+        "its box is missed",
+        "its box and its sibling's are missed",
+        "its box begins beyond the hit",
+        "its box and then its sibling's begin beyond the hit",
+        "its sibling's box and then its own begin beyond the hit",
+    ],
+    class: |call| Some(call.decoy?.reason),
+};
+
+/// The kind of the decoy.
+pub(super) const KIND: Aspect<TraverseCall> = Aspect {
+    name: "decoy's kind",
+    classes: &["triangle", "sphere"],
+    class: |call| Some(usize::from(call.decoy?.is_sphere)),
+};
+
+/// The number of primitives in the decoy's leaf.
+pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
+    name: "decoy's leaf",
+    classes: &["1", "2", "3", "4 or more"],
+    class: |call| Some(class_up_to(&[1, 2, 3], call.decoy?.leaf_size)),
+};
+
+/// The place of the decoy in its leaf.
+pub(super) const PLACE: Aspect<TraverseCall> = Aspect {
+    name: "decoy's place",
+    classes: &["alone", "first", "in the middle", "last"],
+    class: |call| {
+        let decoy = call.decoy?;
+        Some(match decoy.place {
+            _ if decoy.leaf_size == 1 => 0,
+            0 => 1,
+            place if place + 1 < decoy.leaf_size => 2,
+            _ => 3,
+        })
+    },
+};
+
+/// The level of the decoy's leaf.
+pub(super) const LEVEL: Aspect<TraverseCall> = Aspect {
+    name: "decoy's level",
+    classes: &["2 to 12", "13 to 24", "25 to 40", "41 to 60"],
+    class: |call| Some(class_up_to(&[12, 24, 40], call.decoy?.level)),
+};
+
+/// The box of the decoy's leaf.
+pub(super) const BOX: Aspect<TraverseCall> = Aspect {
+    name: "decoy's box",
+    classes: &["thick", "flat"],
+    class: |call| Some(usize::from(call.decoy?.is_flat)),
+};
+
+/// The call before that of a decoy.
+pub(super) const HISTORY: Aspect<TraverseCall> = Aspect {
+    name: "decoy's history",
+    classes: &[
+        "any",
+        "after a hit in its leaf",
+        "after a parallel ray that enters its box before its sibling's",
+    ],
+    class: |call| Some(call.decoy?.history),
+};

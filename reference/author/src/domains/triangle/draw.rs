@@ -1,0 +1,240 @@
+//! Draws triangles, and rays through and beside them.
+
+use glam::{BVec2, BVec3, DVec2, DVec3, Vec2, Vec3};
+use protocol::{Ray, Shape, Vertex};
+
+use super::plane::Plane;
+use super::{ALMOST_RIGHT, EDGE, NEAR, TRIANGLE};
+use crate::domains::Generator;
+use crate::domains::fields;
+use crate::domains::shape::ShapeCall;
+use crate::oracle::bbox::Bounds;
+use crate::oracle::scan;
+use crate::seed::Rng;
+
+/// Draws triangles of these sizes, each with rays that belong to an idea, every other one a hit. All
+/// correct formulas compute the judged quantities within their tolerances.
+pub fn tables(
+    rng: &mut Rng,
+    judged: &[&str],
+    sizes: &[usize],
+    belongs: impl Fn(&Plane) -> bool,
+) -> Vec<(Shape, Vec<Ray>)> {
+    let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
+    let generator = Generator {
+        domain: &TRIANGLE,
+        subject: &drawn_shape,
+        input: &ray,
+        similar: &|call| similar(call, judged),
+        fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),
+    };
+    generator.tables(rng, sizes)
+}
+
+/// Draws a triangle of this size. It faces along an axis, almost so, or in any direction, and may be
+/// narrow at a corner.
+fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
+    let size = fields::size(rng, size);
+    let corners = corners(rng);
+    let bounds = Bounds::around(corners);
+    let factor = size / bounds.half_side();
+    let start = if rng.index(6) == 0 {
+        -factor * corners[0]
+    } else {
+        fields::place(rng, size) - factor * bounds.center()
+    };
+    let corners = corners.map(|corner| (start + factor * corner).as_vec3());
+    let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());
+    let side = rng.sign() * (p1 - p0).cross(p2 - p0).normalize();
+    let vertices = with_attributes(rng, corners, side);
+    Shape::Triangle {
+        vertices,
+        shape: fields::number(rng),
+    }
+}
+
+/// Draws the corners of a triangle with sides of about one.
+fn corners(rng: &mut Rng) -> [DVec3; 3] {
+    let (axis, kind) = (rng.index(3), rng.index(4));
+    let tilt = match kind {
+        0 | 1 => 0.0,
+        2 => rng.log_uniform(1e-6, 1e-3),
+        _ => 1.0,
+    };
+    // Often, one edge is along an axis in the triangle's plane.
+    let (from, along) = (rng.index(3), (axis + 1 + rng.index(2)) % 3);
+    let has_edge_along = rng.index(3) == 0;
+    let mut corners = rng.retry(|rng| {
+        let mut corners = [(); 3].map(|()| {
+            let mut corner = rng.point(1.0);
+            corner[axis] *= tilt;
+            corner
+        });
+        if has_edge_along {
+            let start = corners[from];
+            let end = &mut corners[(from + 1) % 3];
+            *end = DVec3::select(
+                BVec3::from_array([0, 1, 2].map(|it| it == along)),
+                *end,
+                start,
+            );
+        }
+        let [p0, p1, p2] = corners;
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+        (altitude > 0.3 * longest && longest > 0.5).then_some(corners)
+    });
+    let corner = rng.index(3);
+    let (second, third) = ((corner + 1) % 3, (corner + 2) % 3);
+    match rng.index(5) {
+        // The side opposite a corner is so short that the corner is narrow.
+        0 => corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03)),
+        // A corner is so close to the side opposite it that the triangle is flat there.
+        1 => {
+            let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
+            corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, 0.04));
+        }
+        // The angle at a corner is almost right.
+        2 => {
+            let side = corners[second] - corners[corner];
+            let other = corners[third] - corners[corner];
+            let part = other.dot(side) / side.length_squared();
+            let slant = rng.sign() * rng.uniform(0.5, 0.9) * ALMOST_RIGHT;
+            let across = other - part * side;
+            let along = slant * across.length() / side.length();
+            corners[third] = corners[corner] + across + along * side;
+        }
+        _ => {}
+    }
+    corners
+}
+
+/// Draws normals, which more or less point to a side, and texture coordinates.
+fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
+    let common = (side + 0.7 * rng.direction()).normalize();
+    let spread = [0.0, 0.4, 0.8, 2.0, 2.0][rng.index(5)];
+    let (least, most) = if rng.coin() { (0.0, 1.0) } else { (-2.0, 3.0) };
+    let tile = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+    let (same_u, same_v) =
+        [(true, true), (false, true), (false, false), (false, false)][rng.index(4)];
+    corners.map(|corner| {
+        let normal = (common + spread * rng.direction()).normalize();
+        let uv = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+        let uv = DVec2::select(BVec2::new(same_u, same_v), tile, uv);
+        Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
+    })
+}
+
+/// Draws a ray through the plane of a triangle. Returns `None` if it would start too far away.
+fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
+    let [p0, p1, p2] = scan::corners(shape)?;
+    let [w0, w1, w2] = weights(rng);
+    let target = w0 * p0 + w1 * p1 + w2 * p2;
+    let front = (p1 - p0).cross(p2 - p0).normalize();
+    let size = scan::bounds(shape).half_side();
+    let kind = rng.index(6);
+    let dir = match kind {
+        0 => {
+            let cosine = rng.sign() * rng.log_uniform(3.5e-3, 0.1);
+            let along = rng.perpendicular_to(front);
+            (1.0 - cosine * cosine).sqrt() * along + cosine * front
+        }
+        1 => rng.sign() * front,
+        _ => fields::direction(rng),
+    };
+    let ahead = size
+        * match rng.index(6) {
+            // The shorter the way, the smaller the cosine at which rounding still allows an exact answer.
+            _ if kind == 0 && rng.coin() => rng.log_uniform(NEAR, 1.0),
+            0 => rng.log_uniform(NEAR, 3.0),
+            1 => rng.log_uniform(0.0102, NEAR),
+            2 | 3 => rng.uniform(3.0, 28.0),
+            4 => 0.0,
+            _ => -rng.log_uniform(0.05, 28.0),
+        };
+    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
+    let range = fields::range(rng, ahead.max(0.0) + 2.0 * size);
+    Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(range.min, range.max))
+}
+
+/// Returns the weights of a point: inside, near an edge, or outside.
+fn weights(rng: &mut Rng) -> [f64; 3] {
+    let least = match rng.index(6) {
+        0 | 1 => return fields::weights_inside(rng, EDGE),
+        2 => rng.log_uniform(5e-4, EDGE),
+        3 => -rng.log_uniform(5e-4, EDGE),
+        4 => -rng.uniform(EDGE, 1.0),
+        _ => -rng.uniform(1.0, 4.0),
+    };
+    let (corner, along) = (rng.index(3), rng.uniform(0.05, 0.95));
+    let mut weights = [least; 3];
+    weights[(corner + 1) % 3] = (1.0 - least) * along;
+    weights[(corner + 2) % 3] = (1.0 - least) * (1.0 - along);
+    weights
+}
+
+/// Returns a call whose answer differs in what is judged: another triangle is hit, or at another place.
+fn similar(call: &ShapeCall, judged: &[&str]) -> ShapeCall {
+    let Shape::Triangle { vertices, .. } = call.shape else {
+        return *call;
+    };
+    let of_corners = ["normal", "uv", "shape"];
+    if of_corners.iter().any(|name| judged.contains(name)) {
+        let mut similar = call.with_other_number();
+        if let Shape::Triangle { vertices, .. } = &mut similar.shape {
+            // Each corner has what another one had.
+            let [a, b, c] = vertices.map(|vertex| (vertex.normal, vertex.uv));
+            for (vertex, (normal, uv)) in vertices.iter_mut().zip([b, c, a]) {
+                (vertex.normal, vertex.uv) = (normal, uv + Vec2::splat(0.25));
+            }
+        }
+        similar
+    } else if judged.contains(&"position") {
+        call.moved_to_origin(vertices[0].position)
+    } else {
+        call.smaller()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domains::Call;
+    use crate::seed::Seed;
+
+    /// The distance to the plane, and the weights as ratios of dot products, in single precision.
+    fn distance(ray: &Ray, shape: &Shape) -> Option<f32> {
+        let Shape::Triangle { vertices, .. } = shape else {
+            return None;
+        };
+        let [p0, p1, p2] = [0, 1, 2].map(|corner| vertices[corner].position);
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        let face = e1.cross(e2);
+        let t = face.dot(p0 - ray.origin) / face.dot(ray.dir);
+        let point = ray.at(t) - p0;
+        let area = face.dot(face);
+        let (u, v) = (
+            point.cross(e2).dot(face) / area,
+            e1.cross(point).dot(face) / area,
+        );
+        let is_inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+        (is_inside && ray.range.contains(t)).then_some(t)
+    }
+
+    #[test]
+    fn a_usual_formula_in_single_precision_stays_within_the_tolerances() {
+        for seed in 0..8 {
+            let mut rng = Seed(seed).rng("triangle");
+            for (shape, rays) in tables(&mut rng, &["distance"], fields::EVERY_SIZE, |_| true) {
+                for ray in rays {
+                    let plane = Plane::of(&ShapeCall::new(shape, ray)).expect("a triangle");
+                    let got = distance(&ray, &shape);
+                    assert_eq!(got.is_some(), plane.is_hit(), "{ray:?} {shape:?}");
+                    let error = got.map_or(0.0, |got| f64::from(got) - plane.distance);
+                    let scale = plane.coordinates.max(plane.distance);
+                    assert!(error.abs() < 0.5e-4 * scale, "{ray:?} {shape:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,363 @@
+//! The domain of `Triangle::hit`.
+
+mod draw;
+mod plane;
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+use glam::Vec2;
+use protocol::Shape;
+
+use self::plane::corner_normals;
+use super::shape::{self, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
+use super::{Aspect, FunctionDomain, not_asked};
+use crate::oracle::scan;
+
+pub use draw::tables;
+pub use plane::Plane;
+
+/// The domain of `Triangle::hit`.
+pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
+    pairs: &[["size", "axis"], ["size", "start"]],
+    calls: shape::calls,
+    function: "Triangle::hit",
+    subject_aspects: &[
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT,
+        NUMBER,
+        PLANE,
+        FACING,
+        FORM,
+        ANGLES,
+        EDGE_ALONG,
+        TILES,
+        NORMALS,
+        SPREAD,
+    ],
+    aspects: &[
+        START,
+        DISTANCE,
+        COSINE,
+        CROSSING,
+        LEAST_WEIGHT,
+        DIRECTION,
+        AXIS,
+        RANGE,
+        HISTORY,
+    ],
+    not_asked: &[
+        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            "start",
+            &["leads away"],
+            &[],
+            "A ray that leads away from the triangle hits nothing.",
+        ),
+        not_asked(
+            "start",
+            &["on the surface"],
+            &[],
+            "The start itself is in the range only if the range begins there, and ends of ranges keep a margin. So such a ray hits nothing.",
+        ),
+        not_asked(
+            "crossing",
+            &["just outside an edge", "outside", "far outside"],
+            &[],
+            "Outside the triangle, nothing is hit.",
+        ),
+        not_asked(
+            "crossing",
+            &["just inside an edge"],
+            &[
+                "`None`", "distance", "normal", "origin", "position", "shape",
+            ],
+            "Only `triangle.outside` and `triangle.uv_corners` ask rays close to an edge, so that a mistake there costs few points. The small weights show in the texture coordinates.",
+        ),
+        not_asked(
+            "form",
+            &[
+                "narrow at p0",
+                "narrow at p1",
+                "narrow at p2",
+                "flat at p0",
+                "flat at p1",
+                "flat at p2",
+            ],
+            &["normal", "uv", "origin", "position", "shape"],
+            "In a narrow or flat triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
+        ),
+        not_asked(
+            "cosine",
+            &["below 0.01"],
+            &["normal", "uv"],
+            "At so small a cosine, the weights of a usual formula in single precision are seldom exact enough, so an exam may ask only the other quantities.",
+        ),
+        not_asked(
+            "place",
+            &["1,000 sizes away"],
+            &["normal", "uv"],
+            "So far from the origin, rounding the corners changes the weights by more than the tolerances of normals and texture coordinates allow.",
+        ),
+        not_asked(
+            "distance",
+            &["2000"],
+            &["normal", "origin", "position", "shape", "uv"],
+            "Only the largest triangles are hit so far away, so an exam may ask it for the distance alone.",
+        ),
+    ],
+};
+
+/// The triangle's plane.
+const PLANE: Aspect<ShapeCall> = Aspect {
+    name: "plane",
+    classes: &["across x", "across y", "across z", "any"],
+    class: |call| {
+        Some((FACING.class)(call).map_or(3, |facing| if facing < 6 { facing % 3 } else { 3 }))
+    },
+};
+
+/// The direction in which the triangle faces.
+const FACING: Aspect<ShapeCall> = Aspect {
+    name: "facing",
+    classes: &[
+        "+x",
+        "+y",
+        "+z",
+        "-x",
+        "-y",
+        "-z",
+        "almost along an axis",
+        "any",
+    ],
+    class: |call| {
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        let normal = (p1 - p0).cross(p2 - p0).normalize();
+        let axes: Vec<usize> = (0..3).filter(|&axis| normal[axis] != 0.0).collect();
+        Some(match axes[..] {
+            [axis] if normal[axis] > 0.0 => axis,
+            [axis] => 3 + axis,
+            _ if normal.abs().max_element() > 0.9999 => 6,
+            _ => 7,
+        })
+    },
+};
+
+/// The form of the triangle.
+const FORM: Aspect<ShapeCall> = Aspect {
+    name: "form",
+    classes: &[
+        "wide",
+        "narrow at p0",
+        "narrow at p1",
+        "narrow at p2",
+        "flat at p0",
+        "flat at p1",
+        "flat at p2",
+    ],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        let angle = |corner: usize| {
+            let side = |other: usize| corners[(corner + other) % 3] - corners[corner];
+            side(1).angle_between(side(2))
+        };
+        let narrow = (0..3).find(|&corner| angle(corner) < NARROW);
+        let flat = (0..3).find(|&corner| angle(corner) > PI - 2.0 * NARROW);
+        Some(match (flat, narrow) {
+            (Some(corner), _) => 4 + corner,
+            (None, Some(corner)) => 1 + corner,
+            (None, None) => 0,
+        })
+    },
+};
+
+/// The largest angle that counts as narrow, in radians.
+const NARROW: f64 = 0.045;
+
+/// The angles of the triangle, almost all of which are usual.
+const ANGLES: Aspect<ShapeCall> = Aspect {
+    name: "angles",
+    classes: &[
+        "almost right at p0",
+        "almost right at p1",
+        "almost right at p2",
+        "usual",
+    ],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        let cosine = |corner: usize| {
+            let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
+            side(1).dot(side(2))
+        };
+        let right = (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT);
+        Some(right.unwrap_or(3))
+    },
+};
+
+/// The largest cosine of an angle that is almost right.
+const ALMOST_RIGHT: f64 = 3e-3;
+
+/// The edges of the triangle.
+const EDGE_ALONG: Aspect<ShapeCall> = Aspect {
+    name: "edges",
+    classes: &[
+        "one along x",
+        "one along y",
+        "one along z",
+        "none along an axis",
+    ],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        let is_along = |axis: usize, from: usize| {
+            let edge = corners[(from + 1) % 3] - corners[from];
+            (0..3).all(|other| other == axis || edge[other] == 0.0)
+        };
+        let axis = (0..3).find(|&axis| (0..3).any(|from| is_along(axis, from)));
+        Some(axis.unwrap_or(3))
+    },
+};
+
+/// The texture coordinates of the corners.
+const TILES: Aspect<ShapeCall> = Aspect {
+    name: "uv of the corners",
+    classes: &["in [0, 1]", "beyond", "all equal", "with the same v"],
+    class: |call| {
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let unit = 0.0..=1.0;
+        let uvs = vertices.map(|vertex| vertex.uv);
+        let is_inside = |uv: &Vec2| uv.to_array().iter().all(|it| unit.contains(it));
+        let (same_u, same_v) = (all_equal(uvs.map(|uv| uv.x)), all_equal(uvs.map(|uv| uv.y)));
+        Some(match (same_u, same_v) {
+            (true, true) => 2,
+            (false, true) => 3,
+            _ => usize::from(!uvs.iter().all(is_inside)),
+        })
+    },
+};
+
+fn all_equal(values: [f32; 3]) -> bool {
+    values.iter().all(|value| *value == values[0])
+}
+
+/// The side to which the normals of the corners point.
+const NORMALS: Aspect<ShapeCall> = Aspect {
+    name: "normals of the corners",
+    classes: &["to the front", "to the back"],
+    class: |call| {
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        let front = (p1 - p0).cross(p2 - p0);
+        Some(usize::from(vertices[0].normal.as_dvec3().dot(front) < 0.0))
+    },
+};
+
+/// The largest angle between the normals of two corners.
+const SPREAD: Aspect<ShapeCall> = Aspect {
+    name: "spread of the normals",
+    classes: &["none", "to 45°", "to 90°", "beyond"],
+    class: |call| {
+        let normals = corner_normals(&call.shape)?;
+        let cosine = |from: usize| normals[from].dot(normals[(from + 1) % 3]);
+        let least = (0..3).map(cosine).fold(f64::INFINITY, f64::min);
+        Some(match least {
+            _ if normals[0] == normals[1] && normals[1] == normals[2] => 0,
+            FRAC_1_SQRT_2.. => 1,
+            0.0.. => 2,
+            _ => 3,
+        })
+    },
+};
+
+/// The start of the ray, seen from the triangle. Its size is half of its box's longest side.
+const START: Aspect<ShapeCall> = Aspect {
+    name: "start",
+    classes: &[
+        "in front, up to 3 sizes away",
+        "in front, up to 30 sizes away",
+        "behind, up to 3 sizes away",
+        "behind, up to 30 sizes away",
+        "on the surface",
+        "leads away",
+        "just in front or behind",
+    ],
+    class: |call| {
+        let Plane {
+            distance, slope, ..
+        } = Plane::of(call)?;
+        let sizes = distance / call.size();
+        let side = if slope < 0.0 { 0 } else { 2 };
+        Some(match sizes {
+            ..-0.01 => 5,
+            ..0.01 => 4,
+            ..NEAR => 6,
+            ..3.0 => side,
+            _ => side + 1,
+        })
+    },
+};
+
+/// The distance from the plane that counts as near, in sizes.
+const NEAR: f64 = 0.05;
+
+/// The cosine between the ray and the triangle's normal.
+const COSINE: Aspect<ShapeCall> = Aspect {
+    name: "cosine",
+    classes: &["below 0.01", "0.01 to 0.1", "0.1 to 0.5", "0.5 to 1", "1"],
+    class: |call| {
+        Some(match Plane::of(call)?.slope.abs() {
+            ..0.01 => 0,
+            ..0.1 => 1,
+            ..0.5 => 2,
+            ..0.999_999 => 3,
+            _ => 4,
+        })
+    },
+};
+
+/// The point where the ray's line crosses the plane.
+const CROSSING: Aspect<ShapeCall> = Aspect {
+    name: "crossing",
+    classes: &[
+        "inside",
+        "just inside an edge",
+        "just outside an edge",
+        "outside",
+        "far outside",
+    ],
+    class: |call| {
+        Some(match Plane::of(call)?.least_weight() {
+            EDGE.. => 0,
+            0.0.. => 1,
+            -0.02.. => 2,
+            -1.0.. => 3,
+            _ => 4,
+        })
+    },
+};
+
+/// The largest weight at which a point counts as just inside an edge.
+const EDGE: f64 = 0.02;
+
+/// The corner with the smallest weight.
+const LEAST_WEIGHT: Aspect<ShapeCall> = Aspect {
+    name: "least weight",
+    classes: &["p0", "p1", "p2"],
+    class: |call| {
+        let plane = Plane::of(call)?;
+        (0..3).min_by(|&a, &b| plane.weights[a].total_cmp(&plane.weights[b]))
+    },
+};
+
+/// The axis that the ray is parallel to. A triangle across an axis is seldom seen from both sides.
+const AXIS: Aspect<ShapeCall> = Aspect {
+    name: "axis",
+    classes: &["along x", "along y", "along z", "any"],
+    class: |call| {
+        let direction = (DIRECTION.class)(call)?;
+        Some(if direction < 6 { direction % 3 } else { 3 })
+    },
+};

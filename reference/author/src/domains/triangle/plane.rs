@@ -1,0 +1,187 @@
+//! Where a ray crosses the plane of a triangle, and how exact that is in single precision.
+
+use glam::DVec3;
+use protocol::Shape;
+
+use crate::domains::fields::{EPSILON, FURTHEST, FURTHEST_SIZES};
+use crate::domains::shape::ShapeCall;
+use crate::oracle::{Ray64, scan, triangle};
+
+/// The point where a call's ray crosses the plane of the triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    /// The ray.
+    pub ray64: Ray64,
+    /// The distance along the ray, which is negative if the ray leads away from the plane.
+    pub distance: f64,
+    /// The weights of the corners.
+    pub weights: [f64; 3],
+    /// The ray's direction times the normal (p1 − p0) × (p2 − p0), which has length one. Negative if
+    /// the ray comes from the front.
+    pub slope: f64,
+    /// The length of the sum of the corners' normals, times the weights.
+    normal_length: f64,
+    /// The distance of the ray's start from the triangle, in sizes.
+    start: f64,
+    /// The smallest altitude.
+    altitude: f64,
+    /// The longest side.
+    longest: f64,
+    /// Half of the longest side of the triangle's box.
+    size: f64,
+    /// The largest coordinate of the ray and the triangle.
+    pub(super) coordinates: f64,
+}
+
+impl Plane {
+    /// Returns the point where a call's ray crosses the plane, or `None` if it is parallel to it.
+    pub fn of(call: &ShapeCall) -> Option<Plane> {
+        let corners @ [p0, p1, p2] = scan::corners(&call.shape)?;
+        let ray64 = Ray64::from(&call.ray);
+        let crossing = triangle::intersect_plane(&ray64, corners)?;
+        let normal = (p1 - p0).cross(p2 - p0);
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let points = corners.into_iter().chain([ray64.origin]);
+        let weighted = corner_normals(&call.shape).map(|[n0, n1, n2]| {
+            let [w0, w1, w2] = crossing.weights;
+            w0 * n0 + w1 * n1 + w2 * n2
+        });
+        let bounds = scan::bounds(&call.shape);
+        let beside = ray64.origin - ray64.origin.clamp(bounds.min, bounds.max);
+        Some(Plane {
+            normal_length: weighted.map_or(1.0, DVec3::length),
+            start: beside.length() / call.size(),
+            ray64,
+            distance: crossing.distance,
+            weights: crossing.weights,
+            slope: normal.normalize().dot(ray64.dir),
+            altitude: normal.length() / longest,
+            longest,
+            size: call.size(),
+            coordinates: points
+                .map(|point| point.abs().max_element())
+                .fold(0.0, f64::max),
+        })
+    }
+
+    /// Returns the smallest weight, which is negative outside the triangle.
+    pub fn least_weight(&self) -> f64 {
+        self.weights.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns whether the range of the ray is from 0 to ∞.
+    pub fn is_unlimited(&self) -> bool {
+        self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
+    }
+
+    /// Returns whether the ray crosses the plane inside the triangle, whatever its range is.
+    pub fn is_inside(&self) -> bool {
+        self.least_weight() >= 0.0
+    }
+
+    pub(super) fn is_hit(&self) -> bool {
+        self.is_inside() && self.ray64.is_in_range(self.distance)
+    }
+
+    /// Returns whether every correct formula in single precision agrees on whether the triangle is hit.
+    pub fn is_clear(&self) -> bool {
+        /// The least distance from an edge, in altitudes.
+        const EDGE_MARGIN: f64 = 5e-4;
+        /// The least cosine at which edges are tested.
+        const EDGE_COSINE: f64 = 0.1;
+        /// The least distance from an edge of a ray at a smaller cosine, in altitudes.
+        const GRAZING_MARGIN: f64 = 0.1;
+        /// The least difference between a distance and an end of the range, in sizes.
+        const END_MARGIN: f64 = 0.0101;
+        let margin = if self.slope.abs() < EDGE_COSINE {
+            GRAZING_MARGIN
+        } else {
+            EDGE_MARGIN
+        };
+        let margin = margin.max(4.0 * self.weight_error());
+        if self.start > FURTHEST_SIZES || self.coordinates > FURTHEST {
+            return false;
+        }
+        if self.slope.abs() < 3.5e-3 || self.least_weight().abs() < margin {
+            return false;
+        }
+        let margin = (END_MARGIN * self.size).max(4.0 * self.distance_error());
+        let mut ends = [self.ray64.min, self.ray64.max].into_iter();
+        !self.is_inside() || ends.all(|end| (self.distance - end).abs() >= margin)
+    }
+
+    /// Returns whether every correct formula in single precision computes the quantity of this name well
+    /// within its tolerance.
+    pub fn is_exact(&self, quantity: &str) -> bool {
+        /// The largest part of a tolerance that errors may take.
+        const PART: f64 = 0.5;
+        if !self.is_hit() {
+            return true;
+        }
+        let scale = self.coordinates.max(self.distance);
+        match quantity {
+            "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
+            "normal" => {
+                /// The least length of a sum whose direction is well known.
+                const LEAST: f64 = 0.3;
+                let error = 2.0 * self.weight_error() / self.normal_length;
+                self.normal_length > LEAST && error <= PART * 1e-3
+            }
+            // Corners may differ by five tiles.
+            "uv" => 5.0 * self.weight_error() <= PART * 2e-3,
+            _ => true,
+        }
+    }
+
+    /// Returns how wrong the distance may be if it is computed in single precision by a usual formula,
+    /// such as (n · p0 − n · origin) / (n · direction).
+    fn distance_error(&self) -> f64 {
+        let slenderness = self.longest / self.altitude;
+        let lengths = self.coordinates + self.distance.abs();
+        let determinant = slenderness * (self.distance.abs() + self.longest);
+        1.5 * EPSILON * (lengths + determinant) / self.slope.abs()
+    }
+
+    /// Returns how wrong a weight may be if it is computed in single precision by a usual formula. Some
+    /// divide by the square of the area.
+    fn weight_error(&self) -> f64 {
+        let position = 2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates;
+        position / self.altitude + 4.0 * EPSILON * (self.longest / self.altitude).powi(2)
+    }
+}
+
+/// Returns the normals of a triangle's corners, or `None` if it has none.
+pub(super) fn corner_normals(shape: &Shape) -> Option<[DVec3; 3]> {
+    let Shape::Triangle { vertices, .. } = shape else {
+        return None;
+    };
+    Some(vertices.map(|vertex| vertex.normal.as_dvec3()))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+    use protocol::{Ray, Vertex};
+
+    use super::*;
+    use crate::domains::Call;
+
+    #[test]
+    fn edges_and_ends_of_ranges_are_not_clear() {
+        let corner =
+            |x: f32, y: f32| Vertex::new(glam::vec3(x, y, -5.0), glam::Vec3::Z, Vec2::ZERO);
+        let shape = Shape::Triangle {
+            vertices: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(-1.0, 1.0)],
+            shape: 0,
+        };
+        let is_clear = |x: f32, max: f32| {
+            let ray = Ray::new(glam::vec3(x, -0.5, 0.0), glam::Vec3::NEG_Z).within(0.0, max);
+            Plane::of(&ShapeCall::new(shape, ray))
+                .expect("a triangle")
+                .is_clear()
+        };
+        assert!(is_clear(-0.9, 9.0) && is_clear(-0.998, 9.0) && is_clear(-1.002, 9.0));
+        assert!(!is_clear(-0.9999, 9.0) && !is_clear(-1.0001, 9.0));
+        assert!(!is_clear(-0.9, 5.01) && is_clear(-0.9, 4.9));
+    }
+}

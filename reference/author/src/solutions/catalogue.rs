@@ -8,15 +8,18 @@
 //!   it, too.
 //! - Unknown mistakes in `unknown/*.toml`: no hint is written for them, so they tell whether wrong code
 //!   gets a hint that is not true of it.
+//!
+//! [`methods`](crate::solutions::methods) reads more of the last kind.
 
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use grader::files;
 use grader::handed_out::HandedOut;
 use judging::assignment::Task;
 use judging::section::Section;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use crate::solutions::Solutions;
 use crate::solutions::read_toml;
@@ -139,7 +142,7 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
 }
 
 /// Reads the `[[mistake]]` entries of the TOML files in a folder of the catalogue, in the order of the
-/// files. There are none if the folder does not exist.
+/// files.
 fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Vec<Mistake>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -147,15 +150,23 @@ fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Ve
         mistake: Vec<Mistake>,
     }
 
+    let files: Vec<File> = read_folder(root, handed_out, folder)?;
+    Ok(files.into_iter().flat_map(|file| file.mistake).collect())
+}
+
+/// Reads the TOML files in a folder of the catalogue. There are none if the folder does not exist.
+pub(super) fn read_folder<T: DeserializeOwned>(
+    root: &Path,
+    handed_out: &HandedOut,
+    folder: &str,
+) -> Result<Vec<T>> {
     let folder = root.join(format!("{}/mistakes/{folder}", handed_out.solutions()));
     if !folder.exists() {
         return Ok(Vec::new());
     }
     let mut paths = files::read_dir(folder)?;
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    let files = paths.iter().map(|path| read_toml(path));
-    let files: Vec<File> = files.collect::<Result<_>>()?;
-    Ok(files.into_iter().flat_map(|file| file.mistake).collect())
+    paths.iter().map(|path| read_toml(path)).collect()
 }
 
 /// Reads the independent mistakes, and applies them to their variants.
@@ -185,15 +196,7 @@ pub fn other_causes(solutions: &Solutions) -> Result<Vec<Solution>> {
 pub fn unknown_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("unknown")?.into_iter();
     all.map(|mistake| {
-        let is_known = |id: &String| solutions.mistake(id).is_some();
-        let has_task = Task::in_id(&mistake.id).is_some();
-        if !has_task || is_known(&mistake.id) || !mistake.true_hints.iter().all(is_known) {
-            bail!(
-                "{} in mistakes/unknown: its id must begin with a task and a dot, and be no known \
-                 mistake's; `true_hints` names known mistakes",
-                mistake.id
-            );
-        }
+        solutions.check_unknown(&mistake.id, &mistake.true_hints, "unknown")?;
         let mut unknown = mistake.solution(solutions.recorder.reference())?;
         unknown.expected.true_hints = mistake.true_hints;
         Ok(unknown)
@@ -204,6 +207,25 @@ pub fn unknown_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
 impl Solutions {
     fn read_catalogue(&self, folder: &str) -> Result<Vec<Mistake>> {
         read_mistakes(self.workbench.root(), self.workbench.handed_out(), folder)
+    }
+
+    /// Returns the task of a wrong solution in a folder for those that are no known mistakes, and
+    /// checks the ids that its entry contains.
+    pub(super) fn check_unknown(
+        &self,
+        id: &str,
+        true_hints: &[String],
+        folder: &str,
+    ) -> Result<Task> {
+        let is_known = |id: &str| self.mistake(id).is_some();
+        let are_known = true_hints.iter().all(|hint| is_known(hint));
+        let task = Task::in_id(id).filter(|_| !is_known(id) && are_known);
+        task.ok_or_else(|| {
+            anyhow!(
+                "{id} in mistakes/{folder}: its id must begin with a task and a dot, and be no known \
+                 mistake's; `true_hints` names known mistakes"
+            )
+        })
     }
 }
 
@@ -254,7 +276,7 @@ impl Mistake {
         Ok(Solution {
             title: known.title.clone(),
             sources: sources.map_err(|(file, count)| {
-                anyhow::anyhow!(
+                anyhow!(
                     "{id} no longer applies: its `was` occurs {count} times in {file} with its given \
                      code, instead of once; adapt it in mistakes/independent"
                 )
@@ -269,7 +291,7 @@ impl Mistake {
         let handed_out = reference.handed_out();
         let own_file = handed_out.assignment.info(self.task()).file;
         apply_changes(reference, &self.changes, own_file).map_err(|(file, count)| {
-            anyhow::anyhow!(
+            anyhow!(
                 "{} no longer applies: its `was` occurs {count} times in {}/{file} instead of once; \
                  adapt it in the catalogue of mistakes",
                 self.id,

@@ -8,6 +8,7 @@
 
 pub mod catalogue;
 pub mod failed_items;
+pub mod methods;
 pub mod mutants;
 pub mod recording;
 pub mod solution;

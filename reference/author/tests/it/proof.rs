@@ -13,7 +13,8 @@ use author::proof::recognition::{
     Recognition, recognise, recognise_independent, recognise_unknown,
 };
 use author::solutions::Solutions;
-use author::solutions::catalogue::{Change, Mistake, independent_mistakes};
+use author::solutions::catalogue::{Change, Mistake, independent_mistakes, unknown_mistakes};
+use author::solutions::methods::wrong_methods;
 use author::solutions::variants::variants;
 use author::solutions::workbench::Workbench;
 use judging::exam::Exam;
@@ -65,8 +66,16 @@ fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
     let _lock = lock_builds();
     let recognition = recognise_unknown(&SOLUTIONS, &practice_exam()).unwrap();
     assert_eq!(recognition.problems, [""; 0]);
-    assert!(recognition.count >= 50, "{recognition}");
+    assert!(recognition.count >= 210, "{recognition}");
     assert_eq!(recognition.misled, 0, "{recognition}");
+}
+
+#[test]
+fn no_two_mistakes_of_no_known_kind_have_the_same_id() {
+    let mut all = unknown_mistakes(&SOLUTIONS).expect("every unknown mistake applies");
+    all.extend(wrong_methods(&SOLUTIONS).expect("every wrong method completes its file"));
+    let ids: BTreeSet<&String> = all.iter().map(|mistake| &mistake.id).collect();
+    assert_eq!(ids.len(), all.len());
 }
 
 #[test]

@@ -13,6 +13,7 @@ use crate::proof::grade::Graded;
 use crate::proof::run::run;
 use crate::solutions::Solutions;
 use crate::solutions::catalogue::{independent_mistakes, other_causes, unknown_mistakes};
+use crate::solutions::methods::wrong_methods;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::Answers;
 
@@ -106,7 +107,8 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
 
 /// Grades every unknown mistake, and determines its hints.
 pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
-    let rows = report(solutions, &unknown_mistakes(solutions)?, exam)?;
+    let all = [unknown_mistakes(solutions)?, wrong_methods(solutions)?].concat();
+    let rows = report(solutions, &all, exam)?;
     let misled = rows.iter().filter(|row| !row.false_hints.is_empty());
     let lines: Vec<String> = misled
         .map(|row| format!("{}: false hint {}", row.id, list(&row.false_hints)))

@@ -123,11 +123,14 @@ impl Drawn {
     }
 
     /// Returns the question at a place that is so near that coordinates in single precision have
-    /// digits for the detail, and the best split is still the only one.
-    fn question(&self, rng: &mut Rng, size: usize) -> ExamQuestion {
+    /// digits for the detail, and the best split is still the only one. Returns `None` if there is no such
+    /// place, or hardly any.
+    fn question(&self, rng: &mut Rng, size: usize) -> Option<ExamQuestion> {
         /// The largest coordinate, in extents of the detail.
         const MOST: f64 = 1e5;
-        let shapes = rng.retry(|rng| {
+        /// How many places are tried.
+        const ATTEMPTS: usize = 200;
+        let shapes = rng.attempt(ATTEMPTS, |rng| {
             let shapes = place_of_size(rng, &self.shapes, size).shapes(&self.shapes);
             let [before, after] =
                 [&self.shapes, &shapes].map(|all| Bounds::enclosing(all.iter().map(scan::bounds)));
@@ -135,64 +138,103 @@ impl Drawn {
             let largest = after.min.abs().max(after.max.abs()).max_element();
             (largest <= MOST * detail && is_unambiguous(&shapes, self.axis)).then_some(shapes)
         });
-        cost_question(shapes, self.max_leaf_size as u32)
+        Some(cost_question(shapes?, self.max_leaf_size as u32))
     }
 }
 
+/// Draws primitives with one best split.
+type Draw = Box<dyn Fn(&mut Rng) -> Drawn>;
+
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let sizes = fields::SIZES.len();
+    let first = rng.index(sizes);
+    let kinds = [in_clumps(), of_a_few(), of_many(), of_strips()];
+    let kinds = kinds.into_iter().flatten().enumerate();
+    kinds
+        .map(|(index, draw)| {
+            let size = (first + index) % sizes;
+            rng.retry(|rng| draw(rng).question(rng, size))
+        })
+        .collect()
+}
+
+/// Returns what draws each layout of clumps along each axis.
+fn in_clumps() -> Vec<Draw> {
     /// How many times as many primitives as shown each layout has.
     const TIMES: [usize; 6] = [1, 5, 2, 20, 1, 50];
-    let mut drawn = Vec::new();
-    for (number, layout) in [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate() {
-        for axis in 0..3 {
-            let times = TIMES[drawn.len() % TIMES.len()];
-            let clumps = layout.clumps.iter();
-            let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
+    let layouts = [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate();
+    let along_axes =
+        layouts.flat_map(|(number, layout)| (0..3).map(move |axis| (number, layout, axis)));
+    let draw = |(index, (number, layout, axis)): (usize, (usize, Layout<'static>, usize))| -> Draw {
+        let times = TIMES[index % TIMES.len()];
+        let clumps = layout.clumps.iter();
+        let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
+        let alignment = if number == 3 {
+            Alignment::Loose
+        } else {
+            ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
+        };
+        Box::new(move |rng| {
             let layout = Layout {
                 clumps: &clumps,
-                alignment: if number == 3 {
-                    Alignment::Loose
-                } else {
-                    ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
-                },
+                alignment,
                 ..layout
             };
             let is_mirrored = (number + axis).is_multiple_of(2);
-            let shapes = row(rng, &layout, axis, is_mirrored);
-            drawn.push(Drawn::new(shapes, 8 * times, axis));
-        }
-    }
-    for (index, count) in [3, 4, 5, 6, 8].into_iter().enumerate() {
-        let axis = rng.index(3);
+            Drawn::new(row(rng, &layout, axis, is_mirrored), 8 * times, axis)
+        })
+    };
+    along_axes.enumerate().map(draw).collect()
+}
+
+/// Returns what draws a few primitives, of which a leaf has room for all but one.
+fn of_a_few() -> Vec<Draw> {
+    let crowds = [3, 4, 5, 6, 8].into_iter().enumerate();
+    let crowds = crowds.map(|(index, count)| -> Draw {
         let alignment = match index % 2 {
             0 => Alignment::Loose,
             _ => ALIGNMENTS[index / 2 % ALIGNMENTS.len()],
         };
-        let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
-        drawn.push(Drawn::new(shapes, count - 1, axis));
-    }
-    for count in 3..=7 {
-        let axis = rng.index(3);
-        drawn.push(Drawn::new(uneven(rng, count, axis), count - 1, axis));
-    }
-    for count in [16_usize, 64, 129, 256, 513, 1000] {
-        let (axis, is_mirrored) = (rng.index(3), rng.coin());
-        let largest = 6 * count / 10 + count.div_ceil(64);
-        let leaf_size = largest + rng.index(count - largest);
-        let shapes = many(rng, count, axis, is_mirrored);
-        drawn.push(Drawn::new(shapes, leaf_size, axis));
-    }
-    for (index, (count, least)) in STACKS.iter().enumerate() {
-        let ratio = least * rng.log_uniform(1.1, 8.0);
-        drawn.push(stack(rng, *count, ratio, index % 3));
-    }
-    drawn.extend([0, 1].map(|_| layers(rng)));
-    let sizes = fields::SIZES.len();
-    let first = rng.index(sizes);
-    let drawn = drawn.into_iter().enumerate();
-    drawn
-        .map(|(index, drawn)| drawn.question(rng, (first + index) % sizes))
-        .collect()
+        Box::new(move |rng| {
+            let axis = rng.index(3);
+            let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
+            Drawn::new(shapes, count - 1, axis)
+        })
+    });
+    let spheres = (3..=7).map(|count| -> Draw {
+        Box::new(move |rng| {
+            let axis = rng.index(3);
+            Drawn::new(uneven(rng, count, axis), count - 1, axis)
+        })
+    });
+    crowds.chain(spheres).collect()
+}
+
+/// Returns what draws two crowds of many primitives.
+fn of_many() -> Vec<Draw> {
+    let counts = [16_usize, 64, 129, 256, 513, 1000].into_iter();
+    let draw = |count: usize| -> Draw {
+        Box::new(move |rng| {
+            let (axis, is_mirrored) = (rng.index(3), rng.coin());
+            let largest = 6 * count / 10 + count.div_ceil(64);
+            let leaf_size = largest + rng.index(count - largest);
+            Drawn::new(many(rng, count, axis, is_mirrored), leaf_size, axis)
+        })
+    };
+    counts.map(draw).collect()
+}
+
+/// Returns what draws strips in layers.
+fn of_strips() -> Vec<Draw> {
+    let stacks = STACKS.iter().enumerate();
+    let stacks = stacks.map(|(index, &(count, least))| -> Draw {
+        Box::new(move |rng| {
+            let ratio = least * rng.log_uniform(1.1, 8.0);
+            stack(rng, count, ratio, index % 3)
+        })
+    });
+    let layers = [(); 2].map(|()| -> Draw { Box::new(layers) });
+    stacks.chain(layers).collect()
 }
 
 /// Returns a crowd and a primitive far from it.

@@ -123,7 +123,7 @@ fn a_slow_submission_has_a_budget_and_keeps_the_points_before() {
     let slow = "{ static LAST: std::sync::Mutex<String> = std::sync::Mutex::new(String::new());
         let (mut last, now) = (LAST.lock().unwrap(), format!(\"{self:?}\"));
         if *last != now {
-            std::thread::sleep(std::time::Duration::from_millis(150));
+            std::thread::sleep(std::time::Duration::from_millis(130));
             *last = now;
         } }";
     let camera = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";

@@ -142,7 +142,7 @@ pub struct Cell {
     pub aspect: &'static str,
     /// The class of the aspect.
     pub class: &'static str,
-    /// What is counted.
+    /// The name of the column, such as a quantity that is judged.
     pub column: String,
     /// How many answers there are.
     pub count: usize,

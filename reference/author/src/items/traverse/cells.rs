@@ -169,19 +169,21 @@ impl Plan {
         let last = leaf_size - 1;
         let places = [0, last / 2 + last % 2, last];
         let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
+        let is_after_parallel = reason == Reason::BeyondAfterParallel;
+        let is_after_a_hit_in_its_leaf = !is_after_parallel && leaf_size > 2 && group < 2;
+        // The ray before tests the decoy. It is no sphere then, so that only triangles and boxes matter.
+        let is_tested_before = is_after_parallel || is_after_a_hit_in_its_leaf;
         Plan {
             reason,
             is_left,
-            is_sphere: (group + index).is_multiple_of(2),
+            is_sphere: !is_tested_before && (group + index).is_multiple_of(2),
             leaf_size,
             place: places[(size + 2 + group) % 3],
             level: (index + group + start / 4) % 4,
             is_flat: (index / 2 + group + start).is_multiple_of(2),
             range: (index + start) % RANGES.len(),
             hits_nothing: is_missed && group == 0,
-            is_after_a_hit_in_its_leaf: reason != Reason::BeyondAfterParallel
-                && leaf_size > 2
-                && group < 2,
+            is_after_a_hit_in_its_leaf,
         }
     }
 }

@@ -8,7 +8,7 @@ use super::placed::as_dust;
 use super::{
     TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
 };
-use crate::items::{Declaration, groups};
+use crate::items::Declaration;
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 use crate::tree::Tree;
@@ -20,12 +20,6 @@ pub(super) fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
     let ray64 = Ray64::from(ray);
     Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
 }
-
-/// The fields of an item with decoys, which are triangles and spheres.
-const WITH_DECOYS: Declaration = Declaration {
-    needs: &[groups::TRIANGLE_HITS, groups::SPHERE_HITS, groups::BOXES],
-    ..TRAVERSAL
-};
 
 /// The number of the first decoy. Those of unreferenced primitives are smaller.
 pub(super) const FIRST_DECOY: u32 = 20_000;
@@ -160,7 +154,7 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
             ),
         ]
     },
-    ..WITH_DECOYS
+    ..TRAVERSAL
 };
 
 pub(super) const PRUNES: Declaration = Declaration {
@@ -185,7 +179,7 @@ pub(super) const PRUNES: Declaration = Declaration {
             as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
         ]
     },
-    ..WITH_DECOYS
+    ..TRAVERSAL
 };
 
 pub(super) const NEARER_FIRST: Declaration = Declaration {
@@ -201,7 +195,7 @@ pub(super) const NEARER_FIRST: Declaration = Declaration {
         "It compares `hit2.t`,…",
     ],
     questions: nearer_first,
-    ..WITH_DECOYS
+    ..TRAVERSAL
 };
 
 fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -271,5 +265,5 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
             question_with_decoys(rng, &pruned_alone, SlidesAnswer::Wrong),
         ]
     },
-    ..WITH_DECOYS
+    ..TRAVERSAL
 };

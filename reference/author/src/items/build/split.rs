@@ -201,7 +201,7 @@ fn of_a_few() -> Vec<Draw> {
             Drawn::new(shapes, count - 1, axis)
         })
     });
-    let spheres = (3..=7).map(|count| -> Draw {
+    let spheres = (3..=6).map(|count| -> Draw {
         Box::new(move |rng| {
             let axis = rng.index(3);
             Drawn::new(uneven(rng, count, axis), count - 1, axis)

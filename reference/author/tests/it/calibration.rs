@@ -16,7 +16,7 @@ fn all_margins_are_wide_enough_for_one_seed() {
 }
 
 #[test]
-fn the_committed_table_covers_two_hundred_seeds() {
+fn the_committed_table_covers_thirty_seeds() {
     let table = text(TABLE);
-    assert!(table.contains("of 200 seeds (0 to 199)"), "{table}");
+    assert!(table.contains("of 30 seeds (0 to 29)"), "{table}");
 }

@@ -250,6 +250,28 @@ pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.dir == b.dir
 }
 
+/// Returns whether two rays differ, but in no number by more than a five thousandth of it.
+pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
+    const MOST: f32 = 2e-4;
+    let is_near = |a: Vec3, b: Vec3| (a - b).abs().cmple(MOST * a.abs()).all();
+    !is_same_line(a, b)
+        && a.range == b.range
+        && is_near(a.origin, b.origin)
+        && is_near(a.dir, b.dir)
+}
+
+/// Returns a ray of which each number differs by at most a ten thousandth of it.
+pub fn almost_the_same_ray(rng: &mut Rng, ray: &Ray) -> Ray {
+    const MOST: f64 = 1e-4;
+    let mut nudged = |vector: Vec3| vector.as_dvec3() * (1.0 + rng.point(MOST));
+    let (origin, dir) = (nudged(ray.origin), nudged(ray.dir));
+    Ray {
+        origin: origin.as_vec3(),
+        dir: dir.normalize().as_vec3(),
+        ..*ray
+    }
+}
+
 /// Returns the class of the call before: none, one with another ray, or one with the same ray.
 pub fn history_class(before: Option<&Ray>, ray: &Ray) -> usize {
     before.map_or(0, |before| 1 + usize::from(is_same_line(before, ray)))

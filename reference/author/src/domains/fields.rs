@@ -260,13 +260,19 @@ pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
         && is_near(a.dir, b.dir)
 }
 
-/// Returns a ray of which each number differs by at most a ten thousandth of it.
+/// Returns a ray of which one coordinate of the start or one component of the direction differs, by at most a
+/// ten thousandth of it.
 pub fn almost_the_same_ray(rng: &mut Rng, ray: &Ray) -> Ray {
     const MOST: f64 = 1e-4;
-    let mut nudged = |vector: Vec3| vector.as_dvec3() * (1.0 + rng.point(MOST));
-    let (origin, dir) = (nudged(ray.origin), nudged(ray.dir));
+    let (axis, nudge) = (rng.index(3), 1.0 + rng.uniform(-MOST, MOST));
+    let (mut origin, mut dir) = (ray.origin, ray.dir.as_dvec3());
+    if rng.coin() {
+        origin[axis] = (f64::from(origin[axis]) * nudge) as f32;
+    } else {
+        dir[axis] *= nudge;
+    }
     Ray {
-        origin: origin.as_vec3(),
+        origin,
         dir: dir.normalize().as_vec3(),
         ..*ray
     }

@@ -185,6 +185,21 @@ pub fn many_spheres(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
+/// Returns spheres in a cube as large as a scene can be, half of them in a few crowded spots. Their numbers
+/// have few digits, so that many of them take little space in an exam.
+pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
+    let spots: Vec<DVec3> = (0..7).map(|_| rng.point(900.0)).collect();
+    let spheres = (0..count).map(|i| {
+        let center = if i % 2 == 0 {
+            rng.point(950.0)
+        } else {
+            spots[rng.index(spots.len())] + rng.point(40.0)
+        };
+        sphere(center.round(), 4.0)
+    });
+    number_shapes(spheres)
+}
+
 /// Returns a few large triangles on the ground, and many small primitives in a few crowded spots.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)

@@ -1,5 +1,6 @@
 //! Calls of `Bvh::hit` of trees.
 
+use std::mem;
 use std::sync::Arc;
 
 use protocol::{Geometry, Question, Ray, Shape};
@@ -20,6 +21,10 @@ pub struct TraverseCall {
     pub(super) previous: Option<Ray>,
     /// The decoy in front of the answer.
     pub(super) decoy: Option<Decoy>,
+    /// The correct hit.
+    pub(super) hit: Option<Intersection>,
+    /// The correct hit of the call before.
+    previous_hit: Option<Intersection>,
 }
 
 /// Returns the calls of a question about a tree.
@@ -30,12 +35,16 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     let Some(subject) = Subject::of(&table.subject).map(Arc::new) else {
         return Vec::new();
     };
-    let mut previous = None;
+    let (mut previous, mut previous_hit) = (None, None);
     let rays = table.rows.to_vec();
     let outside = Outside::all(&subject.tree);
     let calls = rays.iter().map(|&ray| {
         let previous = previous.replace(ray);
+        let hit = subject.hit(&ray);
+        let previous_hit = mem::replace(&mut previous_hit, hit);
         TraverseCall {
+            hit,
+            previous_hit,
             subject: Arc::clone(&subject),
             decoy: Decoy::of(&subject.tree, &outside, &ray, previous.as_ref()),
             previous,
@@ -43,19 +52,6 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
         }
     });
     calls.collect()
-}
-
-impl TraverseCall {
-    /// Returns the correct hit.
-    pub(super) fn hit(&self) -> Option<Intersection> {
-        let ray64 = Ray64::from(&self.ray);
-        let Subject { tree, is_built, .. } = &*self.subject;
-        if *is_built {
-            scan::closest_hit(&ray64, &tree.shapes)
-        } else {
-            tree.expected_hit(&ray64)
-        }
-    }
 }
 
 /// A second hit that is hardly farther away than the closest.
@@ -74,8 +70,7 @@ impl TraverseCall {
         const MOST: f64 = 1e-3;
         let ray64 = Ray64::from(&self.ray);
         let tree = &self.subject.tree;
-        let leaf = tree.leaf_of_hit(&ray64)?;
-        let closest = tree.expected_hit(&ray64)?;
+        let (leaf, closest) = (self.leaf_of_hit()?, self.hit?);
         let distance = |index: usize| Some(scan::intersect(&ray64, &tree.shapes[index])?.distance);
         let earlier = tree
             .primitives(leaf)
@@ -96,31 +91,34 @@ impl TraverseCall {
 
     /// Returns the place of the hit in its leaf.
     pub(super) fn place_in_leaf(&self) -> Option<usize> {
-        let ray64 = Ray64::from(&self.ray);
-        let tree = &self.subject.tree;
-        let leaf = tree.leaf_of_hit(&ray64)?;
-        let hit = tree.expected_hit(&ray64)?;
-        let mut primitives = tree.primitives(leaf);
-        primitives.position(|index| tree.shapes[index].number() == hit.shape)
+        let mut primitives = self.subject.tree.primitives(self.leaf_of_hit()?);
+        primitives.position(|index| self.is_hit(index))
+    }
+
+    /// Returns the leaf of the exam's tree that holds the hit.
+    pub(super) fn leaf_of_hit(&self) -> Option<usize> {
+        let Subject { tree, leaves, .. } = &*self.subject;
+        let mut leaves = leaves.iter().copied();
+        leaves.find(|&leaf| tree.primitives(leaf).any(|index| self.is_hit(index)))
+    }
+
+    /// Returns whether a primitive is the one that is hit.
+    fn is_hit(&self, primitive: usize) -> bool {
+        let number = self.subject.tree.shapes[primitive].number();
+        self.hit.is_some_and(|hit| hit.shape == number)
     }
 
     /// Returns whether the ray is almost the one before, and the distance of its hit is clearly another.
     pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
         /// The least difference of the distances.
         const LEAST: f64 = 5e-4;
-        let Some(previous) = self.previous else {
-            return false;
-        };
-        let other = TraverseCall {
-            ray: previous,
-            ..self.clone()
-        };
         let differ = |a: f64, b: f64| (a - b).abs() > LEAST * a.max(b);
-        let is_other = || match (self.hit(), other.hit()) {
+        let is_other = match (self.hit, self.previous_hit) {
             (Some(hit), Some(other)) => differ(hit.distance, other.distance),
             (hit, other) => hit.is_some() != other.is_some(),
         };
-        fields::is_almost_the_same_ray(&previous, &self.ray) && is_other()
+        let is_almost_the_same = |previous| fields::is_almost_the_same_ray(&previous, &self.ray);
+        is_other && self.previous.is_some_and(is_almost_the_same)
     }
 
     /// Returns whether a primitive in no leaf is in front of the answer, and whether it is about as large as
@@ -129,7 +127,7 @@ impl TraverseCall {
         /// The least sides along two axes of a primitive that is as large as the tree, in sides of the tree.
         const LARGE: f64 = 0.9;
         let ray64 = Ray64::from(&self.ray);
-        let end = self.hit().map_or(ray64.max, |hit| hit.distance);
+        let end = self.hit.map_or(ray64.max, |hit| hit.distance);
         let Subject {
             tree,
             bounds,
@@ -172,6 +170,16 @@ pub(super) struct Subject {
 }
 
 impl Subject {
+    /// Returns the correct hit of a ray.
+    fn hit(&self, ray: &Ray) -> Option<Intersection> {
+        let ray64 = Ray64::from(ray);
+        if self.is_built {
+            scan::closest_hit(&ray64, &self.tree.shapes)
+        } else {
+            self.tree.expected_hit(&ray64)
+        }
+    }
+
     fn of(geometry: &Geometry) -> Option<Subject> {
         let (tree, is_built) = match geometry {
             Geometry::List { .. } => return None,

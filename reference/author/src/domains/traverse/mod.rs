@@ -340,7 +340,7 @@ const NEARNESS: Aspect<TraverseCall> = Aspect {
     classes: &["below 1e-5", "1e-5", "1e-3 or more"],
     class: |call| {
         let largest = f64::from(call.ray.origin.abs().max_element());
-        Some(match call.hit()?.distance / largest {
+        Some(match call.hit?.distance / largest {
             ..1e-5 if call.ray.range.min == 0.0 => 0,
             ..1e-3 => 1,
             _ => 2,
@@ -360,8 +360,7 @@ const IN_BOX: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let tree = &call.subject.tree;
         let ray64 = Ray64::from(&call.ray);
-        let leaf = tree.leaf_of_hit(&ray64)?;
-        let path = tree.path(leaf).into_iter().map(|node| tree.bounds(node));
+        let path = tree.path(call.leaf_of_hit()?).into_iter().map(|node| tree.bounds(node));
         let holds = |bounds: &Bounds| bounds.contains(&Bounds::around([ray64.origin]));
         let around = path.filter(holds).map(|bounds| {
             let beyond = (ray64.origin - bounds.center()).dot(ray64.dir);
@@ -380,7 +379,7 @@ const ON_SPHERE: Aspect<TraverseCall> = Aspect {
     name: "start on what is hit",
     classes: &["elsewhere", "on the sphere that is hit again"],
     class: |call| {
-        let hit = call.hit()?;
+        let hit = call.hit?;
         let mut shapes = call.subject.tree.shapes.iter();
         let shape = shapes.find(|shape| shape.number() == hit.shape)?;
         let Shape::Sphere { center, radius, .. } = *shape else {
@@ -398,7 +397,7 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let ray64 = Ray64::from(&call.ray);
         let on_the_way = Ray64 {
-            max: call.hit().map_or(ray64.max, |hit| hit.distance),
+            max: call.hit.map_or(ray64.max, |hit| hit.distance),
             ..ray64
         };
         let shapes = call.subject.shapes().into_iter();

@@ -54,26 +54,13 @@ fn cost_questions(
     sizes.iter().map(question).collect()
 }
 
-/// Creates the same questions as [`cost_questions`] about trees so large that the area of the root's box
-/// times the number of primitives is above 1e10.
-fn huge_questions(
-    rng: &mut Rng,
-    mesh: fn(&mut Rng, usize) -> Vec<Shape>,
-    sizes: &[(usize, u32)],
-) -> Vec<ExamQuestion> {
-    /// The least area times the number of primitives.
-    const LEAST: f64 = 1.05e10;
+/// Creates questions about trees as large as a scene can be: for each of the upper nodes, the area of its
+/// box times the number of its primitives is above 1e10.
+fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     let question = |&(count, max_leaf_size): &(usize, u32)| {
         rng.retry(|rng| {
-            let shapes = mesh(rng, count);
-            let shapes = meshes::number_shapes(rng.shuffled(shapes));
-            let largest = fields::SIZES.len() - 1;
-            let shapes = rng.attempt(100, |rng| {
-                let shapes = place_of_size(rng, &shapes, largest).shapes(&shapes);
-                let area = Bounds::enclosing(shapes.iter().map(scan::bounds)).area();
-                (area * shapes.len() as f64 > LEAST).then_some(shapes)
-            });
-            let question = cost_question(shapes?, max_leaf_size);
+            let shapes = meshes::galaxy(rng, count);
+            let question = cost_question(rng.shuffled(shapes), max_leaf_size);
             (highest_correct_cost(&question) <= MAX_CORRECT_COST
                 && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
                 .then_some(question)
@@ -225,8 +212,8 @@ pub(super) const COST_TOWN: Declaration = Declaration {
     section: "building.md#keep-track-of-the-best-cost",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| {
-        let town = cost_questions(rng, meshes::town, &[(512, 1)]);
-        let huge = huge_questions(rng, meshes::town, &[(2048, 4), (4500, 8)]);
+        let town = cost_questions(rng, meshes::town, &[(512, 1), (2048, 4)]);
+        let huge = huge_questions(rng, &[(1900, 4), (4300, 8)]);
         let [few, more] = [(20, 45), (46, 100)].map(|(min, max)| rng.integer(min, max) as usize);
         let [small, large] = [(16, 24), (25, 60)].map(|(min, max)| rng.integer(min, max));
         let sizes = [(few, 1), (more, 1), (200, small), (400, large)];

@@ -169,7 +169,8 @@ impl Plan {
     fn new(reason: Reason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
-        let many = if group == 2 {
+        let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
+        let many = if group == 2 || (is_missed && group == 0) {
             17 + start
         } else {
             4 + (start + index) % 5
@@ -177,7 +178,6 @@ impl Plan {
         let leaf_size = [1, 2, 3, many][size];
         let last = leaf_size - 1;
         let places = [0, last / 2 + last % 2, last];
-        let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
         let is_flat = (index / 2 + group + start).is_multiple_of(2);
         let is_line = is_missed && is_flat && index % 2 == 1;
         Plan {

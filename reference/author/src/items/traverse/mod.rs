@@ -152,7 +152,7 @@ fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> 
     const ATTEMPTS: usize = 2000;
     /// The least difference of the distances.
     const LEAST: f64 = 7e-4;
-    for _ in 0..2 {
+    for _ in 0..3 {
         let found = rng.attempt(ATTEMPTS, |rng| {
             let ray = ray_from_around(rng, tree);
             let other = almost_the_same_ray(rng, &ray);

@@ -109,14 +109,14 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     if let Some(axis) = foil.filter(|_| rng.index(4) == 0) {
         return slanted_across_foil(rng, bounds, axis);
     }
-    let dir = match rng.index(24) {
+    let dir = match rng.index(26) {
         0 | 1 => fields::diagonal(rng),
         2 | 3 => return slanted(rng, bounds),
         4 | 5 => return from_faces(rng, bounds),
         6 => return from_center(rng, bounds),
-        7 => return from_the_origin(rng, bounds),
-        8 => return from_a_plane_of_axes(rng, bounds),
-        9 | 10 => return past_a_corner(rng, bounds),
+        7..=9 => return from_the_origin(rng, bounds),
+        10 => return from_a_plane_of_axes(rng, bounds),
+        11 | 12 => return past_a_corner(rng, bounds),
         _ => fields::direction(rng),
     };
     query_along(rng, bounds, dir)
@@ -187,7 +187,11 @@ fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(R
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
     let side = rng.sign();
-    let (inward, inside) = if rng.coin() { (-side, -1.0) } else { (side, 1.0) };
+    let (inward, inside) = if rng.coin() {
+        (-side, -1.0)
+    } else {
+        (side, 1.0)
+    };
     let mut dir = DVec3::ZERO;
     dir[(axis + 1 + rng.index(2)) % 3] = rng.sign();
     dir[axis] = inward * rng.uniform(1.5e-6, 2.9e-6);
@@ -361,8 +365,11 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     let table = |axis: usize| {
         let class = 1 + rng.index(7);
         let size = fields::size(rng, class);
-        let half = DVec3::AXES.get(axis).map_or(DVec3::ZERO, |axis| size * *axis);
-        let center = fields::place(rng, size).clamp(DVec3::splat(-60.0 * size), DVec3::splat(60.0 * size));
+        let half = DVec3::AXES
+            .get(axis)
+            .map_or(DVec3::ZERO, |axis| size * *axis);
+        let center =
+            fields::place(rng, size).clamp(DVec3::splat(-60.0 * size), DVec3::splat(60.0 * size));
         let [min, max] = [-half, half].map(|half| (center.as_vec3().as_dvec3() + half).as_vec3());
         let bounds = Bounds::new(min, max);
         let ray = |_| {

@@ -22,7 +22,13 @@ pub use draw::{lines_and_a_point, tables};
 /// The domain of `BBox::hit`.
 pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     function: "BBox::hit",
-    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, FORM, ZERO_SIDES],
+    subject_aspects: &[
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT,
+        FORM,
+        ZERO_SIDES,
+    ],
     aspects: &[
         START,
         START_INSIDE,
@@ -91,12 +97,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["`None`"],
             "A ray that starts in the box misses it only because of its times.",
         ),
-        not_asked(
-            "way past the centre",
-            &[],
-            &["`None`"],
-            "The box is hit.",
-        ),
+        not_asked("way past the centre", &[], &["`None`"], "The box is hit."),
         not_asked(
             "components below 1e-4",
             &["lead into the box", "below 3e-6, into the box"],
@@ -239,7 +240,9 @@ const START_AT_THE_ORIGIN: Aspect<BoxCall> = Aspect {
     classes: OCTANTS,
     class: |call| {
         let is_from_there = call.ray.origin == Vec3::ZERO && !call.starts_inside();
-        is_from_there.then(|| octant(call.bounds.center())).flatten()
+        is_from_there
+            .then(|| octant(call.bounds.center()))
+            .flatten()
     },
 };
 

@@ -84,7 +84,10 @@ impl TraverseCall {
         let mut others = self.subject.leaves.iter().filter(|&&other| other != leaf);
         let is_near = |&other: &usize| {
             tree.bounds(other).contains(&start)
-                && tree.primitives(other).filter_map(distance).any(|it| it < near)
+                && tree
+                    .primitives(other)
+                    .filter_map(distance)
+                    .any(|it| it < near)
         };
         (closest.distance < near && others.any(is_near)).then_some(Layer::OtherLeaf)
     }
@@ -135,9 +138,8 @@ impl TraverseCall {
             ..
         } = &*self.subject;
         let shapes = unreferenced.iter().map(|&index| &tree.shapes[index]);
-        let in_front = shapes.filter(|shape| {
-            scan::intersect(&ray64, shape).is_some_and(|hit| hit.distance < end)
-        });
+        let in_front = shapes
+            .filter(|shape| scan::intersect(&ray64, shape).is_some_and(|hit| hit.distance < end));
         let is_large = |shape: &Shape| {
             let around = scan::bounds(shape);
             let sides = around.max - around.min;
@@ -210,8 +212,11 @@ impl Subject {
             tree.bounds(tree.root)
         };
         let levels = leaves.iter().map(|&leaf| tree.path(leaf).len()).max();
-        let is_unreferenced =
-            |index: &usize| !leaves.iter().any(|&leaf| tree.primitives(leaf).contains(index));
+        let is_unreferenced = |index: &usize| {
+            !leaves
+                .iter()
+                .any(|&leaf| tree.primitives(leaf).contains(index))
+        };
         let indices = 0..tree.shapes.len();
         Some(Subject {
             unreferenced: indices.filter(is_unreferenced).collect(),

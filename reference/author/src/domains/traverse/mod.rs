@@ -360,7 +360,10 @@ const IN_BOX: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let tree = &call.subject.tree;
         let ray64 = Ray64::from(&call.ray);
-        let path = tree.path(call.leaf_of_hit()?).into_iter().map(|node| tree.bounds(node));
+        let path = tree
+            .path(call.leaf_of_hit()?)
+            .into_iter()
+            .map(|node| tree.bounds(node));
         let holds = |bounds: &Bounds| bounds.contains(&Bounds::around([ray64.origin]));
         let around = path.filter(holds).map(|bounds| {
             let beyond = (ray64.origin - bounds.center()).dot(ray64.dir);

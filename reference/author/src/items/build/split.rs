@@ -148,7 +148,13 @@ type Draw = Box<dyn Fn(&mut Rng) -> Drawn>;
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
     let sizes = fields::SIZES.len();
     let first = rng.index(sizes);
-    let kinds = [in_clumps(), of_a_few(), of_many(), of_outliers(), of_strips()];
+    let kinds = [
+        in_clumps(),
+        of_a_few(),
+        of_many(),
+        of_outliers(),
+        of_strips(),
+    ];
     let kinds = kinds.into_iter().flatten().enumerate();
     kinds
         .map(|(index, draw)| {

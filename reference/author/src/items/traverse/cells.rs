@@ -170,7 +170,7 @@ impl Plan {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
         let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
-        let many = if group == 2 || (is_missed && group == 0) {
+        let many = if group == 2 || (is_missed && is_left && group == 0) {
             17 + start
         } else {
             4 + (start + index) % 5
@@ -379,12 +379,12 @@ impl Draft {
         let mut targets = vec![target];
         if self.plan.leaf_size > 3 {
             for _ in 0..3 {
-                let beside = dvec3(rng.uniform(-1.3, 2.1), rng.uniform(-1.2, 0.7), 0.82);
+                let beside = dvec3(rng.uniform(-1.3, 2.1), rng.uniform(-1.2, 0.7), 0.72);
                 targets.push(self.tiny(rng, hit, beside));
             }
         }
         if self.plan.starts_in_sibling {
-            targets.push(self.tiny(rng, start, dvec3(-0.5, -0.6, 0.8)));
+            targets.push(self.tiny(rng, start, dvec3(-0.5, -0.6, 0.72)));
         }
         let targets = rng.shuffled(targets);
 
@@ -472,7 +472,7 @@ impl Draft {
 
     /// Returns a tiny triangle beside a point, on either side of the plane in which the ray is.
     fn tiny(&mut self, rng: &mut Rng, point: DVec3, beside: DVec3) -> Shape {
-        const SIZE: f64 = 0.15;
+        const SIZE: f64 = 0.25;
         let beside = beside * dvec3(1.0, 1.0, rng.sign());
         let shape = meshes::random_flat_triangle(rng, self.frame.point(point + beside), SIZE);
         with_number(shape, self.next_number())

@@ -27,7 +27,11 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
         let mut rays = Vec::new();
         let mut roots = Vec::new();
         for index in 0..PAIRS {
-            let place = dvec3((index % 3) as f64, (index / 3 % 2) as f64, (index / 6) as f64);
+            let place = dvec3(
+                (index % 3) as f64,
+                (index / 3 % 2) as f64,
+                (index / 6) as f64,
+            );
             let place = 18.0 * (place / dvec3(2.0, 1.0, 1.0) - 0.5) + rng.point(0.8);
             let axis = index % 3;
             let pair = Pair {
@@ -55,7 +59,9 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
         }
         tree.root = roots[0];
         let is_hit = |ray: &Ray| tree.expected_hit(&Ray64::from(ray)).is_some();
-        let is_as_planned = rays.chunks(2).all(|pair| is_hit(&pair[0]) && !is_hit(&pair[1]));
+        let is_as_planned = rays
+            .chunks(2)
+            .all(|pair| is_hit(&pair[0]) && !is_hit(&pair[1]));
         if !is_as_planned || !decoy::is_fair(&tree, &rays) {
             return None;
         }
@@ -93,7 +99,8 @@ impl Pair {
         let [x, y] = self.across;
         let slant = rng.uniform(-0.15, 0.15) * x + rng.uniform(-0.15, 0.15) * y;
         let dir = (self.normal + slant).normalize();
-        let target = self.place + 0.1 * SIZE * (rng.uniform(-1.0, 1.0) * x + rng.uniform(-1.0, 1.0) * y);
+        let target =
+            self.place + 0.1 * SIZE * (rng.uniform(-1.0, 1.0) * x + rng.uniform(-1.0, 1.0) * y);
         let ray = |target: DVec3| Ray::new((target - distance * dir).as_vec3(), dir.as_vec3());
         (ray(target), ray(target - 3.0 * SIZE * y))
     }

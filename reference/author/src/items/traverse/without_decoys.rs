@@ -7,8 +7,8 @@ use protocol::Ray;
 use super::placed::is_clear_of_faces;
 use super::trace;
 use super::{
-    TRAVERSAL, layers, placed, question_without_decoys, ray_from_around, soup_tree, traversal_question,
-    unambiguous_rays, with_almost_the_same_rays, with_unreferenced,
+    TRAVERSAL, layers, placed, question_without_decoys, ray_from_around, soup_tree,
+    traversal_question, unambiguous_rays, with_almost_the_same_rays, with_unreferenced,
 };
 use crate::domains::fields::FURTHEST;
 use crate::domains::traverse;

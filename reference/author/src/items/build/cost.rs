@@ -101,13 +101,14 @@ fn clumps_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> 
 
 /// Returns the cost of the exact sweep's tree.
 fn cost_of_sweep(question: &ExamQuestion) -> f64 {
-    match question.key {
-        Key::Tree {
-            sweep_cost: Some(sweep),
-            ..
-        } => sweep,
-        _ => unreachable!("the question is about a tree's cost"),
-    }
+    let Key::Tree {
+        sweep_cost: Some(sweep),
+        ..
+    } = question.key
+    else {
+        unreachable!("{question:?} is not about a tree's cost")
+    };
+    sweep
 }
 
 /// Creates a question about a few long lanes of spheres. The best split is between two lanes, and so

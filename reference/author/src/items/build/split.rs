@@ -232,14 +232,14 @@ fn of_many() -> Vec<Draw> {
 
 /// Returns what draws a crowd and, far from it, less than a sixteenth as many primitives.
 fn of_outliers() -> Vec<Draw> {
-    let counts = [(18, 60), (100, 250)].into_iter();
+    let counts = [(18, 60), (100, 180)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
         Box::new(move |rng| {
             let count = rng.integer(least, most) as usize;
             let far = 1 + rng.index((count / 20).max(1));
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let layout = Layout {
-                clumps: &[(0.0, 0.01, far), (0.85, 1.0, count - far)],
+                clumps: &[(0.0, 0.01, far), (0.9, 1.0, count - far)],
                 first_size: SMALL,
                 size: SMALL,
                 alignment: Alignment::Loose,

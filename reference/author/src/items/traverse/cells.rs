@@ -179,7 +179,7 @@ impl Plan {
         let last = leaf_size - 1;
         let places = [0, last / 2 + last % 2, last];
         let is_flat = (index / 2 + group + start).is_multiple_of(2);
-        let is_line = is_missed && is_flat && index % 2 == 1;
+        let is_line = is_missed && is_flat && !index.is_multiple_of(2);
         Plan {
             reason,
             is_left,
@@ -191,7 +191,7 @@ impl Plan {
             is_line,
             range: (index + start) % RANGES.len(),
             hits_nothing: is_missed && group == 0,
-            starts_in_sibling: reason == Reason::Beyond && index % 3 == 0,
+            starts_in_sibling: reason == Reason::Beyond && index.is_multiple_of(3),
             is_after_a_hit_in_its_leaf: reason != Reason::BeyondAfterParallel
                 && leaf_size > 2
                 && !is_line

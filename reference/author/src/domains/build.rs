@@ -64,6 +64,10 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         ARRANGEMENT_ALONG_ANY_AXIS,
         BEST_AXIS,
         LEVELS,
+        LARGE,
+        SMALLER_SIDE,
+        SHAPE_OF_TREE,
+        WORK,
     ],
     pairs: &[],
     calls: |question| BuildCall::of(question).into_iter().collect(),
@@ -200,6 +204,51 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             "Only the cost depends on the axis of a split.",
         ),
         not_asked(
+            "smaller side of the best split",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+            ],
+            "Only the cost depends on how a node is split.",
+        ),
+        not_asked(
+            "form of the tree",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+            ],
+            "Only the cost depends on how nodes are split.",
+        ),
+        not_asked(
+            "area times primitives",
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "leaf size",
+                "stops",
+            ],
+            "Only the cost depends on areas.",
+        ),
+        not_asked(
+            "over 1,024 primitives",
+            &[],
+            &["split", "cost"],
+            "The leaf size is judged, which is stricter, and the cost of trees with larger leaves.",
+        ),
+        not_asked(
             "levels",
             &[],
             &[
@@ -220,7 +269,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         ),
         not_asked(
             "arrangement along any axis",
-            &["all centres coincide"],
+            &["all centres coincide", "over 128 centres coincide"],
             &["split", "cost"],
             "All partitions of primitives with one centre cost the same, and the leaf size is judged instead.",
         ),
@@ -229,6 +278,12 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["on a line along an axis"],
             &["split", "cost"],
             "Every box has the area 0, so no partition is better than another.",
+        ),
+        not_asked(
+            "arrangement along any axis",
+            &["equal boxes, max_leaf_size 1"],
+            &["split", "cost"],
+            "Some of the partitions of equal boxes cost the same, and the leaf size is judged.",
         ),
         not_asked(
             "arrangement along any axis",
@@ -374,6 +429,8 @@ const ARRANGEMENT: Aspect<BuildCall> = Aspect {
         "of very different sizes",
         "on a line along an axis",
         "some without area",
+        "over 128 centres coincide",
+        "equal boxes, max_leaf_size 1",
     ],
     class: arrangement,
 };
@@ -392,6 +449,8 @@ const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
         "of very different sizes",
         "on a line along an axis",
         "some without area",
+        "over 128 centres coincide",
+        "equal boxes, max_leaf_size 1",
     ],
     class: |call| {
         Some(match arrangement(call)? {
@@ -445,11 +504,62 @@ const LEVELS: Aspect<BuildCall> = Aspect {
     },
 };
 
+/// Many primitives in small leaves.
+const LARGE: Aspect<BuildCall> = Aspect {
+    name: "over 1,024 primitives",
+    classes: &["in leaves of up to 3"],
+    class: |call| (call.shapes.len() > 1024 && call.max_leaf_size < 4).then_some(0),
+};
+
+/// The number of primitives on the smaller side of the best split.
+const SMALLER_SIDE: Aspect<BuildCall> = Aspect {
+    name: "smaller side of the best split",
+    classes: &["less than a sixteenth", "more"],
+    class: |call| {
+        /// The number of primitives from which on the sides are told apart.
+        const LEAST: usize = 17;
+        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+        if boxes.len() < LEAST || boxes.len() <= call.max_leaf_size as usize {
+            return None;
+        }
+        let side = sweep::smaller_side(&boxes)?;
+        Some(usize::from(16 * side >= boxes.len()))
+    },
+};
+
+/// The numbers of primitives in the tree and in its leaves.
+const SHAPE_OF_TREE: Aspect<BuildCall> = Aspect {
+    name: "form of the tree",
+    classes: &[
+        "one split of over 1,024",
+        "9 to 100 primitives in leaves of one",
+        "five or more leaves of 16 or more",
+    ],
+    class: |call| match (call.shapes.len(), call.max_leaf_size as usize) {
+        (1025.., leaf) if call.shapes.len() < 2 * leaf => Some(0),
+        (9..=100, 1) => Some(1),
+        (count, leaf @ 16..) if count > 4 * leaf => Some(2),
+        _ => None,
+    },
+};
+
+/// The area of the root's box times the number of primitives, to which costs are proportional.
+const WORK: Aspect<BuildCall> = Aspect {
+    name: "area times primitives",
+    classes: &["above 1e10"],
+    class: |call| {
+        let work = call.bounds()?.area() * call.shapes.len() as f64;
+        (work > 1e10).then_some(0)
+    },
+};
+
 fn arrangement(call: &BuildCall) -> Option<usize> {
     /// How much smaller the box around all but the farthest primitive is if that one is far away.
     const OUTLIER: f64 = 5.0;
     /// The ratio between the largest and the smallest of primitives of very different sizes.
     const SIZE_RATIO: f64 = 50.0;
+    /// The number of centres above which it is a class of its own that all coincide.
+    const MANY: usize = 128;
 
     let centers = call.centers();
     if centers.len() < 2 {
@@ -468,7 +578,9 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
         (size.min(least), size.max(most))
     });
     Some(match flat[..] {
+        [_, _, _] if centers.len() > MANY => 16,
         _ if has_equal(&call.shapes) => 11,
+        _ if call.max_leaf_size == 1 && has_equal_boxes(&call.shapes) => 17,
         [_, _, _] => 10,
         [x, y] if is_flat(x) && is_flat(y) => 14,
         [x, y] => 7 + (3 - x - y),
@@ -502,6 +614,12 @@ fn has_equal(shapes: &[Shape]) -> bool {
         Shape::FlatTriangle { corners, .. } => format!("{corners:?}"),
         Shape::Sphere { center, radius, .. } => format!("{center:?} {radius:?}"),
     };
+    !without_repetition(shapes.iter().map(text))
+}
+
+/// Returns whether two shapes have the same box.
+fn has_equal_boxes(shapes: &[Shape]) -> bool {
+    let text = |shape: &Shape| format!("{:?}", scan::bounds(shape));
     !without_repetition(shapes.iter().map(text))
 }
 
@@ -557,7 +675,8 @@ mod tests {
             "the longest",
             "2 to 8",
         ];
-        assert_eq!(classes(row.collect(), 16), expected.map(Some));
+        let classes = classes(row.collect(), 16);
+        assert_eq!(classes[..expected.len()], expected.map(Some));
     }
 
     #[test]
@@ -565,7 +684,7 @@ mod tests {
         let none = classes(Vec::new(), 1000);
         assert_eq!(none[0], Some("0"));
         assert_eq!(none[1], Some("256 to 1,000"));
-        assert_eq!(none[3..], [None; 8]);
+        assert_eq!(none[3..], [None; 12]);
     }
 
     #[test]

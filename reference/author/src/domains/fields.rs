@@ -250,6 +250,34 @@ pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.dir == b.dir
 }
 
+/// Returns whether two rays differ, but in no number by more than a five thousandth of it.
+pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
+    const MOST: f32 = 2e-4;
+    let is_near = |a: Vec3, b: Vec3| (a - b).abs().cmple(MOST * a.abs()).all();
+    !is_same_line(a, b)
+        && a.range == b.range
+        && is_near(a.origin, b.origin)
+        && is_near(a.dir, b.dir)
+}
+
+/// Returns a ray of which one coordinate of the start or one component of the direction differs, by at most a
+/// ten thousandth of it.
+pub fn almost_the_same_ray(rng: &mut Rng, ray: &Ray) -> Ray {
+    const MOST: f64 = 1e-4;
+    let (axis, nudge) = (rng.index(3), 1.0 + rng.uniform(-MOST, MOST));
+    let (mut origin, mut dir) = (ray.origin, ray.dir.as_dvec3());
+    if rng.coin() {
+        origin[axis] = (f64::from(origin[axis]) * nudge) as f32;
+    } else {
+        dir[axis] *= nudge;
+    }
+    Ray {
+        origin,
+        dir: dir.normalize().as_vec3(),
+        ..*ray
+    }
+}
+
 /// Returns the class of the call before: none, one with another ray, or one with the same ray.
 pub fn history_class(before: Option<&Ray>, ray: &Ray) -> usize {
     before.map_or(0, |before| 1 + usize::from(is_same_line(before, ray)))

@@ -149,6 +149,57 @@ pub fn lanes(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
+/// Returns spheres in a few clumps, of which some have many times as many as others.
+pub fn clumps(rng: &mut Rng, count: usize) -> Vec<Shape> {
+    let clumps = (0..rng.integer(7, 9)).map(|_| (rng.point(10.0), rng.log_uniform(1.0, 12.0)));
+    let clumps: Vec<(DVec3, f64)> = clumps.collect();
+    let all: f64 = clumps.iter().map(|(_, weight)| weight).sum();
+    let mut spheres = Vec::new();
+    for (center, weight) in &clumps {
+        let in_clump = (count as f64 * weight / all).max(1.0) as usize;
+        spheres.extend((0..in_clump).map(|_| sphere(*center + rng.point(0.3), 0.1)));
+    }
+    while spheres.len() < count {
+        spheres.push(sphere(clumps[0].0 + rng.point(0.3), 0.1));
+    }
+    spheres.truncate(count);
+    number_shapes(spheres)
+}
+
+/// Returns pairs of triangles that form rectangles across the axes. Both triangles of a pair have the same
+/// box.
+pub fn rectangles(rng: &mut Rng, count: usize) -> Vec<Shape> {
+    let rectangles = (0..count).flat_map(|index| {
+        let [x, y] = [1, 2].map(|next| rng.uniform(0.4, 1.2) * DVec3::AXES[(index + next) % 3]);
+        let corner = rng.point(4.0);
+        let [second, third, fourth] = [corner + x, corner + x + y, corner + y];
+        [[corner, second, third], [corner, third, fourth]]
+    });
+    number_shapes(rectangles.map(|corners| flat_triangle(corners, 0)))
+}
+
+/// Returns spheres of one size in a cube. Their numbers have few digits, so that many of them take little
+/// space in an exam.
+pub fn many_spheres(rng: &mut Rng, count: usize) -> Vec<Shape> {
+    let spheres = (0..count).map(|_| sphere((16.0 * rng.point(9.0)).round() / 16.0, 0.25));
+    number_shapes(spheres)
+}
+
+/// Returns spheres in a cube as large as a scene can be, half of them in a few crowded spots. Their numbers
+/// have few digits, so that many of them take little space in an exam.
+pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
+    let spots: Vec<DVec3> = (0..7).map(|_| rng.point(900.0)).collect();
+    let spheres = (0..count).map(|i| {
+        let center = if i % 2 == 0 {
+            rng.point(950.0)
+        } else {
+            spots[rng.index(spots.len())] + rng.point(40.0)
+        };
+        sphere(center.round(), 4.0)
+    });
+    number_shapes(spheres)
+}
+
 /// Returns a few large triangles on the ground, and many small primitives in a few crowded spots.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)

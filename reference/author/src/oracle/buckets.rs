@@ -36,13 +36,29 @@ pub struct BucketedBuilder {
 /// relative to the root's. The builder follows Wald, "On fast Construction of SAH-based Bounding
 /// Volume Hierarchies", 2007, section 3.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
+    cost_with_halves(boxes, max_leaf_size, builder, &|_| false)
+}
+
+/// Returns the cost of the tree that this builder builds if it splits some nodes by count instead, along
+/// the longest axis: those whose number of primitives `is_halved`.
+pub fn cost_with_halves(
+    boxes: &[Bounds],
+    max_leaf_size: usize,
+    builder: BucketedBuilder,
+    is_halved: &dyn Fn(usize) -> bool,
+) -> f64 {
     let mut boxes = boxes.to_vec();
     let root = Bounds::enclosing(boxes.iter().copied()).area();
-    subtree_cost(&mut boxes, max_leaf_size, builder) / root
+    subtree_cost(&mut boxes, max_leaf_size, builder, is_halved) / root
 }
 
 /// Returns the cost of the subtree over these boxes.
-fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
+fn subtree_cost(
+    boxes: &mut [Bounds],
+    max_leaf_size: usize,
+    builder: BucketedBuilder,
+    is_halved: &dyn Fn(usize) -> bool,
+) -> f64 {
     let bounds = Bounds::enclosing(boxes.iter().copied());
     if boxes.len() <= max_leaf_size {
         return bounds.area() * boxes.len() as f64;
@@ -51,7 +67,12 @@ fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBui
         BucketExtent::Centers => Bounds::around(boxes.iter().map(Bounds::center)),
         BucketExtent::Bounds => bounds,
     };
-    let first = match cheapest_split(boxes, &over, builder) {
+    let split = if is_halved(boxes.len()) {
+        None
+    } else {
+        cheapest_split(boxes, &over, builder)
+    };
+    let first = match split {
         Some((axis, plane)) => {
             let is_left = |bounds: &Bounds| builder.bucket_of(bounds, &over, axis) < plane;
             boxes.sort_by_key(|bounds| !is_left(bounds));
@@ -66,7 +87,8 @@ fn subtree_cost(boxes: &mut [Bounds], max_leaf_size: usize, builder: BucketedBui
         }
     };
     let (left, right) = boxes.split_at_mut(first);
-    let [left, right] = [left, right].map(|side| subtree_cost(side, max_leaf_size, builder));
+    let below = |side| subtree_cost(side, max_leaf_size, builder, is_halved);
+    let [left, right] = [left, right].map(below);
     bounds.area() + left + right
 }
 

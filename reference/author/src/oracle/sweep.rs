@@ -40,6 +40,14 @@ pub fn best_axis(boxes: &[Bounds]) -> Option<usize> {
     Some(cheapest_partition(boxes, &indices)?.axis)
 }
 
+/// Returns the number of boxes on the smaller side of their cheapest partition, or `None` if all centres
+/// coincide.
+pub fn smaller_side(boxes: &[Bounds]) -> Option<usize> {
+    let indices: Vec<usize> = (0..boxes.len()).collect();
+    let left = cheapest_partition(boxes, &indices)?.left;
+    Some(left.min(boxes.len() - left))
+}
+
 /// Returns the number of levels of the tree whose cost [`cost`] returns.
 pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
     fn below(boxes: &[Bounds], indices: &mut [usize], max_leaf_size: usize) -> usize {

@@ -34,9 +34,7 @@ pub fn chain(shapes: Vec<Shape>) -> Tree {
 impl Tree {
     /// Adds a leaf with these shapes and a tight box, and returns its index.
     pub fn add_leaf(&mut self, shapes: Vec<Shape>) -> usize {
-        let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
-        let min = round_outward(bounds.min, f32::next_down);
-        let max = round_outward(bounds.max, f32::next_up);
+        let (min, max) = corners_around(&shapes);
         let (start, size) = (self.shapes.len(), shapes.len());
         let node = TreeNode::new(min, max, start, size, 0, 0);
         self.shapes.extend(shapes);
@@ -51,6 +49,23 @@ impl Tree {
         let node = TreeNode::new(min, max, 0, 0, l, r);
         self.nodes.push(node);
         self.nodes.len() - 1
+    }
+
+    /// Makes the boxes tight again of all nodes below these, whose primitives have been moved.
+    pub fn refit_below(&mut self, tops: &[usize]) {
+        for &top in tops {
+            // Children come before their parents.
+            for &index in self.subtree(top)[1..].iter().rev() {
+                let node = self.nodes[index];
+                let (min, max) = if node.is_leaf() {
+                    corners_around(&self.shapes[self.primitives(index)])
+                } else {
+                    let [l, r] = [node.l, node.r].map(|child| &self.nodes[child as usize]);
+                    (l.min.min(r.min), l.max.max(r.max))
+                };
+                self.nodes[index] = TreeNode { min, max, ..node };
+            }
+        }
     }
 
     fn add_median_split(&mut self, mut shapes: Vec<Shape>, max_leaf_size: usize) -> usize {
@@ -71,6 +86,14 @@ impl Tree {
         let r = self.add_median_split(right, max_leaf_size);
         self.add_interior(l, r)
     }
+}
+
+/// Returns the corners of the tight box around some shapes.
+fn corners_around(shapes: &[Shape]) -> (Vec3, Vec3) {
+    let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
+    let min = round_outward(bounds.min, f32::next_down);
+    let max = round_outward(bounds.max, f32::next_up);
+    (min, max)
 }
 
 /// Rounds a corner of a box to single precision, outward if it is not exact. The corners of flat

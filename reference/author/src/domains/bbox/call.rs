@@ -63,6 +63,27 @@ impl BoxCall {
         self.bounds.min.cmpeq(self.bounds.max).any()
     }
 
+    /// Returns how far from the centre the ray's line passes, in halves of the diagonal.
+    pub(super) fn distance_of_line(&self) -> f64 {
+        let to_center = self.bounds.center() - self.ray.origin.as_dvec3();
+        let dir = self.ray.dir.as_dvec3();
+        to_center.reject_from(dir).length() / (0.5 * self.bounds.diagonal())
+    }
+
+    /// Returns the number of axes across which the ray starts in the plane of a face of a thick box.
+    pub(super) fn faces_at_start(&self) -> usize {
+        let start = self.ray.origin.as_dvec3();
+        let is_on = start.cmpeq(self.bounds.min) | start.cmpeq(self.bounds.max);
+        is_on.bitmask().count_ones() as usize
+    }
+
+    /// Returns whether the call before was about almost the same ray, with the same times.
+    pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
+        self.before.is_some_and(|(ray, times)| {
+            times == self.times && fields::is_almost_the_same_ray(&ray, &self.ray)
+        })
+    }
+
     /// Returns whether the direction has a component that is 0.
     pub fn is_parallel(&self) -> bool {
         self.ray.dir.cmpeq(Vec3::ZERO).any()
@@ -139,6 +160,6 @@ impl Call for BoxCall {
 
 impl Placed for BoxCall {
     fn bounds(&self) -> Option<Bounds> {
-        Some(self.bounds)
+        (self.bounds.half_side() > 0.0).then_some(self.bounds)
     }
 }

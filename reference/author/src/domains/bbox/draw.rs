@@ -4,7 +4,7 @@ use glam::DVec3;
 use protocol::{Interval, Ray};
 
 use super::call::{BoxCall, SMALL_COMPONENT};
-use super::{BOX, THIN, THREAD};
+use super::{BOX, FOIL, THIN, THREAD};
 use crate::domains::fields;
 use crate::domains::{Call, Generator};
 use crate::oracle::bbox::Bounds;
@@ -24,32 +24,56 @@ pub fn tables(
         similar: &|call| BoxCall::new(smaller(&call.bounds), call.input()),
         fits: &fits,
     };
-    let tables = generator.tables(rng, sizes).into_iter();
-    tables
-        .map(|table| with_related_rays(rng, table, fits))
-        .collect()
+    let mut tables = generator.tables(rng, sizes);
+    // If the last two have the same calls, they stay as they are: one begins where the other ends.
+    let alone = if tables.len() > sizes.len() {
+        sizes.len() - 1
+    } else {
+        tables.len()
+    };
+    let rest = tables.split_off(alone);
+    let tables = tables.into_iter().map(|table| {
+        let table = with_related_rays(rng, table, fits);
+        with_almost_the_same_rays(rng, table, fits)
+    });
+    tables.collect::<Vec<_>>().into_iter().chain(rest).collect()
 }
 
 /// Draws a box of this size. Each of two sides may be thin, and one may be flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     let size = fields::size(rng, size);
+    let is_cube = rng.index(6) == 0;
     let least = if rng.coin() { 0.3 } else { 0.8 };
     let mut half = size * rng.vector(least, 1.0);
     let (axis, other) = (rng.index(3), rng.integer(1, 2) as usize);
     half[(axis + other) % 3] = size;
-    let thin = |rng: &mut Rng| match rng.index(3) {
-        0 => rng.uniform(0.005, THIN),
-        _ => rng.log_uniform(2e-4, THREAD),
-    };
-    match rng.index(4) {
-        0 => half[axis] = 0.0,
-        1 => half[axis] *= thin(rng),
+    let mut is_foil = false;
+    match rng.index(8) {
+        _ if is_cube => half = DVec3::splat(size),
+        0 | 1 => half[axis] = 0.0,
+        2 | 3 => half[axis] *= thin(rng),
+        4 => {
+            half[axis] = size * rng.log_uniform(8e-5, 0.95 * FOIL);
+            is_foil = true;
+        }
         _ => {}
     }
-    if half[axis] < THIN * size && rng.index(3) == 0 {
+    if half[axis] < THIN * size && !is_foil && rng.index(3) == 0 {
         half[(axis + 3 - other) % 3] = size * thin(rng);
     }
-    let center = fields::place(rng, size);
+    // Farther away, coordinates have too few digits for foil.
+    let mut center = if is_foil {
+        rng.point(0.9 * size)
+    } else {
+        fields::place(rng, size)
+    };
+    match rng.index(10) {
+        0 => center = half * DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]),
+        1 => center[axis] = half[axis] * rng.sign(),
+        2..=5 => [center, half] = exact(size, [center, half]),
+        _ if is_cube => [center, half] = exact(size, [center, half]),
+        _ => {}
+    }
     let mut bounds = Bounds::new((center - half).as_vec3(), (center + half).as_vec3());
     if half[axis] == 0.0 {
         bounds.max[axis] = bounds.min[axis];
@@ -57,12 +81,42 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     bounds
 }
 
+/// Draws a short side, in sizes.
+fn thin(rng: &mut Rng) -> f64 {
+    match rng.index(3) {
+        0 => rng.uniform(0.005, THIN),
+        _ => rng.log_uniform(2e-4, THREAD),
+    }
+}
+
+/// Returns a centre and half of the sides near these, so that single precision has digits for the corners
+/// and for the centre. Sides that are too short for that stay as they are.
+fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
+    let step = size.log2().floor().exp2() / 256.0;
+    let is_long = half.cmpge(DVec3::splat(step));
+    let shorter = (half / step).floor() * step;
+    [
+        (center / step).trunc() * step,
+        DVec3::select(is_long, shorter, half),
+    ]
+}
+
 /// Draws a ray through a box or beside it, with times. Returns `None` if it would start too far away.
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
-    let dir = match rng.index(16) {
+    let size = bounds.half_side();
+    let sides = bounds.max - bounds.min;
+    let foil = (0..3).find(|&axis| 0.0 < sides[axis] && sides[axis] < 2.0 * FOIL * size);
+    if let Some(axis) = foil.filter(|_| rng.index(4) == 0) {
+        return slanted_across_foil(rng, bounds, axis);
+    }
+    let dir = match rng.index(26) {
         0 | 1 => fields::diagonal(rng),
         2 | 3 => return slanted(rng, bounds),
-        4 => return from_face(rng, bounds),
+        4 | 5 => return from_faces(rng, bounds),
+        6 => return from_center(rng, bounds),
+        7..=9 => return from_the_origin(rng, bounds),
+        10 => return from_a_plane_of_axes(rng, bounds),
+        11 | 12 => return past_a_corner(rng, bounds),
         _ => fields::direction(rng),
     };
     query_along(rng, bounds, dir)
@@ -70,9 +124,24 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
 
 /// Draws a ray in this direction. Some start far away in another.
 fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
+    let size = bounds.half_side();
+    let target = target(rng, bounds);
+    let ahead = size
+        * match rng.index(6) {
+            0 | 1 => rng.uniform(1.0, 3.0),
+            2 | 3 => rng.uniform(3.0, 28.0),
+            4 => rng.uniform(-0.5, 0.5),
+            _ => -rng.uniform(2.0, 28.0),
+        };
+    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
+    Some(with_times(rng, origin, dir, ahead.max(0.0) + 2.0 * size))
+}
+
+/// Draws a point in the box, close to one of its faces, or around it.
+fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
-    let target = match rng.index(4) {
+    match rng.index(4) {
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
             // Close to a face, inside or outside: by a part of the box's size, or of this side.
@@ -93,16 +162,7 @@ fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Inter
             target
         }
         _ => bounds.center() + 0.45 * rng.point(1.0) * sides,
-    };
-    let ahead = size
-        * match rng.index(6) {
-            0 | 1 => rng.uniform(1.0, 3.0),
-            2 | 3 => rng.uniform(3.0, 28.0),
-            4 => rng.uniform(-0.5, 0.5),
-            _ => -rng.uniform(2.0, 28.0),
-        };
-    let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
-    Some(with_times(rng, origin, dir, ahead.max(0.0) + 2.0 * size))
+    }
 }
 
 /// Draws a ray with a component that is almost 0, along a slab that it starts beside, or that it leaves
@@ -122,18 +182,90 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Draws a ray that starts exactly on a face of the box.
-fn from_face(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+/// Draws a ray that crosses foil, or the air beside it, with a component below 3e-6.
+fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(Ray, Interval)> {
+    let sides = bounds.max - bounds.min;
+    let size = bounds.half_side();
+    let side = rng.sign();
+    let (inward, inside) = if rng.coin() {
+        (-side, -1.0)
+    } else {
+        (side, 1.0)
+    };
+    let mut dir = DVec3::ZERO;
+    dir[(axis + 1 + rng.index(2)) % 3] = rng.sign();
+    dir[axis] = inward * rng.uniform(1.5e-6, 2.9e-6);
+    let mut target = bounds.center() + 0.4 * rng.point(1.0) * sides;
+    let from_center = 0.5 + inside * rng.uniform(0.11, 0.3);
+    target[axis] = bounds.center()[axis] + side * from_center * sides[axis];
+    let ahead = size * rng.uniform(24.0, 28.0);
+    let origin = target - ahead * dir;
+    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
+    is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
+}
+
+/// Draws a ray that starts exactly on a face of the box, on an edge, or in a corner.
+fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let mut origin = bounds.center() + 0.4 * rng.point(1.0) * sides;
-    let axis = rng.index(3);
-    origin[axis] = if rng.coin() {
-        bounds.min[axis]
-    } else {
-        bounds.max[axis]
-    };
-    let dir = fields::direction(rng);
+    let mut dir = fields::direction(rng);
+    let (first, faces) = (rng.index(3), 1 + rng.index(3));
+    for axis in (first..first + faces).map(|axis| axis % 3) {
+        let at_min = rng.coin();
+        origin[axis] = if at_min { bounds.min } else { bounds.max }[axis];
+        if faces > 1 {
+            dir[axis] = dir[axis].abs() * if at_min { 1.0 } else { -1.0 };
+        }
+    }
     Some(with_times(rng, origin, dir, sides.max_element()))
+}
+
+/// Draws a ray that starts exactly in the centre of the box. Returns `None` if single precision has no
+/// digits for it.
+fn from_center(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let center = bounds.center();
+    let is_exact = center.as_vec3().as_dvec3() == center;
+    let dir = fields::direction(rng);
+    is_exact.then(|| with_times(rng, center, dir, bounds.half_side()))
+}
+
+/// Draws a ray that starts exactly at the origin of the world.
+fn from_the_origin(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let target = target(rng, bounds);
+    let dir = target.try_normalize()?;
+    let dir = if rng.index(8) == 0 { -dir } else { dir };
+    let furthest = target.length() + 2.0 * bounds.half_side();
+    Some(with_times(rng, DVec3::ZERO, dir, furthest))
+}
+
+/// Draws a ray that starts where one or two coordinates are 0.
+fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let (dir, size) = (fields::direction(rng), bounds.half_side());
+    let target = target(rng, bounds);
+    let mut origin = target - size * rng.uniform(-0.5, 28.0) * dir;
+    let (axis, zeros) = (rng.index(3), 1 + rng.index(2));
+    for next in 0..zeros {
+        origin[(axis + next) % 3] = 0.0;
+    }
+    let dir = (target - origin).try_normalize()?;
+    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
+    let furthest = origin.distance(target) + 2.0 * size;
+    is_inside.then(|| with_times(rng, origin, dir, furthest))
+}
+
+/// Draws a ray past a corner or an edge, which it cuts off.
+fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
+    let sides = bounds.max - bounds.min;
+    let size = bounds.half_side();
+    let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
+    let is_long = sides.cmpge(DVec3::splat(0.5 * size));
+    let of_half = DVec3::select(is_long, rng.vector(0.88, 0.95), rng.vector(0.0, 0.7));
+    let corner = 0.5 * of_half * signs * sides;
+    let dir = rng.perpendicular_to(corner.try_normalize()?);
+    let ahead = size * rng.uniform(1.5, 25.0);
+    let origin = bounds.center() + corner - ahead * dir;
+    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
+    is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
 /// Returns a ray with its own range and times, whose ends are at distances up to `furthest`.
@@ -155,11 +287,111 @@ fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, 
     (ray, times)
 }
 
-/// Returns a smaller box with the same centre.
+/// Returns a smaller box with the same centre, also in single precision.
 fn smaller(bounds: &Bounds) -> Bounds {
-    let half = 0.75 * 0.5 * (bounds.max - bounds.min);
-    let center = bounds.center();
-    Bounds::new((center - half).as_vec3(), (center + half).as_vec3())
+    /// How many sides are tried.
+    const ATTEMPTS: usize = 256;
+    let twice = bounds.min + bounds.max;
+    let (mut min, mut max) = (bounds.min.as_vec3(), bounds.max.as_vec3());
+    for axis in 0..3 {
+        if min[axis] == max[axis] {
+            continue;
+        }
+        let shorter = 0.125 * (bounds.max - bounds.min)[axis];
+        let mut low = (bounds.min[axis] + shorter) as f32;
+        let mut high = || {
+            low = low.next_up();
+            (low, twice[axis] - f64::from(low))
+        };
+        let sides = (0..ATTEMPTS).map(|_| high());
+        let sides: Vec<(f32, f64)> = sides.collect();
+        let is_exact = |(_, high): &&(f32, f64)| f64::from(*high as f32) == *high;
+        let (low, high) = *sides.iter().find(is_exact).unwrap_or(&sides[0]);
+        (min[axis], max[axis]) = (low, high as f32);
+    }
+    Bounds::new(min, max)
+}
+
+/// Returns the calls of a table, and three more about almost the same ray, which hits the box or misses
+/// it, if the box is so thin that this is clear.
+fn with_almost_the_same_rays(
+    rng: &mut Rng,
+    (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
+    fits: impl Fn(&BoxCall) -> bool,
+) -> (Bounds, Vec<(Ray, Interval)>) {
+    /// How many rays are drawn.
+    const ATTEMPTS: usize = 3000;
+    let sides = bounds.max - bounds.min;
+    let size = bounds.half_side();
+    let thick = (0..3).filter(|&axis| sides[axis] > 0.0);
+    let thinnest = thick.min_by(|&a, &b| sides[a].total_cmp(&sides[b]));
+    let Some(axis) = thinnest.filter(|&axis| sides[axis] < THIN * size) else {
+        return (bounds, queries);
+    };
+    let found = rng.attempt(ATTEMPTS, |rng| {
+        let mut dir = fields::direction(rng);
+        if rng.coin() {
+            dir[axis] = 0.0;
+            dir = dir.try_normalize()?;
+        }
+        let mut target = bounds.center() + 0.4 * rng.point(1.0) * sides;
+        let from_center = rng.sign() * rng.uniform(0.3, 0.7) * sides[axis];
+        target[axis] = bounds.center()[axis] + from_center;
+        let ahead = size * rng.uniform(10.0, 28.0);
+        let origin = target - ahead * dir;
+        if origin.abs().max_element() > fields::FURTHEST {
+            return None;
+        }
+        let (ray, times) = with_times(rng, origin, dir, ahead + 2.0 * size);
+        let other = fields::almost_the_same_ray(rng, &ray);
+        let calls = [ray, other].map(|ray| BoxCall::new(bounds, (ray, times)));
+        let [first, second] = &calls;
+        let is_other = first.is_hit() != second.is_hit();
+        (is_other && calls.iter().all(&fits)).then_some(calls.map(|call| call.input()))
+    });
+    if let Some([first, second]) = found {
+        queries.extend([first, second, first]);
+    }
+    (bounds, queries)
+}
+
+/// Returns boxes that are lines along the axes, and one that is a point, each with rays that clearly miss
+/// it.
+pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
+    /// The number of rays for each box.
+    const RAYS: usize = 8;
+    /// The least distance between a ray and the box, in sizes.
+    const CLEAR: f64 = 0.05;
+    let table = |axis: usize| {
+        let class = 1 + rng.index(7);
+        let size = fields::size(rng, class);
+        let half = DVec3::AXES
+            .get(axis)
+            .map_or(DVec3::ZERO, |axis| size * *axis);
+        let center =
+            fields::place(rng, size).clamp(DVec3::splat(-60.0 * size), DVec3::splat(60.0 * size));
+        let [min, max] = [-half, half].map(|half| (center.as_vec3().as_dvec3() + half).as_vec3());
+        let bounds = Bounds::new(min, max);
+        let ray = |_| {
+            rng.retry(|rng| {
+                let beside = size * rng.uniform(0.1, 1.2) * rng.direction();
+                let target = bounds.center() + 0.9 * rng.point(1.0) * half + beside;
+                let dir = if rng.index(4) == 0 {
+                    fields::diagonal(rng)
+                } else {
+                    fields::direction(rng)
+                };
+                let ahead = size * rng.uniform(-0.5, 20.0);
+                let origin = target - ahead * dir;
+                let query = with_times(rng, origin, dir, ahead.max(0.0) + 2.0 * size);
+                let around = BoxCall::new(bounds.grown(CLEAR * size), query);
+                let is_inside = origin.abs().max_element() <= fields::FURTHEST;
+                (is_inside && around.crossing().is_none()).then_some(query)
+            })
+        };
+        (bounds, (0..RAYS).map(ray).collect())
+    };
+    (0..4).map(table).collect()
 }
 
 /// Returns the calls of a table, and three more: two rays that are parallel to the one before, and one

@@ -4,28 +4,51 @@ mod call;
 mod clear;
 mod draw;
 
+use glam::{DVec3, Vec3};
 use protocol::{Interval, Ray};
 
 use self::call::calls;
 use super::fields::{
-    DIAGONALS, DIRECTIONS, DISTANCES, diagonal_class, direction_class, distance_class,
-    history_class, range_class,
+    DIAGONALS, DIRECTIONS, DISTANCES, OCTANTS, diagonal_class, direction_class, distance_class,
+    history_class, octant, range_class,
 };
 use super::{Aspect, Call, FunctionDomain, not_asked};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 
 pub use call::BoxCall;
-pub use draw::tables;
+pub use draw::{lines_and_a_point, tables};
 
 /// The domain of `BBox::hit`.
 pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     function: "BBox::hit",
-    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, FORM],
-    aspects: &[
-        START, DISTANCE, OUTCOME, DIRECTION, DIAGONAL, SLANT, TIMES, RAYS_RANGE, HISTORY,
+    subject_aspects: &[
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT,
+        FORM,
+        ZERO_SIDES,
     ],
-    pairs: &[["size", "direction"], ["size", "start"]],
+    aspects: &[
+        START,
+        START_INSIDE,
+        START_AT_THE_ORIGIN,
+        ZEROS_OF_START,
+        DISTANCE,
+        OUTCOME,
+        WAY,
+        DIRECTION,
+        DIAGONAL,
+        SLANT,
+        TIMES,
+        RAYS_RANGE,
+        HISTORY,
+    ],
+    pairs: &[
+        ["size", "direction"],
+        ["size", "start"],
+        ["form", "way past the centre"],
+    ],
     calls,
     not_asked: &[
         not_asked("distance", &[], &["`None`"], "A miss has no distance."),
@@ -63,14 +86,27 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             "The box is missed.",
         ),
         not_asked(
+            "form",
+            &["a line", "a point"],
+            &["some", "interval inside the box", "pairs"],
+            "Whether a ray hits a line or a point depends on rounding.",
+        ),
+        not_asked(
+            "start in the box",
+            &[],
+            &["`None`"],
+            "A ray that starts in the box misses it only because of its times.",
+        ),
+        not_asked("way past the centre", &[], &["`None`"], "The box is hit."),
+        not_asked(
             "components below 1e-4",
-            &["lead into the box"],
+            &["lead into the box", "below 3e-6, into the box"],
             &["`None`"],
             "The box is hit.",
         ),
         not_asked(
             "components below 1e-4",
-            &["lead past the box"],
+            &["lead past the box", "below 3e-6, past the box"],
             &["some", "interval inside the box"],
             "The box is missed.",
         ),
@@ -96,9 +132,19 @@ const FORM: Aspect<BoxCall> = Aspect {
         "flat along x",
         "flat along y",
         "flat along z",
+        "thin as foil",
+        "exactly a cube",
+        "a line",
+        "a point",
     ],
     class: |call| {
         let sides = call.bounds.max - call.bounds.min;
+        match sides.cmpeq(DVec3::ZERO).bitmask().count_ones() {
+            3 => return Some(12),
+            2 => return Some(11),
+            _ if sides == DVec3::splat(sides.x) => return Some(10),
+            _ => {}
+        }
         let flat = (0..3).find(|&axis| sides[axis] == 0.0);
         let mut parts = (sides / sides.max_element()).to_array();
         parts.sort_by(f64::total_cmp);
@@ -110,7 +156,8 @@ const FORM: Aspect<BoxCall> = Aspect {
             (None, 0.75..) => 0,
             (None, THIN..) => 1,
             (None, PAPER..) => 2,
-            (None, _) => 3,
+            (None, FOIL..) => 3,
+            (None, _) => 9,
         };
         Some(class)
     },
@@ -125,6 +172,24 @@ const THREAD: f64 = 0.0025;
 /// The shortest side of a box below which it is as thin as paper, relative to the longest.
 const PAPER: f64 = 0.0009;
 
+/// The shortest side of a box below which it is as thin as foil, relative to the longest.
+const FOIL: f64 = 1.8e-4;
+
+/// How many axes have 0 at a side of the box.
+const ZERO_SIDES: Aspect<BoxCall> = Aspect {
+    name: "sides at 0",
+    classes: &["along one axis", "along all axes"],
+    class: |call| {
+        let Bounds { min, max } = call.bounds;
+        let is_zero = min.cmpeq(DVec3::ZERO) | max.cmpeq(DVec3::ZERO);
+        match is_zero.bitmask().count_ones() {
+            1 => Some(0),
+            3 => Some(1),
+            _ => None,
+        }
+    },
+};
+
 /// The start of the ray.
 const START: Aspect<BoxCall> = Aspect {
     name: "start",
@@ -135,6 +200,9 @@ const START: Aspect<BoxCall> = Aspect {
         "on a face",
     ],
     class: |call| {
+        if call.size() == 0.0 {
+            return None;
+        }
         let start = call.ray.origin.as_dvec3();
         let sizes = (start - call.bounds.center()).abs().max_element() / call.size();
         Some(match sizes {
@@ -145,6 +213,47 @@ const START: Aspect<BoxCall> = Aspect {
             ..3.0 => 0,
             _ => 1,
         })
+    },
+};
+
+/// Where in the box the ray starts.
+const START_INSIDE: Aspect<BoxCall> = Aspect {
+    name: "start in the box",
+    classes: &["in the centre", "on an edge", "in a corner", "elsewhere"],
+    class: |call| {
+        let start = call.ray.origin.as_dvec3();
+        if call.is_flat() || !call.starts_inside() {
+            return None;
+        }
+        Some(match call.faces_at_start() {
+            _ if start == call.bounds.center() => 0,
+            2 => 1,
+            3 => 2,
+            _ => 3,
+        })
+    },
+};
+
+/// The octant of the box, if the ray starts at the origin of the world, outside of the box.
+const START_AT_THE_ORIGIN: Aspect<BoxCall> = Aspect {
+    name: "octant, from the origin of the world",
+    classes: OCTANTS,
+    class: |call| {
+        let is_from_there = call.ray.origin == Vec3::ZERO && !call.starts_inside();
+        is_from_there
+            .then(|| octant(call.bounds.center()))
+            .flatten()
+    },
+};
+
+/// The number of coordinates of the start that are 0.
+const ZEROS_OF_START: Aspect<BoxCall> = Aspect {
+    name: "zeros in the start",
+    classes: &["one", "two"],
+    class: |call| match call.ray.origin.cmpeq(Vec3::ZERO).bitmask().count_ones() {
+        1 => Some(0),
+        2 => Some(1),
+        _ => None,
     },
 };
 
@@ -192,6 +301,19 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
     },
 };
 
+/// How far from the centre of the box a hit passes.
+const WAY: Aspect<BoxCall> = Aspect {
+    name: "way past the centre",
+    classes: &["near", "farther away", "near an edge or a corner"],
+    class: |call| {
+        call.is_hit().then(|| match call.distance_of_line() {
+            ..0.4 => 0,
+            ..0.83 => 1,
+            _ => 2,
+        })
+    },
+};
+
 /// The direction of the ray.
 const DIRECTION: Aspect<BoxCall> = Aspect {
     name: "direction",
@@ -209,10 +331,18 @@ const DIAGONAL: Aspect<BoxCall> = Aspect {
 /// The components of the direction that are almost 0, if they decide.
 const SLANT: Aspect<BoxCall> = Aspect {
     name: "components below 1e-4",
-    classes: &["lead into the box", "lead past the box"],
+    classes: &[
+        "lead into the box",
+        "lead past the box",
+        "below 3e-6, into the box",
+        "below 3e-6, past the box",
+    ],
     class: |call| {
+        let components = call.ray.dir.abs().to_array().into_iter();
+        let least = components.filter(|it| *it > 0.0).fold(1.0, f32::min);
         let is_missed = usize::from(!call.is_hit());
-        call.is_decided_by_slant().then_some(is_missed)
+        let class = 2 * usize::from(least < 3e-6) + is_missed;
+        call.is_decided_by_slant().then_some(class)
     },
 };
 
@@ -274,8 +404,12 @@ const HISTORY: Aspect<BoxCall> = Aspect {
         "the same ray with other times",
         "a parallel ray",
         "another ray from the same start",
+        "almost the same ray",
     ],
     class: |call| {
+        if call.is_after_almost_the_same_ray() {
+            return Some(5);
+        }
         let before = call.before.as_ref().map(|(ray, _)| ray);
         let is_parallel = |ray: &Ray| ray.dir == call.ray.dir && ray.origin != call.ray.origin;
         if before.is_some_and(is_parallel) {

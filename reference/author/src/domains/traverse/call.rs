@@ -1,11 +1,13 @@
 //! Calls of `Bvh::hit` of trees.
 
+use std::mem;
 use std::sync::Arc;
 
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::decoy::{Decoy, Outside};
 use crate::domains::Placed;
+use crate::domains::fields;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::tree::Tree;
@@ -19,6 +21,10 @@ pub struct TraverseCall {
     pub(super) previous: Option<Ray>,
     /// The decoy in front of the answer.
     pub(super) decoy: Option<Decoy>,
+    /// The correct hit.
+    pub(super) hit: Option<Intersection>,
+    /// The correct hit of the call before.
+    previous_hit: Option<Intersection>,
 }
 
 /// Returns the calls of a question about a tree.
@@ -29,12 +35,16 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     let Some(subject) = Subject::of(&table.subject).map(Arc::new) else {
         return Vec::new();
     };
-    let mut previous = None;
+    let (mut previous, mut previous_hit) = (None, None);
     let rays = table.rows.to_vec();
     let outside = Outside::all(&subject.tree);
     let calls = rays.iter().map(|&ray| {
         let previous = previous.replace(ray);
+        let hit = subject.hit(&ray);
+        let previous_hit = mem::replace(&mut previous_hit, hit);
         TraverseCall {
+            hit,
+            previous_hit,
             subject: Arc::clone(&subject),
             decoy: Decoy::of(&subject.tree, &outside, &ray, previous.as_ref()),
             previous,
@@ -44,16 +54,99 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     calls.collect()
 }
 
+/// A second hit that is hardly farther away than the closest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layer {
+    /// It belongs to a primitive before that of the closest hit in the same leaf, at almost the same distance.
+    SameLeaf,
+    /// It is in a leaf that the ray starts in, and both hits are near the start, as seen from afar.
+    OtherLeaf,
+}
+
 impl TraverseCall {
-    /// Returns the correct hit.
-    pub(super) fn hit(&self) -> Option<Intersection> {
+    /// Returns the layer close behind the hit, if there is one.
+    pub(super) fn layer(&self) -> Option<Layer> {
+        /// The largest difference of the distances, or distance from the start in diagonals of the tree.
+        const MOST: f64 = 1e-3;
         let ray64 = Ray64::from(&self.ray);
-        let Subject { tree, is_built, .. } = &*self.subject;
-        if *is_built {
-            scan::closest_hit(&ray64, &tree.shapes)
-        } else {
-            tree.expected_hit(&ray64)
+        let tree = &self.subject.tree;
+        let (leaf, closest) = (self.leaf_of_hit()?, self.hit?);
+        let distance = |index: usize| Some(scan::intersect(&ray64, &tree.shapes[index])?.distance);
+        let earlier = tree
+            .primitives(leaf)
+            .take_while(|&index| tree.shapes[index].number() != closest.shape);
+        let is_same = |other: f64| closest.distance > (1.0 - MOST) * other;
+        if earlier.filter_map(distance).any(is_same) {
+            return Some(Layer::SameLeaf);
         }
+        let near = ray64.min + MOST * self.subject.bounds.diagonal();
+        let start = Bounds::around([ray64.origin]);
+        let mut others = self.subject.leaves.iter().filter(|&&other| other != leaf);
+        let is_near = |&other: &usize| {
+            tree.bounds(other).contains(&start)
+                && tree
+                    .primitives(other)
+                    .filter_map(distance)
+                    .any(|it| it < near)
+        };
+        (closest.distance < near && others.any(is_near)).then_some(Layer::OtherLeaf)
+    }
+
+    /// Returns the place of the hit in its leaf.
+    pub(super) fn place_in_leaf(&self) -> Option<usize> {
+        let mut primitives = self.subject.tree.primitives(self.leaf_of_hit()?);
+        primitives.position(|index| self.is_hit(index))
+    }
+
+    /// Returns the leaf of the exam's tree that holds the hit.
+    pub(super) fn leaf_of_hit(&self) -> Option<usize> {
+        let Subject { tree, leaves, .. } = &*self.subject;
+        let mut leaves = leaves.iter().copied();
+        leaves.find(|&leaf| tree.primitives(leaf).any(|index| self.is_hit(index)))
+    }
+
+    /// Returns whether a primitive is the one that is hit.
+    fn is_hit(&self, primitive: usize) -> bool {
+        let number = self.subject.tree.shapes[primitive].number();
+        self.hit.is_some_and(|hit| hit.shape == number)
+    }
+
+    /// Returns whether the ray is almost the one before, and the distance of its hit is clearly another.
+    pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
+        /// The least difference of the distances.
+        const LEAST: f64 = 5e-4;
+        let differ = |a: f64, b: f64| (a - b).abs() > LEAST * a.max(b);
+        let is_other = match (self.hit, self.previous_hit) {
+            (Some(hit), Some(other)) => differ(hit.distance, other.distance),
+            (hit, other) => hit.is_some() != other.is_some(),
+        };
+        let is_almost_the_same = |previous| fields::is_almost_the_same_ray(&previous, &self.ray);
+        is_other && self.previous.is_some_and(is_almost_the_same)
+    }
+
+    /// Returns whether a primitive in no leaf is in front of the answer, and whether it is about as large as
+    /// the tree.
+    pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
+        /// The least sides along two axes of a primitive that is as large as the tree, in sides of the tree.
+        const LARGE: f64 = 0.9;
+        let ray64 = Ray64::from(&self.ray);
+        let end = self.hit.map_or(ray64.max, |hit| hit.distance);
+        let Subject {
+            tree,
+            bounds,
+            unreferenced,
+            ..
+        } = &*self.subject;
+        let shapes = unreferenced.iter().map(|&index| &tree.shapes[index]);
+        let in_front = shapes
+            .filter(|shape| scan::intersect(&ray64, shape).is_some_and(|hit| hit.distance < end));
+        let is_large = |shape: &Shape| {
+            let around = scan::bounds(shape);
+            let sides = around.max - around.min;
+            let is_long = sides.cmpge(LARGE * (bounds.max - bounds.min));
+            bounds.contains(&around) && is_long.bitmask().count_ones() > 1
+        };
+        in_front.map(is_large).max()
     }
 }
 
@@ -74,9 +167,21 @@ pub(super) struct Subject {
     pub(super) bounds: Bounds,
     pub(super) leaves: Vec<usize>,
     pub(super) levels: usize,
+    /// The primitives in no leaf.
+    pub(super) unreferenced: Vec<usize>,
 }
 
 impl Subject {
+    /// Returns the correct hit of a ray.
+    fn hit(&self, ray: &Ray) -> Option<Intersection> {
+        let ray64 = Ray64::from(ray);
+        if self.is_built {
+            scan::closest_hit(&ray64, &self.tree.shapes)
+        } else {
+            self.tree.expected_hit(&ray64)
+        }
+    }
+
     fn of(geometry: &Geometry) -> Option<Subject> {
         let (tree, is_built) = match geometry {
             Geometry::List { .. } => return None,
@@ -107,7 +212,14 @@ impl Subject {
             tree.bounds(tree.root)
         };
         let levels = leaves.iter().map(|&leaf| tree.path(leaf).len()).max();
+        let is_unreferenced = |index: &usize| {
+            !leaves
+                .iter()
+                .any(|&leaf| tree.primitives(leaf).contains(index))
+        };
+        let indices = 0..tree.shapes.len();
         Some(Subject {
+            unreferenced: indices.filter(is_unreferenced).collect(),
             levels: levels.unwrap_or(0),
             is_built,
             bounds,

@@ -2,6 +2,7 @@
 
 use protocol::{Ray, Shape};
 
+use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::tree::Tree;
 use crate::tree::decoy::{self, SkipReason};
@@ -17,7 +18,12 @@ pub(super) struct Decoy {
     /// Its place in its leaf.
     pub(super) place: usize,
     pub(super) level: usize,
-    pub(super) is_flat: bool,
+    /// The number of axes along which the box of its leaf is flat.
+    pub(super) flat_axes: u32,
+    /// Whether its leaf has four or more primitives, as well as the sibling, which is next to it in the list.
+    pub(super) is_beside_a_large_leaf: bool,
+    /// Whether the ray starts in the box of the sibling, which holds the hit.
+    pub(super) is_from_siblings_box: bool,
     pub(super) history: usize,
 }
 
@@ -57,7 +63,9 @@ impl Decoy {
             leaf_size: primitives.len(),
             place: primitive - primitives.start,
             level: tree.path(leaf).len(),
-            is_flat: bounds.min.cmpeq(bounds.max).any(),
+            flat_axes: bounds.min.cmpeq(bounds.max).bitmask().count_ones(),
+            is_beside_a_large_leaf: is_beside_a_large_leaf(tree, leaf),
+            is_from_siblings_box: is_from_siblings_box(tree, leaf, ray64),
             history: history(tree, leaf, ray64, previous),
         })
     }
@@ -86,6 +94,28 @@ fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
         Some(other) if other > hit => 3 + usize::from(other < entry(tree, leaf, ray64)?),
         _ => 2,
     })
+}
+
+/// Returns whether a leaf and its sibling have four or more primitives each, the left one's before the
+/// right one's.
+fn is_beside_a_large_leaf(tree: &Tree, leaf: usize) -> bool {
+    const LARGE: usize = 4;
+    let path = tree.path(leaf);
+    let Some(parent) = path.iter().rev().nth(1).map(|&parent| &tree.nodes[parent]) else {
+        return false;
+    };
+    let children = [parent.l as usize, parent.r as usize];
+    let are_leaves = children.iter().all(|&child| tree.nodes[child].is_leaf());
+    let [l, r] = children.map(|child| tree.primitives(child));
+    are_leaves && l.len() >= LARGE && r.len() >= LARGE && l.end == r.start
+}
+
+/// Returns whether the ray starts in the box of a leaf's sibling, and hits something there.
+fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
+    let start = Bounds::around([ray64.origin]);
+    let holds_start = |sibling: &usize| tree.bounds(*sibling).contains(&start);
+    let sibling = tree.sibling(leaf).filter(holds_start);
+    sibling.is_some() && tree.leaf_of_hit(ray64) == sibling
 }
 
 /// Returns the class of the call before that of a decoy.

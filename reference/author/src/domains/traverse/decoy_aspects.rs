@@ -27,8 +27,8 @@ pub(super) const KIND: Aspect<TraverseCall> = Aspect {
 /// The number of primitives in the decoy's leaf.
 pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
     name: "decoy's leaf",
-    classes: &["1", "2", "3", "4 or more"],
-    class: |call| Some(class_up_to(&[1, 2, 3], call.decoy?.leaf_size)),
+    classes: &["1", "2", "3", "4 to 16", "17 or more"],
+    class: |call| Some(class_up_to(&[1, 2, 3, 16], call.decoy?.leaf_size)),
 };
 
 /// The place of the decoy in its leaf.
@@ -56,8 +56,25 @@ pub(super) const LEVEL: Aspect<TraverseCall> = Aspect {
 /// The box of the decoy's leaf.
 pub(super) const BOX: Aspect<TraverseCall> = Aspect {
     name: "decoy's box",
-    classes: &["thick", "flat"],
-    class: |call| Some(usize::from(call.decoy?.is_flat)),
+    classes: &["thick", "flat", "a line or a point"],
+    class: |call| Some(call.decoy?.flat_axes.min(2) as usize),
+};
+
+/// The sibling of the decoy's leaf.
+pub(super) const SIBLING: Aspect<TraverseCall> = Aspect {
+    name: "decoy's sibling",
+    classes: &[
+        "any",
+        "4 or more primitives, next to 4 or more with the decoy",
+    ],
+    class: |call| Some(usize::from(call.decoy?.is_beside_a_large_leaf)),
+};
+
+/// The start of the ray toward the decoy.
+pub(super) const START: Aspect<TraverseCall> = Aspect {
+    name: "start before a decoy",
+    classes: &["anywhere", "in the sibling's box, which holds the hit"],
+    class: |call| Some(usize::from(call.decoy?.is_from_siblings_box)),
 };
 
 /// The call before that of a decoy.

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use protocol::Shape;
 
-use self::call::calls;
+use self::call::{Layer, calls};
 use super::build::kind;
 use super::fields::{
     DIRECTIONS, RANGES, class_up_to, direction_class, history_class, powers_of_two, range_class,
@@ -47,12 +47,17 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         IN_BOX,
         ON_SPHERE,
         ON_THE_WAY,
+        PLACE_OF_HIT,
+        LAYERS,
+        UNREFERENCED,
         decoy_aspects::REASON,
         decoy_aspects::KIND,
         decoy_aspects::LEAF_SIZE,
         decoy_aspects::PLACE,
         decoy_aspects::LEVEL,
         decoy_aspects::BOX,
+        decoy_aspects::SIBLING,
+        decoy_aspects::START,
         decoy_aspects::HISTORY,
     ],
     pairs: &[
@@ -61,6 +66,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         ["decoy", "decoy's place"],
         ["decoy", "decoy's level"],
         ["decoy", "decoy's box"],
+        ["decoy", "decoy's sibling"],
         ["decoy", "decoy's history"],
         ["decoy", "range"],
     ],
@@ -99,6 +105,30 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &[],
             &["`None`"],
             "A ray that hits nothing does not hit the sphere that it starts on.",
+        ),
+        not_asked(
+            "place of the hit in its leaf",
+            &[],
+            &["`None`"],
+            "A ray that hits nothing has no hit in a leaf.",
+        ),
+        not_asked(
+            "another hit close behind",
+            &[],
+            &["`None`"],
+            "A ray that hits nothing has no hit.",
+        ),
+        not_asked(
+            "start before a decoy",
+            &["in the sibling's box, which holds the hit"],
+            &["`None`"],
+            "A ray that hits nothing has no box of a hit.",
+        ),
+        not_asked(
+            "decoy's box",
+            &["a line or a point"],
+            &["pairs"],
+            "Whether a ray meets a line or a point depends on rounding, so such a box is asked where it is missed.",
         ),
         not_asked(
             "decoy",
@@ -294,8 +324,14 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
         "first call of a tree",
         "after another ray",
         "after the same ray with another range",
+        "after almost the same ray, with another hit",
     ],
-    class: |call| Some(history_class(call.previous.as_ref(), &call.ray)),
+    class: |call| {
+        if call.is_after_almost_the_same_ray() {
+            return Some(3);
+        }
+        Some(history_class(call.previous.as_ref(), &call.ray))
+    },
 };
 
 /// The distance of the hit, relative to the coordinates.
@@ -304,7 +340,7 @@ const NEARNESS: Aspect<TraverseCall> = Aspect {
     classes: &["below 1e-5", "1e-5", "1e-3 or more"],
     class: |call| {
         let largest = f64::from(call.ray.origin.abs().max_element());
-        Some(match call.hit()?.distance / largest {
+        Some(match call.hit?.distance / largest {
             ..1e-5 if call.ray.range.min == 0.0 => 0,
             ..1e-3 => 1,
             _ => 2,
@@ -324,8 +360,10 @@ const IN_BOX: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let tree = &call.subject.tree;
         let ray64 = Ray64::from(&call.ray);
-        let leaf = tree.leaf_of_hit(&ray64)?;
-        let path = tree.path(leaf).into_iter().map(|node| tree.bounds(node));
+        let path = tree
+            .path(call.leaf_of_hit()?)
+            .into_iter()
+            .map(|node| tree.bounds(node));
         let holds = |bounds: &Bounds| bounds.contains(&Bounds::around([ray64.origin]));
         let around = path.filter(holds).map(|bounds| {
             let beyond = (ray64.origin - bounds.center()).dot(ray64.dir);
@@ -344,7 +382,7 @@ const ON_SPHERE: Aspect<TraverseCall> = Aspect {
     name: "start on what is hit",
     classes: &["elsewhere", "on the sphere that is hit again"],
     class: |call| {
-        let hit = call.hit()?;
+        let hit = call.hit?;
         let mut shapes = call.subject.tree.shapes.iter();
         let shape = shapes.find(|shape| shape.number() == hit.shape)?;
         let Shape::Sphere { center, radius, .. } = *shape else {
@@ -362,13 +400,42 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     class: |call| {
         let ray64 = Ray64::from(&call.ray);
         let on_the_way = Ray64 {
-            max: call.hit().map_or(ray64.max, |hit| hit.distance),
+            max: call.hit.map_or(ray64.max, |hit| hit.distance),
             ..ray64
         };
         let shapes = call.subject.shapes().into_iter();
         let boxes = shapes.filter(|shape| scan::bounds(shape).span(&on_the_way).is_some());
         Some(class_up_to(&[2048], boxes.count()))
     },
+};
+
+/// The place of the primitive that is hit in its leaf.
+const PLACE_OF_HIT: Aspect<TraverseCall> = Aspect {
+    name: "place of the hit in its leaf",
+    classes: &["up to the 16th", "up to the 512th", "later"],
+    class: |call| Some(class_up_to(&[15, 511], call.place_in_leaf()?)),
+};
+
+/// A second hit behind the closest.
+const LAYERS: Aspect<TraverseCall> = Aspect {
+    name: "another hit close behind",
+    classes: &[
+        "within a thousandth of the distance, earlier in the same leaf",
+        "in a leaf around the start, both within a thousandth of the tree's diagonal",
+    ],
+    class: |call| {
+        Some(match call.layer()? {
+            Layer::SameLeaf => 0,
+            Layer::OtherLeaf => 1,
+        })
+    },
+};
+
+/// A primitive in no leaf in front of the answer.
+const UNREFERENCED: Aspect<TraverseCall> = Aspect {
+    name: "primitive of no leaf in front",
+    classes: &["small", "as large as the tree"],
+    class: |call| call.unreferenced_in_front().map(usize::from),
 };
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Items about hits and misses of rays from all sides.
 
-use super::{almost_parallel, is_ordinary, questions};
+use super::{almost_parallel, bbox_question, is_ordinary, questions};
 use crate::domains::bbox::BoxCall;
+use crate::domains::bbox::lines_and_a_point;
 use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::items::{Declaration, groups};
 
@@ -78,6 +79,11 @@ pub(super) const FLAT: Declaration = Declaration {
            time, and that is a hit.",
     section: "boxes.md#flat-boxes-can-be-hit",
     tests: &["A flat box (`min…"],
-    questions: |rng| questions(rng, EVERY_SIZE, BoxCall::is_flat),
+    questions: |rng| {
+        let mut flat = questions(rng, EVERY_SIZE, BoxCall::is_flat);
+        let even_flatter = lines_and_a_point(rng).into_iter();
+        flat.extend(even_flatter.map(|(bounds, queries)| bbox_question(bounds, queries)));
+        flat
+    },
     ..Declaration::in_group(groups::BOXES)
 };

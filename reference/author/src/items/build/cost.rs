@@ -54,6 +54,63 @@ fn cost_questions(
     sizes.iter().map(question).collect()
 }
 
+/// Creates questions about trees as large as a scene can be: for each of the upper nodes, the area of its
+/// box times the number of its primitives is above 1e10.
+fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
+    let question = |&(count, max_leaf_size): &(usize, u32)| {
+        rng.retry(|rng| {
+            let shapes = meshes::galaxy(rng, count);
+            let question = cost_question(rng.shuffled(shapes), max_leaf_size);
+            (highest_correct_cost(&question) <= MAX_CORRECT_COST
+                && lowest_adjacent_cost(&question) >= MIN_ADJACENT_COST)
+                .then_some(question)
+        })
+    };
+    sizes.iter().map(question).collect()
+}
+
+/// Creates questions about a few clumps of spheres, of which some have many times as many as others. So it
+/// is expensive to split by count, be it above the last levels or below the root.
+fn clumps_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
+    /// The least cost of a tree that is partly split by count, relative to the exact sweep's.
+    const LEAST: f64 = 1.25;
+    let question = |&(count, max_leaf_size): &(usize, u32)| {
+        rng.retry(|rng| {
+            let shapes = meshes::clumps(rng, count);
+            let shapes = meshes::number_shapes(rng.shuffled(shapes));
+            let size = rng.index(fields::SIZES.len());
+            let shapes = place_of_size(rng, &shapes, size).shapes(&shapes);
+            let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
+            let most = max_leaf_size as usize;
+            let builder = BucketedBuilder {
+                count: 16,
+                extent: BucketExtent::Centers,
+                sides: SideRule::AllBuckets,
+            };
+            let cost = |is_halved: &dyn Fn(usize) -> bool| {
+                buckets::cost_with_halves(&boxes, most, builder, is_halved)
+            };
+            let by_count = cost(&|number| number > 4 * most).min(cost(&|number| number < count));
+            let question = cost_question(shapes, max_leaf_size);
+            let is_hard = by_count >= LEAST * cost_of_sweep(&question);
+            (is_hard && highest_correct_cost(&question) <= MAX_CORRECT_COST).then_some(question)
+        })
+    };
+    sizes.iter().map(question).collect()
+}
+
+/// Returns the cost of the exact sweep's tree.
+fn cost_of_sweep(question: &ExamQuestion) -> f64 {
+    let Key::Tree {
+        sweep_cost: Some(sweep),
+        ..
+    } = question.key
+    else {
+        unreachable!("{question:?} is not about a tree's cost")
+    };
+    sweep
+}
+
 /// Creates a question about a few long lanes of spheres. The best split is between two lanes, and so
 /// not along the axis of the largest extent.
 fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQuestion {
@@ -155,6 +212,13 @@ pub(super) const COST_TOWN: Declaration = Declaration {
            together with its cost.",
     section: "building.md#keep-track-of-the-best-cost",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
-    questions: |rng| cost_questions(rng, meshes::town, &[(512, 1), (2048, 4), (4500, 8)]),
+    questions: |rng| {
+        let town = cost_questions(rng, meshes::town, &[(512, 1), (2048, 4)]);
+        let huge = huge_questions(rng, &[(1900, 4), (4300, 8)]);
+        let [few, more] = [(20, 45), (46, 100)].map(|(min, max)| rng.integer(min, max) as usize);
+        let [small, large] = [(16, 24), (25, 60)].map(|(min, max)| rng.integer(min, max));
+        let sizes = [(few, 1), (more, 1), (200, small), (400, large)];
+        [town, huge, clumps_questions(rng, &sizes)].concat()
+    },
     ..Declaration::ALONE
 };

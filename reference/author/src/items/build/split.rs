@@ -148,7 +148,13 @@ type Draw = Box<dyn Fn(&mut Rng) -> Drawn>;
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
     let sizes = fields::SIZES.len();
     let first = rng.index(sizes);
-    let kinds = [in_clumps(), of_a_few(), of_many(), of_strips()];
+    let kinds = [
+        in_clumps(),
+        of_a_few(),
+        of_many(),
+        of_outliers(),
+        of_strips(),
+    ];
     let kinds = kinds.into_iter().flatten().enumerate();
     kinds
         .map(|(index, draw)| {
@@ -160,8 +166,8 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 /// Returns what draws each layout of clumps along each axis.
 fn in_clumps() -> Vec<Draw> {
-    /// How many times as many primitives as shown each layout has.
-    const TIMES: [usize; 6] = [1, 5, 2, 20, 1, 50];
+    /// How many times as many primitives as shown each layout has. One of those with a gap has over 1,024.
+    const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 90, 1, 5, 2, 20, 1, 50];
     let layouts = [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate();
     let along_axes =
         layouts.flat_map(|(number, layout)| (0..3).map(move |axis| (number, layout, axis)));
@@ -212,13 +218,34 @@ fn of_a_few() -> Vec<Draw> {
 
 /// Returns what draws two crowds of many primitives.
 fn of_many() -> Vec<Draw> {
-    let counts = [16_usize, 64, 129, 256, 513, 1000].into_iter();
+    let counts = [16_usize, 64, 129, 256, 513, 1100].into_iter();
     let draw = |count: usize| -> Draw {
         Box::new(move |rng| {
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let largest = 6 * count / 10 + count.div_ceil(64);
-            let leaf_size = largest + rng.index(count - largest);
+            let leaf_size = (largest + rng.index(count - largest)).min(1000);
             Drawn::new(many(rng, count, axis, is_mirrored), leaf_size, axis)
+        })
+    };
+    counts.map(draw).collect()
+}
+
+/// Returns what draws a crowd and, far from it, less than a sixteenth as many primitives.
+fn of_outliers() -> Vec<Draw> {
+    let counts = [(18, 60), (100, 180)].into_iter();
+    let draw = |(least, most): (u32, u32)| -> Draw {
+        Box::new(move |rng| {
+            let count = rng.integer(least, most) as usize;
+            let far = 1 + rng.index((count / 20).max(1));
+            let (axis, is_mirrored) = (rng.index(3), rng.coin());
+            let layout = Layout {
+                clumps: &[(0.0, 0.01, far), (0.9, 1.0, count - far)],
+                first_size: SMALL,
+                size: SMALL,
+                alignment: Alignment::Loose,
+            };
+            let leaf_size = count - 1 - rng.index(far);
+            Drawn::new(row(rng, &layout, axis, is_mirrored), leaf_size, axis)
         })
     };
     counts.map(draw).collect()

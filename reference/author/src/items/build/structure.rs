@@ -85,15 +85,27 @@ fn soup_questions_of_size(
 }
 
 /// Creates two questions about as many spheres with the same common box and the same maximum leaf size.
-/// The spheres inside of this box are elsewhere in the second.
+/// One sphere inside of this box, in the middle of the list, is elsewhere in the second.
 fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> [ExamQuestion; 2] {
-    let count = rng.integer(8, 40);
-    [0, 1].map(|_| {
-        let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
-        let inside = (0..count).map(|_| meshes::sphere(rng.point(2.5), 0.2));
-        let spheres: Vec<_> = corners.into_iter().chain(inside).collect();
-        build_question(checks, spheres, 1)
+    let count = rng.integer(8, 40) as usize;
+    let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
+    let moved = rng.vector(1.0, 2.5);
+    let mut inside: Vec<_> = (1..count)
+        .map(|_| meshes::sphere(rng.point(2.5), 0.2))
+        .collect();
+    [moved, -moved].map(|moved| {
+        inside[count / 2] = meshes::sphere(moved, 0.2);
+        let [first, last] = corners;
+        let spheres = std::iter::once(first).chain(inside.iter().copied());
+        build_question(checks, spheres.chain([last]), 1)
     })
+}
+
+/// Creates a question about over 1,024 spheres, with a small maximum leaf size.
+fn large(rng: &mut Rng, checks: &[TreeCheck]) -> ExamQuestion {
+    let count = rng.integer(1030, 1400) as usize;
+    let spheres = meshes::many_spheres(rng, count);
+    build_question(checks, spheres, rng.integer(1, 3))
 }
 
 /// Creates questions about trees with many levels. Each sphere is nearer to the origin than the one
@@ -121,7 +133,7 @@ pub(super) const PARTITION: Declaration = Declaration {
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     tests: &["Every primitive is…"],
     questions: |rng| {
-        let many = soup_questions(rng, &[Partition], &[(200, 4)]);
+        let many = vec![large(rng, &[Partition])];
         let arrangements = (8, &[Scattered, WithoutArea, DifferentSizes, Line] as &[_]);
         with_domain(many, rng, &[Partition], arrangements, |call| {
             call.shapes.len() > 2
@@ -139,7 +151,7 @@ pub(super) const CONTAINS: Declaration = Declaration {
     section: "building.md#the-contract",
     tests: &["The box of a node…"],
     questions: |rng| {
-        let mut questions = soup_questions(rng, &[Contains], &[(300, 4)]);
+        let mut questions = vec![large(rng, &[Contains])];
         questions.extend(moved_inside(rng, &[Contains]));
         let arrangements = (7, &[WithoutArea, DifferentSizes, Line] as &[_]);
         with_domain(questions, rng, &[Contains], arrangements, |_| true)
@@ -155,7 +167,7 @@ pub(super) const TIGHT: Declaration = Declaration {
     section: "building.md#start-each-box-empty",
     tests: &["The box of a node…"],
     questions: |rng| {
-        let many = soup_questions(rng, &[Tight], &[(150, 4)]);
+        let many = vec![large(rng, &[Tight])];
         let arrangements = (2 * ARRANGEMENTS.len() + 2, ARRANGEMENTS);
         with_domain(many, rng, &[Tight], arrangements, is_split)
     },
@@ -179,6 +191,7 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
         let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
         questions.push(crowd);
+        questions.push(large(rng, &[LeafSize]));
         questions.extend(deep(rng));
         let arrangements = (ARRANGEMENTS.len(), ARRANGEMENTS);
         with_domain(
@@ -202,6 +215,7 @@ pub(super) const STOPS: Declaration = Declaration {
     questions: |rng| {
         let checks = [Stops, LeafSize];
         let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
+        questions.push(large(rng, &[Stops]));
         // The same primitives are asked again with another maximum leaf size. The root is a node like
         // any other: as many primitives as fit into a leaf, and one more.
         let small = rng.integer(5, 10) as usize;

@@ -11,6 +11,9 @@ use crate::items::{Declaration, groups, meshes};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
+/// All properties of a tree but its cost.
+const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
+
 /// Draws questions from the domain about primitives in these arrangements, in addition to those that
 /// are given. They are judged by how they are split: by [`Split`], if the exact size of leaves is
 /// another item's idea.
@@ -25,7 +28,7 @@ fn with_domain(
     let checks: &[TreeCheck] = if split == Split {
         &[Partition, Split, Contains]
     } else {
-        &[Partition, Contains, Tight, LeafSize, Stops]
+        ALL
     };
     let drawn = draw::questions(rng, checks, count, (arrangements, 66), |call| {
         let (all, most) = (call.shapes.len(), call.max_leaf_size as usize);
@@ -80,11 +83,20 @@ pub(super) const COINCIDENT: Declaration = Declaration {
         // split.
         let mut some = meshes::soup(rng, 17, 3.0, 0.4);
         some.extend(vec![same; 30]);
-        let questions = vec![
+        let ball = meshes::sphere((8.0 * center).round() / 8.0, 0.5);
+        let many = vec![ball; rng.integer(130, 300) as usize];
+        let mut questions = vec![
             build_question(&[Partition, Split], all.clone(), 1),
             build_question(&[Partition, Split], all, 4),
             build_question(&[Partition, Split], rng.shuffled(some), 2),
+            build_question(ALL, many, 1),
         ];
+        // Different triangles with the same box.
+        questions.extend([1, 12].map(|count| {
+            let mut shapes = meshes::rectangles(rng, count);
+            shapes.push(meshes::sphere(rng.point(4.0), 0.3));
+            build_question(ALL, rng.shuffled(shapes), 1)
+        }));
         with_domain(questions, rng, LeafSize, 6, &[Equal, EqualPair])
     },
     ..Declaration::in_group(groups::TREES)
@@ -101,7 +113,13 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
         let center = rng.point(2.0);
         let step = rng.uniform(0.2, 0.3) as f32;
         let shells = (1..=13).map(|i| meshes::sphere(center, (step * i as f32).into()));
-        let questions = vec![build_question(&[Partition, Split, Contains], shells, 2)];
+        // Single precision has digits for all of these, so their centres coincide exactly.
+        let exact = (8.0 * center).round() / 8.0;
+        let many = (3..rng.integer(140, 300)).map(|i| meshes::sphere(exact, f64::from(i) / 128.0));
+        let questions = vec![
+            build_question(&[Partition, Split, Contains], shells, 2),
+            build_question(ALL, many, 1),
+        ];
         with_domain(questions, rng, LeafSize, 5, &[Concentric])
     },
     ..Declaration::in_group(groups::TREES)
@@ -181,6 +199,10 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
         meshes::random_flat_triangle(rng, 4.0 * size * DVec3::ONE, size)
     });
     questions.push(build_question(&checks, growing, 1));
+    // So many that their nodes can be taken for another kind of node.
+    let mut many = meshes::many_spheres(rng, 1100);
+    many.push(meshes::sphere((100.0 * rng.direction()).round(), 1.0));
+    questions.push(build_question(ALL, rng.shuffled(many), 1));
     with_domain(questions, rng, Split, 5, &[Outlier])
 }
 

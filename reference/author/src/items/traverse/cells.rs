@@ -24,6 +24,7 @@ use crate::domains::fields::RANGES;
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
+use crate::tree::traversal::{Traversal, TraversalRule};
 use crate::tree::{Tree, decoy};
 
 /// Why the decoy of a cell must not be asked.
@@ -92,8 +93,20 @@ pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
             let is_wrong = with_decoy.contains(ray) && decoys.slides == SlidesAnswer::Wrong;
             slides_are_correct(&tree, ray) != is_wrong
         };
-        let is_fair = decoy::is_fair(&tree, &rays) && rays.iter().all(is_as_required);
+        let is_fair = decoy::is_fair(&tree, &rays)
+            && rays.iter().all(is_as_required)
+            && rays.iter().all(|ray| tests_no_sphere(&tree, ray));
         is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
+    })
+}
+
+/// Returns whether no correct traversal tests a sphere. The spheres are decoys, so these questions are about
+/// triangles and boxes only.
+fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
+    TraversalRule::all().into_iter().all(|rule| {
+        let traversal = Traversal::correct(tree, &Ray64::from(ray), rule);
+        let mut tested = traversal.tested_primitives.into_iter();
+        !tested.any(|primitive| matches!(tree.shapes[primitive], Shape::Sphere { .. }))
     })
 }
 
@@ -138,7 +151,7 @@ fn add_tree(tree: &mut Tree, added: &Tree) -> usize {
 
 /// Returns the number of the first primitive in a link of the chain.
 fn first_number(link: usize) -> u32 {
-    16 * link as u32
+    64 * link as u32
 }
 
 /// The properties of a decoy and of the ray toward it.
@@ -153,8 +166,12 @@ struct Plan {
     place: usize,
     level: usize,
     is_flat: bool,
+    /// Whether a flat box is even a line or a point.
+    is_line: bool,
     range: usize,
     hits_nothing: bool,
+    /// Whether the ray starts in the box of the sibling of the decoy's leaf.
+    starts_in_sibling: bool,
     /// Whether the ray before hits something in the decoy's leaf.
     is_after_a_hit_in_its_leaf: bool,
 }
@@ -165,12 +182,20 @@ impl Plan {
     fn new(reason: Reason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
-        let leaf_size = [1, 2, 3, 4 + (start + index) % 5][size];
+        let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
+        let many = if group == 2 || (is_missed && is_left && group == 0) {
+            17 + start
+        } else {
+            4 + (start + index) % 5
+        };
+        let leaf_size = [1, 2, 3, many][size];
         let last = leaf_size - 1;
         let places = [0, last / 2 + last % 2, last];
-        let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
+        let is_flat = (index / 2 + group + start).is_multiple_of(2);
+        let is_line = is_missed && is_flat && !index.is_multiple_of(2);
         let is_after_parallel = reason == Reason::BeyondAfterParallel;
-        let is_after_a_hit_in_its_leaf = !is_after_parallel && leaf_size > 2 && group < 2;
+        let is_after_a_hit_in_its_leaf =
+            !is_after_parallel && leaf_size > 2 && !is_line && group < 2;
         // The ray before tests the decoy. It is no sphere then, so that only triangles and boxes matter.
         let is_tested_before = is_after_parallel || is_after_a_hit_in_its_leaf;
         Plan {
@@ -180,9 +205,11 @@ impl Plan {
             leaf_size,
             place: places[(size + 2 + group) % 3],
             level: (index + group + start / 4) % 4,
-            is_flat: (index / 2 + group + start).is_multiple_of(2),
+            is_flat,
+            is_line,
             range: (index + start) % RANGES.len(),
             hits_nothing: is_missed && group == 0,
+            starts_in_sibling: reason == Reason::Beyond && index.is_multiple_of(3),
             is_after_a_hit_in_its_leaf,
         }
     }
@@ -317,6 +344,17 @@ fn ray_to_the_leaf_of_the_decoy(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     (is_in_leaf && decoy::is_fair(tree, &[ray])).then_some(ray)
 }
 
+/// The leaf of a decoy.
+#[derive(Clone, Copy, Debug)]
+struct LeafOfDecoy {
+    /// The corners of its box.
+    corners: [DVec3; 2],
+    /// The axis along which a flat box is flat.
+    flat: usize,
+    /// The distance of the decoy.
+    ahead: f64,
+}
+
 /// A cell while it is drawn.
 struct Draft {
     tree: Tree,
@@ -353,7 +391,17 @@ impl Draft {
             let corners = [near[0], near[1], dvec3(2.4, -1.5, 0.0)];
             self.frame.flat_triangle(corners.map(|it| hit + it), first)
         };
-        let target = self.tree.add_leaf(vec![target]);
+        let mut targets = vec![target];
+        if self.plan.leaf_size > 3 {
+            for _ in 0..3 {
+                let beside = dvec3(rng.uniform(-1.3, 2.1), rng.uniform(-1.2, 0.7), 0.72);
+                targets.push(self.tiny(rng, hit, beside));
+            }
+        }
+        if self.plan.starts_in_sibling {
+            targets.push(self.tiny(rng, start, dvec3(-0.5, -0.6, 0.72)));
+        }
+        let targets = rng.shuffled(targets);
 
         let z = |half: f64| half * DVec3::Z;
         let corner = |x: f64, y: f64| dvec3(x, y, 0.0);
@@ -388,24 +436,61 @@ impl Draft {
                 }
             }
         };
-        let leaf = self.add_leaf_of_decoy(rng, own, flat, &ray, ahead);
+        let decoy = LeafOfDecoy {
+            corners: own,
+            flat,
+            ahead,
+        };
         let Some([min, max]) = sibling else {
-            self.add_interior(leaf, target, self.plan.is_left);
+            self.add_siblings(rng, &decoy, &ray, targets, self.plan.is_left);
             return (ray, None);
         };
         let number = self.next_number();
-        let other = self.frame.spanning(min, max, number);
-        let other = self.tree.add_leaf(vec![other]);
+        let mut others = vec![self.frame.spanning(min, max, number)];
+        if self.plan.leaf_size > 3 {
+            for _ in 0..3 {
+                let number = self.next_number();
+                others.push(self.frame.small(rng, min, max, number));
+            }
+        }
         let is_missed = self.plan.reason == Reason::MissedWithSibling;
         let is_left = if is_missed {
             self.plan.is_left
         } else {
             rng.coin()
         };
-        let both = self.add_interior(leaf, other, is_left);
+        let both = self.add_siblings(rng, &decoy, &ray, others, is_left);
+        let target = self.tree.add_leaf(targets);
         let is_left = rng.coin();
         self.add_interior(both, target, is_left);
         (ray, None)
+    }
+
+    /// Adds the leaf with the decoy and its sibling, the left one first, and the node above both.
+    fn add_siblings(
+        &mut self,
+        rng: &mut Rng,
+        decoy: &LeafOfDecoy,
+        ray: &Ray,
+        others: Vec<Shape>,
+        is_left: bool,
+    ) -> usize {
+        if is_left {
+            let leaf = self.add_leaf_of_decoy(rng, decoy, ray);
+            let other = self.tree.add_leaf(others);
+            return self.add_interior(leaf, other, true);
+        }
+        let other = self.tree.add_leaf(others);
+        let leaf = self.add_leaf_of_decoy(rng, decoy, ray);
+        self.add_interior(leaf, other, false)
+    }
+
+    /// Returns a tiny triangle beside a point, on either side of the plane in which the ray is.
+    fn tiny(&mut self, rng: &mut Rng, point: DVec3, beside: DVec3) -> Shape {
+        const SIZE: f64 = 0.25;
+        let beside = beside * dvec3(1.0, 1.0, rng.sign());
+        let shape = meshes::random_flat_triangle(rng, self.frame.point(point + beside), SIZE);
+        with_number(shape, self.next_number())
     }
 
     /// Adds two leaves whose boxes form a cross. Returns the ray, and a parallel one that enters them in
@@ -431,8 +516,12 @@ impl Draft {
             crossing
         };
         let ahead = rng.uniform(0.7, 1.1);
-        let leaf =
-            self.add_leaf_of_decoy(rng, crossing.map(|corner| shift + corner), 1, &ray, ahead);
+        let decoy = LeafOfDecoy {
+            corners: crossing.map(|corner| shift + corner),
+            flat: 1,
+            ahead,
+        };
+        let leaf = self.add_leaf_of_decoy(rng, &decoy, &ray);
         self.add_interior(leaf, target, self.plan.is_left);
         (ray, Some(self.frame.ray(before, dir)))
     }
@@ -455,22 +544,31 @@ impl Draft {
 
     /// Adds the leaf with the decoy, which is on the ray. The box is flat along `flat`, if it should be, on
     /// the side where it begins.
-    fn add_leaf_of_decoy(
-        &mut self,
-        rng: &mut Rng,
-        [min, mut max]: [DVec3; 2],
-        flat: usize,
-        ray: &Ray,
-        ahead: f64,
-    ) -> usize {
-        if self.plan.is_flat {
+    fn add_leaf_of_decoy(&mut self, rng: &mut Rng, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
+        let LeafOfDecoy {
+            corners: [min, mut max],
+            flat,
+            ahead,
+        } = *decoy;
+        if self.plan.is_line {
+            // With a fourth axis, the box is a point.
+            let along = rng.index(4);
+            for axis in (0..3).filter(|&axis| axis != along) {
+                max[axis] = min[axis];
+            }
+        } else if self.plan.is_flat {
             max[flat] = min[flat];
         }
         let number = self.next_number();
         let mut others = vec![self.frame.spanning(min, max, number)];
         for _ in 2..self.plan.leaf_size {
             let number = self.next_number();
-            others.push(self.frame.small(rng, min, max, number));
+            others.push(if self.plan.is_line {
+                let end = min.lerp(max, rng.uniform(0.1, 0.9));
+                self.frame.spanning(min, end, number)
+            } else {
+                self.frame.small(rng, min, max, number)
+            });
         }
         let others = rng.shuffled(others);
         let decoy = if self.plan.is_sphere {

@@ -10,17 +10,20 @@
 
 mod cells;
 mod end_to_end;
+mod layers;
 mod placed;
 mod trace;
 mod unusual_trees;
 mod with_decoys;
 mod without_decoys;
 
+use glam::DVec3;
 use judging::exam::ExamQuestion;
-use protocol::{Question, Ray};
+use protocol::{Question, Ray, Shape};
 
 use self::placed::{Mover, is_clear_of_faces};
 use super::meshes;
+use crate::domains::fields::almost_the_same_ray;
 use crate::domains::traverse::{self, TRAVERSE};
 use crate::items::{AuthoredTask, Declaration, POINTS, groups};
 use crate::oracle::Ray64;
@@ -107,7 +110,8 @@ fn unambiguous_rays(
     rng.shuffled(rays)
 }
 
-/// Adds an unreferenced primitive in front of the correct hit of every third ray.
+/// Adds an unreferenced primitive in front of the correct hit of every third ray, and one that is almost as
+/// large as the tree.
 fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
         let hit = tree.expected_hit(&Ray64::from(ray));
@@ -117,6 +121,52 @@ fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
         let triangle = decoy::triangle_across(rng, ray, distance, 0.1, number);
         tree.shapes.push(triangle);
     }
+    if tree.nodes.len() > 1 {
+        let number = FIRST_UNREFERENCED + rays.len() as u32;
+        let wall = wall(rng, tree, number);
+        tree.shapes.push(wall);
+    }
+}
+
+/// Returns a triangle across an axis that is almost as large as the tree, and inside its box.
+fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
+    let bounds = tree.bounds(tree.root);
+    let axis = rng.index(3);
+    let half = 0.485 * (bounds.max - bounds.min);
+    let at = |[along, x, y]: [f64; 3]| {
+        let mut corner = DVec3::ZERO;
+        for (next, part) in [along, x, y].into_iter().enumerate() {
+            corner[(axis + next) % 3] = part;
+        }
+        bounds.center() + corner * half
+    };
+    let (along, x, y) = (rng.uniform(-0.6, 0.6), rng.sign(), rng.sign());
+    let corners = [[-x, -y], [x, -y], [-x, y]].map(|[x, y]| at([along, x, y]));
+    meshes::flat_triangle(corners, number)
+}
+
+/// Returns the rays, followed by some that are almost the ray before, but with a hit at a clearly different
+/// distance.
+fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
+    /// How many rays are drawn for each.
+    const ATTEMPTS: usize = 2000;
+    /// The least difference of the distances.
+    const LEAST: f64 = 7e-4;
+    for _ in 0..3 {
+        let found = rng.attempt(ATTEMPTS, |rng| {
+            let ray = ray_from_around(rng, tree);
+            let other = almost_the_same_ray(rng, &ray);
+            let distance = |ray: &Ray| Some(tree.expected_hit(&Ray64::from(ray))?.distance);
+            let (first, second) = (distance(&ray)?, distance(&other)?);
+            let is_clear = is_clear_of_faces(tree, &other) && decoy::is_fair(tree, &[ray, other]);
+            let is_other = (first - second).abs() > LEAST * first.max(second);
+            (is_other && is_clear).then_some([ray, other])
+        });
+        if let Some([first, second]) = found {
+            rays.extend([first, second, first]);
+        }
+    }
+    rays
 }
 
 /// Creates a question about a tree without decoys, but with unreferenced primitives.

@@ -23,7 +23,7 @@ pub(super) const TRACE: Declaration = Declaration {
     section: "traversal.md#the-algorithm",
     tests: &["Returns the ray's…"],
     questions: |rng| {
-        let counts = [(1, 1), (3, 3), (24, 1), (33, 6)];
+        let counts = [(1, 1), (3, 3), (60, 1), (33, 6)];
         let question =
             |(index, (count, max_leaf_size))| question(rng, index % 2, count, max_leaf_size);
         counts.into_iter().enumerate().map(question).collect()

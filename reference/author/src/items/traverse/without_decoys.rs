@@ -7,14 +7,13 @@ use protocol::Ray;
 use super::placed::is_clear_of_faces;
 use super::trace;
 use super::{
-    TRAVERSAL, placed, question_without_decoys, ray_from_around, soup_tree, traversal_question,
-    unambiguous_rays, with_unreferenced,
+    TRAVERSAL, layers, placed, question_without_decoys, ray_from_around, soup_tree,
+    traversal_question, unambiguous_rays, with_almost_the_same_rays, with_unreferenced,
 };
 use crate::domains::fields::FURTHEST;
 use crate::domains::traverse;
 use crate::items::place::Place;
 use crate::items::{Declaration, groups, meshes, ray};
-use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
@@ -41,26 +40,25 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
         let tree = soup_tree(rng, 40, 1.6, 1);
         let mut questions = vec![question_without_decoys(rng, tree, [24, 10], kind)];
         for count in [2, 100] {
-            let tree = soup_tree(rng, count, 1.6, 1);
-            questions.push(question_without_decoys(
-                rng,
-                tree,
-                [22, 12],
-                ray_from_around,
-            ));
+            let mut tree = soup_tree(rng, count, 1.6, 1);
+            let rays = unambiguous_rays(rng, &tree, [22, 12], ray_from_around);
+            let rays = with_almost_the_same_rays(rng, &tree, rays);
+            questions.push(with_unreferenced(rng, &mut tree, rays));
         }
         questions.extend(same_rays_in_two_trees(rng));
         questions.push(across_the_scene(rng));
         questions.push(next_to_the_start(rng));
+        questions.push(layers::question(rng));
         questions
     },
     ..TRAVERSAL
 };
 
 /// Creates questions about two trees that the same rays are asked of. The last ray of the one is the
-/// first of the other, which answers it differently. From outside, the trees look the same.
+/// first of the other, which answers it differently. From outside, the trees look the same, down to the
+/// boxes of the third level.
 fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
-    let first = soup_tree(rng, 24, 1.2, 1);
+    let first = soup_tree(rng, 48, 1.2, 1);
     let second = with_other_contents(rng, &first);
     let mut trees = [first, second];
     let other = trees[1].clone();
@@ -82,21 +80,31 @@ fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
     [first, with_unreferenced(rng, second, rays)]
 }
 
-/// Returns a tree with the same root's box and as many nodes, in which all primitives are elsewhere but
-/// those at the faces of that box.
+/// Returns a tree with the same nodes, in which primitives are elsewhere. The boxes of the first three levels
+/// are the same, so the primitives at the faces of those of the third level stay.
 fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
-    let whole = Bounds::enclosing(tree.shapes.iter().map(scan::bounds));
-    let shapes = tree.shapes.iter().map(|shape| {
-        let bounds = scan::bounds(shape);
-        if bounds.min.cmpeq(whole.min).any() || bounds.max.cmpeq(whole.max).any() {
-            return *shape;
+    const LEVELS: usize = 3;
+    let mut other = tree.clone();
+    let mut tops = tree.subtree(tree.root);
+    tops.retain(|&node| tree.path(node).len() == LEVELS);
+    for &top in &tops {
+        let whole = tree.bounds(top);
+        let mut below = tree.subtree(top);
+        below.retain(|&node| tree.nodes[node].is_leaf());
+        for index in below.into_iter().flat_map(|leaf| tree.primitives(leaf)) {
+            let shape = &tree.shapes[index];
+            let bounds = scan::bounds(shape);
+            if bounds.min.cmpeq(whole.min).any() || bounds.max.cmpeq(whole.max).any() {
+                continue;
+            }
+            let half = 0.5 * (bounds.max - bounds.min);
+            let room = 0.5 * (whole.max - whole.min) - half;
+            let center = whole.center() + 0.99 * room * rng.point(1.0);
+            other.shapes[index] = Place::new(1.0, center - bounds.center()).shape(shape);
         }
-        let half = 0.5 * (bounds.max - bounds.min);
-        let room = 0.5 * (whole.max - whole.min) - half;
-        let center = whole.center() + 0.99 * room * rng.point(1.0);
-        Place::new(1.0, center - bounds.center()).shape(shape)
-    });
-    construction::median_split(shapes.collect(), 1)
+    }
+    other.refit_below(&tops);
+    other
 }
 
 /// Creates a question about a few triangles far from the origin. Half of the rays start so close to their
@@ -277,10 +285,22 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
         soup_tree(rng, 48, 1.0, 12),
         soup_tree(rng, 6, 1.0, 6),
         soup_tree(rng, 100, 0.4, 50),
-        soup_tree(rng, 620, 0.3, 310),
+        tree_with_a_large_leaf(rng),
     ];
     let question = |tree| question_without_decoys(rng, tree, [24, 10], ray_to_a_place_in_a_leaf());
     trees.map(question).to_vec()
+}
+
+/// Returns a tree of two leaves, one of which has more than half of the primitives that a leaf may have.
+fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
+    let count = rng.integer(560, 640) as usize;
+    let mut shapes = meshes::soup(rng, count + 20, 2.0, 0.3);
+    let few = shapes.split_off(count);
+    let mut tree = Tree::default();
+    let l = tree.add_leaf(shapes);
+    let r = tree.add_leaf(few);
+    tree.root = tree.add_interior(l, r);
+    tree
 }
 
 /// Returns what draws rays whose hit is, in turn, the closest of several in a leaf that belongs to the
@@ -439,8 +459,11 @@ mod tests {
         let mut rng = Seed(1).rng("items.traverse.same_rays");
         let tree = soup_tree(&mut rng, 24, 1.2, 1);
         let other = with_other_contents(&mut rng, &tree);
-        let root = |tree: &Tree| (tree.nodes[tree.root].min, tree.nodes[tree.root].max);
-        assert_eq!(root(&tree), root(&other));
+        for node in tree.subtree(tree.root) {
+            if tree.path(node).len() <= 3 {
+                assert_eq!(tree.bounds(node), other.bounds(node));
+            }
+        }
         assert_eq!(tree.nodes.len(), other.nodes.len());
         assert_ne!(tree.shapes, other.shapes);
     }

@@ -1,0 +1,134 @@
+//! Pairs of triangles close behind each other. A correct traversal returns the hit on the one in front,
+//! however close the other is, and whichever is found first.
+
+use glam::{DVec3, dvec3};
+use judging::exam::ExamQuestion;
+use protocol::{Ray, Shape};
+
+use super::placed::as_dust;
+use super::{meshes, traversal_question};
+use crate::oracle::Ray64;
+use crate::seed::Rng;
+use crate::tree::{Tree, decoy};
+
+/// The number of pairs.
+const PAIRS: usize = 12;
+/// The size of the triangles.
+const SIZE: f64 = 0.2;
+/// The distance between the two triangles of a pair.
+const SPACE: f64 = 0.0175;
+
+/// Creates a question about pairs of triangles, so small that no other place is tried. Half of the rays start
+/// so close to a pair that both hits are at almost no distance, seen from the size of the tree. The others
+/// start so far away that both are at almost the same distance.
+pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
+    rng.retry(|rng| {
+        let mut tree = Tree::default();
+        let mut rays = Vec::new();
+        let mut roots = Vec::new();
+        for index in 0..PAIRS {
+            let place = dvec3(
+                (index % 3) as f64,
+                (index / 3 % 2) as f64,
+                (index / 6) as f64,
+            );
+            let place = 18.0 * (place / dvec3(2.0, 1.0, 1.0) - 0.5) + rng.point(0.8);
+            let axis = index % 3;
+            let pair = Pair {
+                place,
+                normal: rng.sign() * DVec3::AXES[axis],
+                across: [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]),
+                number: 4 * index as u32,
+            };
+            let (root, hit, miss) = if index / 3 % 2 == 0 {
+                pair.add_near(rng, &mut tree)
+            } else {
+                pair.add_far(rng, &mut tree)
+            };
+            roots.push(root);
+            rays.extend([hit, miss]);
+        }
+        while let [first, second, ..] = roots[..] {
+            let both = if rng.coin() {
+                tree.add_interior(first, second)
+            } else {
+                tree.add_interior(second, first)
+            };
+            roots.drain(..2);
+            roots.push(both);
+        }
+        tree.root = roots[0];
+        let is_hit = |ray: &Ray| tree.expected_hit(&Ray64::from(ray)).is_some();
+        let is_as_planned = rays
+            .chunks(2)
+            .all(|pair| is_hit(&pair[0]) && !is_hit(&pair[1]));
+        if !is_as_planned || !decoy::is_fair(&tree, &rays) {
+            return None;
+        }
+        let rays = rng.shuffled(rays);
+        let asked = traversal_question(&tree.with_roots_at_both_ends(rng), rays);
+        Some(as_dust(&asked))
+    })
+}
+
+/// Two triangles across an axis.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    /// The middle of the triangle in front.
+    place: DVec3,
+    /// The direction from the one in front to the other.
+    normal: DVec3,
+    /// The axes of the triangles.
+    across: [DVec3; 2],
+    /// The number of the first primitive.
+    number: u32,
+}
+
+impl Pair {
+    /// Returns a triangle so far behind the one in front, and aside.
+    fn triangle(&self, behind: f64, aside: f64, number: u32) -> Shape {
+        let [x, y] = self.across;
+        let middle = self.place + behind * self.normal + aside * x;
+        let corner = |(along_x, along_y): (f64, f64)| middle + SIZE * (along_x * x + along_y * y);
+        let corners = [(-1.0, -0.7), (1.0, -0.7), (0.0, 1.1)].map(corner);
+        meshes::flat_triangle(corners, self.number + number)
+    }
+
+    /// Returns a ray toward the triangle in front from this distance, and one past it.
+    fn rays(&self, rng: &mut Rng, distance: f64) -> (Ray, Ray) {
+        let [x, y] = self.across;
+        let slant = rng.uniform(-0.15, 0.15) * x + rng.uniform(-0.15, 0.15) * y;
+        let dir = (self.normal + slant).normalize();
+        let target =
+            self.place + 0.1 * SIZE * (rng.uniform(-1.0, 1.0) * x + rng.uniform(-1.0, 1.0) * y);
+        let ray = |target: DVec3| Ray::new((target - distance * dir).as_vec3(), dir.as_vec3());
+        (ray(target), ray(target - 3.0 * SIZE * y))
+    }
+
+    /// Adds the two triangles in two leaves. The ray starts in the box of the one behind.
+    fn add_near(&self, rng: &mut Rng, tree: &mut Tree) -> (usize, Ray, Ray) {
+        let behind = self.triangle(SPACE, 0.0, 0);
+        let corner = self.triangle(-0.4, 3.0 * SIZE, 1);
+        let front = self.triangle(0.0, 0.0, 2);
+        let around = tree.add_leaf(vec![behind, corner]);
+        let front = tree.add_leaf(vec![front]);
+        let root = if rng.coin() {
+            tree.add_interior(around, front)
+        } else {
+            tree.add_interior(front, around)
+        };
+        let distance = rng.uniform(0.0048, 0.0056);
+        let (hit, miss) = self.rays(rng, distance);
+        (root, hit, miss)
+    }
+
+    /// Adds the two triangles in one leaf, the one behind first. The ray starts far away.
+    fn add_far(&self, rng: &mut Rng, tree: &mut Tree) -> (usize, Ray, Ray) {
+        let behind = self.triangle(SPACE, 0.0, 0);
+        let front = self.triangle(0.0, 0.0, 1);
+        let root = tree.add_leaf(vec![behind, front]);
+        let distance = rng.uniform(20.0, 24.0);
+        let (hit, miss) = self.rays(rng, distance);
+        (root, hit, miss)
+    }
+}

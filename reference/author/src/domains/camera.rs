@@ -452,7 +452,7 @@ pub fn almost_equal_cameras(
     };
     let ratio = almost(rng, first.aspect_ratio.into());
     add(&|camera| camera.aspect_ratio = ratio);
-    let angle = (rng.sign() * rng.uniform(0.3, 0.45)) as f32;
+    let angle = (rng.sign() * rng.uniform(0.2, 0.45)) as f32;
     add(&|camera| camera.vertical_fov += angle);
     let rows = (f64::from(first.film.y) * rng.uniform(0.5, 0.8)).round() as u32;
     add(&|camera| camera.film.y = rows);

@@ -250,7 +250,7 @@ pub fn diagonal(rng: &mut Rng) -> DVec3 {
 }
 
 /// Returns the start and the direction of a ray toward a target that is so far ahead. Some rays start far
-/// away instead. Returns `None` if the ray would start outside of the scene.
+/// away or at the origin instead. Returns `None` if the ray would start outside of the scene.
 pub fn ray_toward(
     rng: &mut Rng,
     target: DVec3,
@@ -258,11 +258,11 @@ pub fn ray_toward(
     ahead: f64,
     size: f64,
 ) -> Option<(DVec3, DVec3)> {
-    let (start, dir) = if rng.index(8) == 0 {
-        let start = start_far_away(rng, target, size)?;
-        (start, (target - start).normalize())
-    } else {
-        (target - ahead * dir, dir)
+    let from = |start: DVec3| (start, (target - start).normalize());
+    let (start, dir) = match rng.index(16) {
+        0 | 1 => from(start_far_away(rng, target, size)?),
+        2 if (1e-3 * size..29.0 * size).contains(&target.length()) => from(DVec3::ZERO),
+        _ => (target - ahead * dir, dir),
     };
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
 }
@@ -315,6 +315,7 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     };
     let max = match rng.index(6) {
         0..=1 => f64::INFINITY,
+        2 if rng.index(3) == 0 => f32::MAX.into(),
         2 => rng.log_uniform(min.max(FAR.into()), 1e30),
         _ => rng.uniform(min, 1.2 * furthest),
     };

@@ -15,7 +15,7 @@ impl ShapeCall {
 
     /// Returns the call of a shape with the same centre whose size differs by less than a hundredth.
     pub fn slightly_larger(&self, random: DVec3) -> Self {
-        self.scaled(1.0 + (0.006 + 0.003 * random.x) as f32)
+        self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
     }
 
     fn scaled(&self, factor: f32) -> Self {

@@ -23,12 +23,12 @@ const ENDS: f64 = 0.03;
 pub const FOLLOW: &[Follow<ShapeCall>] = &[
     |rng, before| {
         let dir = before.ray.dir.as_dvec3();
-        let dir = dir + rng.uniform(0.5, 0.9) * ANGLE * rng.perpendicular_to(dir);
+        let dir = dir + rng.log_uniform(0.2, 0.95) * ANGLE * rng.perpendicular_to(dir);
         let dir = dir.normalize().as_vec3();
         Some(vec![before.with_ray(Ray { dir, ..before.ray })])
     },
     |rng, before| {
-        let away = rng.uniform(0.5, 0.9) * DISTANCE * before.size() * rng.direction();
+        let away = rng.log_uniform(0.1, 0.95) * DISTANCE * before.size() * rng.direction();
         let origin = before.ray.origin + away.as_vec3();
         Some(vec![before.with_ray(Ray {
             origin,

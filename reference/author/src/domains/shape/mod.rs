@@ -3,6 +3,7 @@
 mod changes;
 mod history;
 
+use glam::Vec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::fields::{
@@ -81,6 +82,13 @@ pub const DIRECTION: Aspect<ShapeCall> = Aspect {
     name: "direction",
     classes: DIRECTIONS,
     class: |call| direction_class(call.ray.dir),
+};
+
+/// Rays that start at the origin, as those of a camera do.
+pub const ORIGIN: Aspect<ShapeCall> = Aspect {
+    name: "ray",
+    classes: &["from the origin"],
+    class: |call| (call.ray.origin == Vec3::ZERO).then_some(0),
 };
 
 /// The diagonal that the ray is parallel to.

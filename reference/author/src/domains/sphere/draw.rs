@@ -41,10 +41,12 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
     let radius = size as f32;
     let mut center = fields::place(rng, size).as_vec3();
+    let axis = rng.index(3);
     match rng.index(8) {
-        // The highest point is at the height of the origin, as that of a ground is.
+        // The highest point is at the height of the origin, as that of the ground is.
         0 => center.y = -radius,
-        1 => center[rng.index(3)] = radius * rng.sign() as f32,
+        1 if radius >= 100.0 => center.y = -radius,
+        1 => center[axis] = radius * rng.sign() as f32,
         _ => {}
     }
     Shape::Sphere {

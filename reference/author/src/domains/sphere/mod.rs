@@ -5,7 +5,9 @@ mod line;
 
 use protocol::Shape;
 
-use super::shape::{self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
+use super::shape::{
+    self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, ORIGIN, RANGE, ShapeCall,
+};
 use super::{Aspect, FunctionDomain, not_asked};
 
 pub use draw::tables;
@@ -26,7 +28,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         NUMBER,
     ],
     aspects: &[
-        START, DISTANCE, LINE, LATITUDE, DIRECTION, DIAGONAL, RANGE, END, HISTORY,
+        START, ORIGIN, DISTANCE, LINE, LATITUDE, DIRECTION, DIAGONAL, RANGE, END, HISTORY,
     ],
     not_asked: &[
         not_asked("distance", &[], &["`None`"], "A miss has no distance."),
@@ -88,16 +90,21 @@ const EXACT: Aspect<ShapeCall> = Aspect {
 /// Spheres that touch a plane of two axes.
 const TOUCH: Aspect<ShapeCall> = Aspect {
     name: "touches",
-    classes: &["the plane y = 0 from below", "another plane", "nothing"],
+    classes: &[
+        "the plane y = 0 from below, as the ground does",
+        "the plane y = 0 from below, with a radius below 100",
+        "another plane",
+        "nothing",
+    ],
     class: |call| {
         let Shape::Sphere { center, radius, .. } = call.shape else {
             return None;
         };
         let touches = center.to_array().iter().any(|it| it.abs() == radius);
         Some(match (center.y == -radius, touches) {
-            (true, _) => 0,
-            (false, true) => 1,
-            (false, false) => 2,
+            (true, _) => usize::from(radius < 100.0),
+            (false, true) => 2,
+            (false, false) => 3,
         })
     },
 };

@@ -123,8 +123,14 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
 fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] {
     let corner = rng.index(3);
     let mut corners = [rng.point(1.0); 3];
-    corners[(corner + 1) % 3][axis] += rng.sign() * rng.uniform(0.6, 1.5);
-    corners[(corner + 2) % 3][other] += rng.sign() * rng.uniform(0.6, 1.5);
+    let length = rng.uniform(0.6, 1.5);
+    let other_length = if rng.coin() {
+        length
+    } else {
+        rng.uniform(0.6, 1.5)
+    };
+    corners[(corner + 1) % 3][axis] += rng.sign() * length;
+    corners[(corner + 2) % 3][other] += rng.sign() * other_length;
     corners
 }
 

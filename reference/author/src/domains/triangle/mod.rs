@@ -10,7 +10,9 @@ use protocol::Shape;
 
 use self::plane::corner_normals;
 use super::fields::{DIAGONALS, diagonal_class};
-use super::shape::{self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
+use super::shape::{
+    self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, ORIGIN, RANGE, ShapeCall,
+};
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::scan;
 
@@ -43,6 +45,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
     ],
     aspects: &[
         START,
+        ORIGIN,
         DISTANCE,
         COSINE,
         CROSSING,
@@ -82,6 +85,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
                 "`None`", "distance", "normal", "origin", "position", "shape",
             ],
             "Only `triangle.outside` and `triangle.uv_corners` ask rays close to an edge, so that a mistake there costs few points. The small weights show in the texture coordinates.",
+        ),
+        not_asked(
+            "call before",
+            &["the opposite direction"],
+            &["position", "uv"],
+            "The items about these quantities ask for rays from the front, and of two opposite rays one comes from behind.",
         ),
         not_asked(
             "small weights",

@@ -294,7 +294,8 @@ const VIEW: Aspect<CameraCall> = Aspect {
     classes: &[
         "a single wide pixel",
         "a square film at 90° with another sensor",
-        "an end of a narrow view on a wide sensor",
+        "an end of a view of 1° to 5° on a wide sensor",
+        "an end of a view of 10° to 15° on a wide sensor",
         "the middle of the widest view",
     ],
     class: |call| {
@@ -309,7 +310,8 @@ const VIEW: Aspect<CameraCall> = Aspect {
             120.0.. if film == UVec2::ONE => Some(0),
             90.0 if is_square && film.x > 1 && aspect_ratio != 1.0 => Some(1),
             1.0..5.0 if dir.x.abs() > 0.2 => Some(2),
-            170.0.. if aspect_ratio > 5.0 && dir.z < -0.99 => Some(3),
+            10.0..15.0 if dir.x.abs() > 0.4 => Some(3),
+            173.0.. if aspect_ratio > 7.0 && dir.z < -0.99 => Some(4),
             _ => None,
         }
     },
@@ -478,29 +480,30 @@ pub fn almost_equal_cameras(
     all
 }
 
-/// Draws samples at the ends of a narrow view on a wide sensor, and in a single pixel with a wide view.
+/// Draws samples at the ends of narrow views on wide sensors, and in a single pixel with a wide view.
 pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
-    let rows = rng.integer(2, 255);
-    let narrow = PinholeCamera {
-        vertical_fov: rng.uniform(3.5, 4.95) as f32,
-        aspect_ratio: rng.uniform(7.0, 10.0) as f32,
-        film: uvec2(rng.integer(11, 255), rows),
-    };
-    let of_narrow = (0..8).map(|it| Sample {
-        pixel: uvec2(
-            [0, narrow.film.x - 1][it % 2],
-            rng.index(rows as usize) as u32,
-        ),
-        offset: Vec2::new(offset(rng), offset(rng)),
-    });
-    let of_narrow: Vec<Sample> = of_narrow.collect();
+    let mut all = Vec::new();
+    for (from, to) in [(3.5, 4.95), (10.0, 15.0)] {
+        let film = uvec2(rng.integer(11, 255), rng.integer(2, 255));
+        let narrow = PinholeCamera {
+            vertical_fov: rng.uniform(from, to) as f32,
+            aspect_ratio: rng.uniform(7.0, 10.0) as f32,
+            film,
+        };
+        let ends = (0..8).map(|index| Sample {
+            pixel: uvec2([0, film.x - 1][index % 2], rng.integer(0, film.y - 1)),
+            offset: Vec2::new(offset(rng), offset(rng)),
+        });
+        all.push((narrow, ends.collect()));
+    }
     let single = PinholeCamera {
         vertical_fov: rng.uniform(121.0, 175.0) as f32,
         aspect_ratio: rng.log_uniform(0.3, 3.0) as f32,
         film: UVec2::ONE,
     };
     let of_single = (0..8).map(|_| sample(rng, single.film)).collect();
-    vec![(narrow, of_narrow), (single, of_single)]
+    all.push((single, of_single));
+    all
 }
 
 /// Draws samples of a film. Those at both ends are in the turned film as well. Some follow one with x

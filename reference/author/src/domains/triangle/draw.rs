@@ -102,7 +102,8 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
         // A corner is so close to the side opposite it that the triangle is flat there.
         1 => {
             let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
-            corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, 0.04));
+            let most = if rng.coin() { 0.014 } else { 0.04 };
+            corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, most));
         }
         // The angle at a corner is almost right.
         2 => {

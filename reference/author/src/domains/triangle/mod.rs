@@ -34,6 +34,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         FACING,
         FACING_DIAGONAL,
         FORM,
+        FLAT,
         ANGLES,
         EDGE_ALONG,
         LEGS,
@@ -112,6 +113,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             ],
             &["normal", "uv", "origin", "position", "shape"],
             "In a narrow or flat triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
+        ),
+        not_asked(
+            "altitude",
+            &[],
+            &["normal", "uv", "origin", "position", "shape"],
+            "A triangle that flat is asked as seldom as other flat ones, for the same reason.",
         ),
         not_asked(
             "cosine",
@@ -204,6 +211,18 @@ const FORM: Aspect<ShapeCall> = Aspect {
             (None, Some(corner)) => 1 + corner,
             (None, None) => 0,
         })
+    },
+};
+
+/// Triangles that almost have no area.
+const FLAT: Aspect<ShapeCall> = Aspect {
+    name: "altitude",
+    classes: &["below 0.6 % of the longest side"],
+    class: |call| {
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+        (altitude < 0.006 * longest).then_some(0)
     },
 };
 

@@ -104,7 +104,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
         // In the middle of the widest view, even the pixels of a large film are large.
         let film = UVec2::from([(); 2].map(|()| rng.integer(2048, 4096)));
-        let wide = camera(rng.uniform(170.0, 175.0), rng.uniform(5.0, 10.0), film);
+        let wide = camera(rng.uniform(173.0, 175.0), rng.uniform(8.0, 10.0), film);
         let in_the_middle = (0..12).map(|_| Sample {
             pixel: film / 2,
             offset: Vec2::new(offset(rng), offset(rng)),

@@ -34,6 +34,12 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         not_asked("distance", &[], &["`None`"], "A miss has no distance."),
         not_asked("latitude", &[], &["`None`"], "A miss has no latitude."),
         not_asked(
+            "call before",
+            &["the axes in another order"],
+            &["normal", "unit_normal", "origin", "position", "shape", "uv"],
+            "Such a ray hits only shapes near the origin, so an exam may ask it for the distance alone.",
+        ),
+        not_asked(
             "place",
             &["1,000 sizes away"],
             &["normal", "unit_normal", "uv"],

@@ -4,7 +4,7 @@ use glam::{BVec2, BVec3, DVec2, DVec3, Vec3, vec2};
 use protocol::{Interval, Ray, Shape, Vertex};
 
 use super::plane::Plane;
-use super::{ALMOST_RIGHT, EDGE, END, NEAR, SMALL_WEIGHT, TRIANGLE};
+use super::{ALMOST_RIGHT, EDGE, END, NEAR, SMALL_WEIGHT, TRIANGLE, almost_right_corner};
 use crate::domains::fields::{self, FURTHEST};
 use crate::domains::shape::{FOLLOW, ShapeCall};
 use crate::domains::{Call, Change, Generator};
@@ -179,8 +179,12 @@ fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3
         Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
     });
     // Often, two corners have the same normal, or one has other texture coordinates by far.
-    let [from, to, far] = [rng.index(3), rng.index(3), rng.index(3)];
-    match rng.index(6) {
+    let [from, to, any] = [rng.index(3), rng.index(3), rng.index(3)];
+    // Beside an angle that is almost right, such coordinates show what is wrong with the weights.
+    let right = almost_right_corner(corners.map(|corner| corner.as_dvec3()));
+    let right = right.filter(|_| rng.coin());
+    let (far, kind) = right.map_or_else(|| (any, rng.index(6)), |corner| (corner, 2));
+    match kind {
         0 => vertices[to].normal = vertices[from].normal,
         1 => vertices[to].uv = vertices[from].uv,
         2 => {

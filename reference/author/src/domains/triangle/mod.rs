@@ -36,6 +36,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         FORM,
         FLAT,
         ANGLES,
+        RIGHT_AND_FAR,
         EDGE_ALONG,
         LEGS,
         TILES,
@@ -89,9 +90,23 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             "call before",
+            &["the axes in another order"],
+            &["normal", "origin", "position", "shape", "uv"],
+            "Such a ray hits only shapes near the origin, so an exam may ask it for the distance alone.",
+        ),
+        not_asked(
+            "call before",
             &["the opposite direction"],
-            &["position", "uv"],
+            &["normal", "position", "uv"],
             "The items about these quantities ask for rays from the front, and of two opposite rays one comes from behind.",
+        ),
+        not_asked(
+            "almost right and far",
+            &[],
+            &[
+                "`None`", "some", "distance", "normal", "origin", "position", "shape",
+            ],
+            "Where an angle is almost right, its difference shows in texture coordinates that differ by far.",
         ),
         not_asked(
             "small weights",
@@ -239,13 +254,38 @@ const ANGLES: Aspect<ShapeCall> = Aspect {
         "usual",
     ],
     class: |call| {
-        let corners = scan::corners(&call.shape)?;
-        let cosine = |corner: usize| {
-            let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
-            side(1).dot(side(2))
-        };
-        let right = (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT);
+        let right = almost_right_corner(scan::corners(&call.shape)?);
         Some(right.unwrap_or(3))
+    },
+};
+
+/// Returns the corner at which the angle is right or almost right.
+fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
+    let cosine = |corner: usize| {
+        let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
+        side(1).dot(side(2))
+    };
+    (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT)
+}
+
+/// Triangles with an angle that is almost right, but not exactly, and whose texture coordinates differ so
+/// much there that the difference shows.
+const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
+    name: "almost right and far",
+    classes: &["at p0", "at p1", "at p2"],
+    class: |call| {
+        /// The least difference between texture coordinates.
+        const LEAST: f32 = 5.0;
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let corners = scan::corners(&call.shape)?;
+        let corner = almost_right_corner(corners)?;
+        let others = [(corner + 1) % 3, (corner + 2) % 3];
+        let [side, other] = others.map(|it| (corners[it] - corners[corner]).normalize());
+        let is_exact = side.dot(other).abs() < 0.4 * ALMOST_RIGHT;
+        let far = others.map(|it| vertices[it].uv.distance(vertices[corner].uv) > LEAST);
+        (!is_exact && far == [true, true]).then_some(corner)
     },
 };
 

@@ -24,7 +24,9 @@ impl ShapeCall {
         let mut call = ShapeCall::new(self.shape, self.ray);
         match &mut call.shape {
             Shape::Sphere { radius, .. } => *radius *= factor,
-            triangle => *triangle = moved(triangle, scaled),
+            triangle @ (Shape::Triangle { .. } | Shape::FlatTriangle { .. }) => {
+                *triangle = moved(triangle, scaled);
+            }
         }
         call
     }

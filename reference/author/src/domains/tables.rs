@@ -63,16 +63,23 @@ impl<C: Call> Generator<'_, C> {
             rng.retry(|rng| self.table(rng, size, &mut balances))
         };
         let mut tables: Vec<Drawn<C>> = sizes.iter().enumerate().map(table).collect();
-        if let Some((subject, inputs)) = tables.last_mut() {
-            // The last call hits, so that an answer that is kept shows in the first call of the next table.
-            let is_hit = |input: &C::Input| C::new(*subject, *input).is_hit();
-            if let Some(hit) = inputs.iter().rposition(is_hit) {
-                let hit = inputs.remove(hit);
-                inputs.push(hit);
-            }
-        }
-        let changed = tables.last().map(|last| self.changed_tables(rng, last));
-        tables.extend(changed.into_iter().flatten());
+        let Some(last) = tables.pop() else {
+            return tables;
+        };
+        // The last call hits, so that an answer that is kept shows in the first call of the next table.
+        let ends_with = |row: usize| {
+            let (subject, mut inputs) = last.clone();
+            let end = inputs.remove(row);
+            inputs.push(end);
+            (subject, inputs)
+        };
+        let is_hit = |row: &usize| C::new(last.0, last.1[*row]).is_hit();
+        let mut ends = (0..last.1.len()).rev().filter(is_hit);
+        let found = ends.find_map(|row| {
+            let changed = self.changed_tables(rng, &ends_with(row));
+            (!changed.is_empty()).then(|| [vec![ends_with(row)], changed].concat())
+        });
+        tables.extend(found.unwrap_or_else(|| vec![last]));
         tables
     }
 

@@ -48,13 +48,23 @@ impl<C> Balance<C> {
         let group = self.of_groups.entry(self.group);
         let mut of_group = group.or_insert_with(|| zeros(self.aspects)).clone();
         let drawn = (0..ATTEMPTS).filter_map(|_| draw(rng));
+        let drawn: Vec<C> = drawn.take(CANDIDATES).collect();
+        // A class that is seldom drawn is chosen when it is, as it may not be drawn the next time.
+        let mut times = zeros(self.aspects);
+        for (aspect, class) in drawn.iter().flat_map(|call| self.classes(call)) {
+            times[aspect][class] += 1;
+        }
+        let count_of_drawn = drawn.len() as f64;
         let rarity = |call: &C| -> f64 {
-            let classes = self.classes(call);
-            let counts = classes
-                .flat_map(|(aspect, class)| [self.counts[aspect][class], of_group[aspect][class]]);
-            counts.map(|count| (1.0 + f64::from(count)).powi(-2)).sum()
+            let rarities = self.classes(call).map(|(aspect, class)| {
+                let counts = [self.counts[aspect][class], of_group[aspect][class]];
+                let rarities = counts.map(|count| (1.0 + f64::from(count)).powi(-2));
+                let seldom = count_of_drawn / f64::from(times[aspect][class]);
+                rarities.iter().sum::<f64>() * seldom.sqrt()
+            });
+            rarities.sum()
         };
-        let rated = drawn.take(CANDIDATES).map(|call| (rarity(&call), call));
+        let rated = drawn.into_iter().map(|call| (rarity(&call), call));
         let (_, call) = rated.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
         let classes: Vec<(usize, usize)> = self.classes(&call).collect();
         for (aspect, class) in classes {

@@ -25,6 +25,10 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         LARGE_PIXEL_Y,
         ANGLE,
         SENSOR,
+        ROUND_ANGLE,
+        USUAL_RATIO,
+        PIXELS,
+        VIEW,
     ],
     pairs: &[
         ["angle", "sensor"],
@@ -33,13 +37,42 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ["sensor", "rows of the film"],
     ],
     calls,
-    not_asked: &[not_asked(
-        "",
-        &["of a large film"],
-        &["origin", "range", "unit_direction"],
-        "The place in a pixel changes the direction only.",
-    )],
+    not_asked: &[
+        not_asked(
+            "",
+            &["of a large film"],
+            OTHER_QUANTITIES,
+            "The place in a pixel changes the direction only.",
+        ),
+        not_asked(
+            "round field of view",
+            &[],
+            OTHER_QUANTITIES,
+            "The field of view changes the direction only.",
+        ),
+        not_asked(
+            "usual aspect ratio",
+            &[],
+            OTHER_QUANTITIES,
+            "The aspect ratio changes the direction only.",
+        ),
+        not_asked(
+            "pixels",
+            &[],
+            OTHER_QUANTITIES,
+            "The form of the pixels changes the direction only.",
+        ),
+        not_asked(
+            "view",
+            &[],
+            OTHER_QUANTITIES,
+            "The form of the view changes the direction only.",
+        ),
+    ],
 };
+
+/// The quantities of a ray other than its direction.
+const OTHER_QUANTITIES: &[&str] = &["origin", "range", "unit_direction"];
 
 /// A call of `Camera::sample_ray`.
 #[derive(Clone, Copy, Debug)]
@@ -180,7 +213,7 @@ const ANGLE: Aspect<CameraCall> = Aspect {
 
 /// Parts of the vertical fields of view for each class of [`ANGLE`].
 const ANGLES: [[(f64, f64); 3]; 3] = [
-    [(1.0, 1.0), (5.0, 10.0), (10.0, 15.0)],
+    [(1.0, 1.0), (1.0, 5.0), (5.0, 15.0)],
     [(16.0, 30.0), (30.0, 60.0), (60.0, 120.0)],
     [(175.0, 175.0), (165.0, 175.0), (121.0, 150.0)],
 ];
@@ -202,6 +235,85 @@ const SENSOR: Aspect<CameraCall> = Aspect {
             ..1.1 => 1,
             _ => 2,
         })
+    },
+};
+
+/// Fields of view with a known tangent, in degrees.
+pub const ROUND_ANGLES: [f64; 5] = [30.0, 45.0, 60.0, 90.0, 120.0];
+
+const ROUND_ANGLE: Aspect<CameraCall> = Aspect {
+    name: "round field of view",
+    classes: &["30°", "45°", "60°", "90°", "120°"],
+    class: |call| {
+        let angle = f64::from(call.camera.vertical_fov);
+        ROUND_ANGLES.iter().position(|it| *it == angle)
+    },
+};
+
+/// The largest relative difference between ratios that are almost the same.
+const ALMOST: f64 = 0.01;
+
+/// Returns 0 if a ratio is 1 but for rounding, and 1 if it is almost 1.
+fn almost_one(ratio: f64) -> Option<usize> {
+    match (ratio - 1.0).abs() {
+        ..1e-6 => Some(0),
+        ..ALMOST => Some(1),
+        _ => None,
+    }
+}
+
+const USUAL_RATIO: Aspect<CameraCall> = Aspect {
+    name: "usual aspect ratio",
+    classes: &["16/9", "almost 16/9", "4/3", "almost 4/3"],
+    class: |call| {
+        let ratio = f64::from(call.camera.aspect_ratio);
+        let of_wide = almost_one(ratio / WIDE);
+        of_wide.or_else(|| Some(2 + almost_one(ratio / OLD)?))
+    },
+};
+
+/// The aspect ratio of most films.
+const WIDE: f64 = 16.0 / 9.0;
+/// The aspect ratio of old films.
+const OLD: f64 = 4.0 / 3.0;
+
+/// The form of the pixels on the sensor.
+const PIXELS: Aspect<CameraCall> = Aspect {
+    name: "pixels",
+    classes: &["square", "almost square", "not square"],
+    class: |call| {
+        let film = call.camera.film.as_dvec2();
+        let ratio = f64::from(call.camera.aspect_ratio) * film.y / film.x;
+        Some(almost_one(ratio).unwrap_or(2))
+    },
+};
+
+/// Views that are extreme in two ways.
+const VIEW: Aspect<CameraCall> = Aspect {
+    name: "view",
+    classes: &[
+        "a single wide pixel",
+        "a square film at 90° with another sensor",
+        "an end of a view of 1° to 5° on a wide sensor",
+        "an end of a view of 10° to 15° on a wide sensor",
+        "the middle of the widest view",
+    ],
+    class: |call| {
+        let PinholeCamera {
+            vertical_fov,
+            aspect_ratio,
+            film,
+        } = call.camera;
+        let dir = camera::direction(&call.camera, call.sample);
+        let is_square = film.x == film.y;
+        match vertical_fov {
+            120.0.. if film == UVec2::ONE => Some(0),
+            90.0 if is_square && film.x > 1 && aspect_ratio != 1.0 => Some(1),
+            1.0..5.0 if dir.x.abs() > 0.2 => Some(2),
+            10.0..15.0 if dir.x.abs() > 0.4 => Some(3),
+            173.0.. if aspect_ratio > 7.0 && dir.z < -0.99 => Some(4),
+            _ => None,
+        }
     },
 };
 
@@ -324,11 +436,89 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     cameras
 }
 
-/// Draws samples of a film. Those at both ends are in the turned film as well.
+/// Draws cameras that each differ from the one before in one field only, most by less than a hundredth.
+/// They are asked for the same samples.
+pub fn almost_equal_cameras(
+    rng: &mut Rng,
+    first: PinholeCamera,
+) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let almost = |rng: &mut Rng, ratio: f64| {
+        let difference = rng.sign() * rng.uniform(0.4, 0.9) * ALMOST;
+        (ratio * (1.0 + difference)) as f32
+    };
+    let mut cameras = vec![first];
+    let mut add = |change: &dyn Fn(&mut PinholeCamera)| {
+        let mut camera = cameras[cameras.len() - 1];
+        change(&mut camera);
+        cameras.push(camera);
+    };
+    let ratio = almost(rng, first.aspect_ratio.into());
+    add(&|camera| camera.aspect_ratio = ratio);
+    let angle = (rng.sign() * rng.uniform(0.2, 0.45)) as f32;
+    add(&|camera| camera.vertical_fov += angle);
+    let rows = (f64::from(first.film.y) * rng.uniform(0.5, 0.8)).round() as u32;
+    add(&|camera| camera.film.y = rows);
+    let ratio = almost(rng, OLD);
+    add(&|camera| camera.aspect_ratio = ratio);
+    let columns = (f64::from(rows) * OLD).round() as u32;
+    add(&|camera| camera.film.x = columns);
+    add(&|camera| camera.aspect_ratio = OLD as f32);
+    // All films contain the same pixels.
+    let film = cameras.iter().map(|camera| camera.film);
+    let film = film.reduce(UVec2::min).unwrap_or(first.film);
+    let mut samples: Vec<Sample> = (0..8).map(|_| sample(rng, film)).collect();
+    let ends = [UVec2::ZERO, film - 1];
+    for (row, pixel) in [(0, ends[0]), (1, ends[1]), (6, ends[1]), (7, ends[0])] {
+        samples[row].pixel = pixel;
+    }
+    let mut all = Vec::new();
+    for camera in cameras {
+        all.push((camera, samples.clone()));
+        // The last sample of a camera is the first of the next one.
+        samples.reverse();
+    }
+    all
+}
+
+/// Draws samples at the ends of narrow views on wide sensors, and in a single pixel with a wide view.
+pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let mut all = Vec::new();
+    for (from, to) in [(3.5, 4.95), (10.0, 15.0)] {
+        let film = uvec2(rng.integer(11, 255), rng.integer(2, 255));
+        let narrow = PinholeCamera {
+            vertical_fov: rng.uniform(from, to) as f32,
+            aspect_ratio: rng.uniform(7.0, 10.0) as f32,
+            film,
+        };
+        let ends = (0..8).map(|index| Sample {
+            pixel: uvec2([0, film.x - 1][index % 2], rng.integer(0, film.y - 1)),
+            offset: Vec2::new(offset(rng), offset(rng)),
+        });
+        all.push((narrow, ends.collect()));
+    }
+    let single = PinholeCamera {
+        vertical_fov: rng.uniform(121.0, 175.0) as f32,
+        aspect_ratio: rng.log_uniform(0.3, 3.0) as f32,
+        film: UVec2::ONE,
+    };
+    let of_single = (0..8).map(|_| sample(rng, single.film)).collect();
+    all.push((single, of_single));
+    all
+}
+
+/// Draws samples of a film. Those at both ends are in the turned film as well. Some follow one with x
+/// and y exchanged.
 fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     let square = UVec2::splat(film.min_element());
     let films = [square, square, film, film, film, film, square, square];
-    films.map(|film| sample(rng, film)).to_vec()
+    let mut samples = films.map(|film| sample(rng, film)).to_vec();
+    let Sample { pixel, offset } = samples[1];
+    let exchanged = Sample {
+        pixel: uvec2(pixel.y, pixel.x),
+        offset: Vec2::new(offset.y, offset.x),
+    };
+    samples.insert(2, exchanged);
+    samples
 }
 
 /// Draws a pixel of a film, often one at an edge, and a position in it.

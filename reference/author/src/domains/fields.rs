@@ -43,17 +43,45 @@ pub fn size_class(size: f64) -> usize {
     if size >= 500.0 {
         return SIZES.len() - 1;
     }
-    let decade = size.log10().floor() as i32 + 5;
+    // A power of ten can be rounded down.
+    let decade = ((1.0 + 1e-6) * size).log10().floor() as i32 + 5;
     decade.clamp(0, SIZES.len() as i32 - 2) as usize
 }
 
-/// Draws a length of one class.
+/// Draws a length of one class, often exactly a power of ten, or almost one.
 pub fn size(rng: &mut Rng, class: usize) -> f64 {
-    match class {
-        0 => rng.log_uniform(2e-7, 1e-4),
-        7 => rng.log_uniform(105.0, 450.0),
-        8 => rng.log_uniform(510.0, 900.0),
-        _ => 10f64.powi(class as i32 - 5) * rng.log_uniform(1.05, 9.5),
+    let (least, most) = match class {
+        0 => (2e-7, 1e-4),
+        7 => (100.0, 500.0),
+        8 => (500.0, FURTHEST),
+        _ => {
+            let least = 10f64.powi(class as i32 - 5);
+            (least, 10.0 * least)
+        }
+    };
+    match rng.index(6) {
+        0 => least,
+        1 => least * rng.log_uniform(1.0, 1.05),
+        2 => most * rng.log_uniform(0.95, 1.0),
+        _ => rng.log_uniform(1.05 * least, 0.95 * most),
+    }
+}
+
+/// The classes of lengths, by how close they are to a power of ten.
+pub const ROUND: &[&str] = &[
+    "almost a power of ten, above",
+    "almost a power of ten, below",
+    "between",
+];
+
+/// Returns the class of a length, by how close it is to a power of ten.
+pub fn round_class(size: f64) -> usize {
+    let log = size.log10();
+    let above = 10f64.powf(log - log.floor());
+    match above {
+        ..1.05 => 0,
+        9.5.. => 1,
+        _ => 2,
     }
 }
 
@@ -222,7 +250,7 @@ pub fn diagonal(rng: &mut Rng) -> DVec3 {
 }
 
 /// Returns the start and the direction of a ray toward a target that is so far ahead. Some rays start far
-/// away instead. Returns `None` if the ray would start outside of the scene.
+/// away or at the origin instead. Returns `None` if the ray would start outside of the scene.
 pub fn ray_toward(
     rng: &mut Rng,
     target: DVec3,
@@ -230,11 +258,11 @@ pub fn ray_toward(
     ahead: f64,
     size: f64,
 ) -> Option<(DVec3, DVec3)> {
-    let (start, dir) = if rng.index(8) == 0 {
-        let start = start_far_away(rng, target, size)?;
-        (start, (target - start).normalize())
-    } else {
-        (target - ahead * dir, dir)
+    let from = |start: DVec3| (start, (target - start).normalize());
+    let (start, dir) = match rng.index(16) {
+        0 | 1 => from(start_far_away(rng, target, size)?),
+        2 if (1e-3 * size..29.0 * size).contains(&target.length()) => from(DVec3::ZERO),
+        _ => (target - ahead * dir, dir),
     };
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
 }
@@ -315,6 +343,7 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     };
     let max = match rng.index(6) {
         0..=1 => f64::INFINITY,
+        2 if rng.index(3) == 0 => f32::MAX.into(),
         2 => rng.log_uniform(min.max(FAR.into()), 1e30),
         _ => rng.uniform(min, 1.2 * furthest),
     };
@@ -322,7 +351,13 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
 }
 
 /// The classes of the numbers of shapes.
-pub const NUMBERS: &[&str] = &["0", "1 to 255", "256 to 65535", "above 65535"];
+pub const NUMBERS: &[&str] = &[
+    "0",
+    "1 to 255",
+    "256 to 65535",
+    "above 65535",
+    "the largest",
+];
 
 /// Returns the class of the number of a shape.
 pub fn number_class(number: u32) -> usize {
@@ -330,7 +365,8 @@ pub fn number_class(number: u32) -> usize {
         0 => 0,
         1..256 => 1,
         256..65536 => 2,
-        _ => 3,
+        65536..u32::MAX => 3,
+        u32::MAX => 4,
     }
 }
 
@@ -340,7 +376,8 @@ pub fn number(rng: &mut Rng) -> u32 {
         0 => 0,
         1 => rng.integer(1, 255),
         2 => rng.integer(256, 65535),
-        _ => rng.integer(65536, u32::MAX),
+        3 => rng.integer(65536, u32::MAX - 1),
+        _ => u32::MAX,
     }
 }
 

@@ -26,7 +26,7 @@ use crate::seed::Rng;
 
 pub use balance::Balance;
 pub use placed::Placed;
-pub use tables::{Drawn, Generator};
+pub use tables::{Change, Drawn, Generator};
 
 /// One way in which calls differ, divided into classes.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! Aspects of calls about anything that has a size and a position.
 
 use super::Aspect;
-use super::fields::{OCTANTS, PLACES, SIZES, octant, place_class, size_class};
+use super::fields::{OCTANTS, PLACES, ROUND, SIZES, octant, place_class, round_class, size_class};
 use crate::oracle::bbox::Bounds;
 
 /// A call about something in space.
@@ -16,6 +16,13 @@ impl<C: Placed> Aspect<C> {
         name: "size",
         classes: SIZES,
         class: |call| Some(size_class(call.bounds()?.half_side())),
+    };
+
+    /// How close the size is to a power of ten.
+    pub const ROUND: Self = Aspect {
+        name: "round size",
+        classes: ROUND,
+        class: |call| Some(round_class(call.bounds()?.half_side())),
     };
 
     /// The position of the box's centre.

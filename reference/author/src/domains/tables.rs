@@ -1,5 +1,7 @@
 //! Draws the rows of a table: calls of one subject, every other one a hit.
 
+use glam::DVec3;
+
 use super::{Balance, Call, FunctionDomain};
 use crate::seed::Rng;
 
@@ -9,6 +11,13 @@ pub type Drawn<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
 type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C as Call>::Input>;
 
+/// Returns the call of a subject that differs from another one in a single property. The vector has
+/// random components from −1 to 1, which are the same for all calls of a table.
+pub type Change<C> = fn(&C, DVec3) -> C;
+
+/// Returns calls that follow another one and are almost the same. Returns `None` if there are none.
+pub type Follow<C> = fn(&mut Rng, &C) -> Option<Vec<C>>;
+
 /// How the calls of a function are drawn.
 pub struct Generator<'a, C: Call> {
     /// The domain of the function.
@@ -17,19 +26,30 @@ pub struct Generator<'a, C: Call> {
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
     pub input: DrawInput<'a, C>,
-    /// Returns a call of another subject, which shows whether anything is kept from the call before.
-    pub similar: &'a dyn Fn(&C) -> C,
+    /// How a subject can differ from the one before, which shows whether anything is kept from a call.
+    pub changes: &'a [Change<C>],
+    /// How many of these changes an item asks.
+    pub most_changes: usize,
+    /// How a call can follow another one of the same subject.
+    pub follow: &'a [Follow<C>],
     /// Returns whether a call belongs to the idea of an item, and all correct formulas agree about it.
     pub fits: &'a dyn Fn(&C) -> bool,
+    /// Returns whether the answers to two calls differ in what the item judges.
+    pub differ: &'a dyn Fn(&C, &C) -> bool,
 }
 
 /// The number of pairs of a hit and a miss in a table.
 const PAIRS: usize = 10;
 
+/// The largest number of hits, and of misses, of a subject that differs from the one before.
+const AGAIN: usize = 5;
+
 impl<C: Call> Generator<'_, C> {
     /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class
-    /// of each aspect occurs. Some pairs differ in nothing but the range, if the range decides.
-    /// The last table has the calls before it again, with another subject.
+    /// of each aspect occurs. Some pairs differ in nothing but the range, if the range decides, and some
+    /// are followed by a call that is almost the same.
+    /// The last tables have calls before them again, each with a subject that differs from the one before
+    /// in a single property.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
         let FunctionDomain {
             subject_aspects,
@@ -43,29 +63,71 @@ impl<C: Call> Generator<'_, C> {
             rng.retry(|rng| self.table(rng, size, &mut balances))
         };
         let mut tables: Vec<Drawn<C>> = sizes.iter().enumerate().map(table).collect();
-        if let Some((subject, inputs)) = tables.last_mut() {
-            // The last call hits, so that an answer that is kept shows in the first call of the next table.
-            let is_hit = |input: &C::Input| C::new(*subject, *input).is_hit();
-            if let Some(hit) = inputs.iter().rposition(is_hit) {
-                let hit = inputs.remove(hit);
-                inputs.push(hit);
-            }
-        }
-        let again = tables.last().and_then(|last| self.with_other_subject(last));
-        tables.extend(again);
+        let Some(last) = tables.pop() else {
+            return tables;
+        };
+        // The last call hits, so that an answer that is kept shows in the first call of the next table.
+        let ends_with = |row: usize| {
+            let (subject, mut inputs) = last.clone();
+            let end = inputs.remove(row);
+            inputs.push(end);
+            (subject, inputs)
+        };
+        let is_hit = |row: &usize| C::new(last.0, last.1[*row]).is_hit();
+        let mut ends = (0..last.1.len()).rev().filter(is_hit);
+        let found = ends.find_map(|row| {
+            let changed = self.changed_tables(rng, &ends_with(row));
+            (!changed.is_empty()).then(|| [vec![ends_with(row)], changed].concat())
+        });
+        tables.extend(found.unwrap_or_else(|| vec![last]));
         tables
     }
 
-    /// Returns those calls that also fit another subject, or `None` if only hits or only misses do.
-    fn with_other_subject(&self, (subject, inputs): &Drawn<C>) -> Option<Drawn<C>> {
-        // The first call is the one before it again.
-        let calls = inputs.iter().rev().map(|&input| C::new(*subject, input));
-        let calls = calls.map(|call| (self.similar)(&call));
-        let calls: Vec<C> = calls.filter(|call| (self.fits)(call)).collect();
-        let hits = calls.iter().filter(|call| call.is_hit()).count();
-        let inputs = calls.iter().map(C::input).collect();
-        let subject = calls.first()?.subject();
-        (0 < hits && hits < calls.len()).then_some((subject, inputs))
+    /// Returns tables whose subjects each differ from the one before in a single property.
+    fn changed_tables(&self, rng: &mut Rng, (subject, inputs): &Drawn<C>) -> Vec<Drawn<C>> {
+        let calls = inputs.iter().map(|&input| C::new(*subject, input));
+        let mut calls: Vec<C> = calls.collect();
+        let mut tables = Vec::new();
+        let mut changes = rng.shuffled(self.changes.to_vec());
+        // A change that is not possible yet may be so after another one.
+        for _ in 0..2 {
+            changes.retain(|&change| {
+                if tables.len() == self.most_changes {
+                    return false;
+                }
+                let Some((asked, all)) = self.changed(rng, &calls, change) else {
+                    return true;
+                };
+                tables.push((asked[0].subject(), asked.iter().map(C::input).collect()));
+                calls = all;
+                false
+            });
+        }
+        tables
+    }
+
+    /// Returns the calls of a subject that differs from the one before: a few that are asked, and all of
+    /// them. The first is the last call before again, whose answer is another one now. The last is a hit.
+    fn changed(&self, rng: &mut Rng, before: &[C], change: Change<C>) -> Option<(Vec<C>, Vec<C>)> {
+        const ATTEMPTS: usize = 60;
+        let last = before.last()?;
+        rng.attempt(ATTEMPTS, |rng| {
+            let random = rng.vector(-1.0, 1.0);
+            let first = change(last, random);
+            if !(self.fits)(&first) || !(self.differ)(last, &first) {
+                return None;
+            }
+            let others = before[..before.len() - 1].iter().rev();
+            let others = others.map(|call| change(call, random));
+            let (mut hits, misses): (Vec<C>, Vec<C>) =
+                others.filter(|call| (self.fits)(call)).partition(C::is_hit);
+            let has_miss = !first.is_hit() || !misses.is_empty();
+            let end = hits.pop().filter(|_| has_miss)?;
+            let of_both = misses.iter().take(AGAIN).chain(hits.iter().take(AGAIN));
+            let asked = std::iter::once(first).chain(of_both.copied()).chain([end]);
+            let all = misses.iter().chain(&hits).copied().chain([first, end]);
+            Some((asked.collect(), all.collect()))
+        })
     }
 
     /// Draws a subject and its calls. Returns `None` if few calls of the subject fit.
@@ -91,11 +153,41 @@ impl<C: Call> Generator<'_, C> {
                 Some(miss) => miss,
                 None => balance.choose(rng, |rng| self.call_of(rng, &subject, false))?,
             };
-            Some(rng.shuffled(vec![hit.input(), miss.input()]))
+            Some(rng.shuffled(vec![hit, miss]))
         });
-        let pairs = pairs.collect::<Option<Vec<Vec<C::Input>>>>()?;
+        let pairs = pairs.collect::<Option<Vec<Vec<C>>>>()?;
+        let calls = self.with_followers(rng, pairs).concat();
         *of_row = balance;
-        Some((subject, rng.shuffled(pairs).concat()))
+        Some((subject, calls.iter().map(C::input).collect()))
+    }
+
+    /// Returns the pairs, in random order, some of them followed by calls that are almost the same as the
+    /// one before and yet have another answer.
+    fn with_followers(&self, rng: &mut Rng, pairs: Vec<Vec<C>>) -> Vec<Vec<C>> {
+        const ATTEMPTS: usize = 12;
+        let mut pairs = rng.shuffled(pairs);
+        for follow in rng.shuffled(self.follow.to_vec()) {
+            let is_hit = rng.coin();
+            let mut found = |is_wanted: &dyn Fn(&C) -> bool| {
+                let alone = pairs.iter().enumerate().filter(|(_, pair)| pair.len() == 2);
+                let mut rows = alone.map(|(index, pair)| (index, pair[1]));
+                rows.find_map(|(index, last)| {
+                    let calls = rng.attempt(ATTEMPTS, |rng| {
+                        let calls = follow(rng, &last)?;
+                        let before = std::iter::once(&last).chain(&calls).rev().nth(1)?;
+                        let end = calls.last()?;
+                        let fit = is_wanted(end) && calls.iter().all(|call| (self.fits)(call));
+                        (fit && (self.differ)(before, end)).then_some(calls)
+                    })?;
+                    Some((index, calls))
+                })
+            };
+            let calls = found(&|call| call.is_hit() == is_hit).or_else(|| found(&|_| true));
+            if let Some((index, calls)) = calls {
+                pairs[index].extend(calls);
+            }
+        }
+        pairs
     }
 
     fn call(&self, rng: &mut Rng, subject: &C::Subject) -> Option<C> {

@@ -21,8 +21,11 @@ pub fn tables(
         domain: &BOX,
         subject: &drawn_box,
         input: &query,
-        similar: &|call| BoxCall::new(smaller(&call.bounds), call.input()),
+        changes: &[|call, _| BoxCall::new(smaller(&call.bounds), call.input())],
+        most_changes: 1,
+        follow: &[],
         fits: &fits,
+        differ: &|_, _| true,
     };
     let mut tables = generator.tables(rng, sizes);
     // If the last two have the same calls, they stay as they are: one begins where the other ends.

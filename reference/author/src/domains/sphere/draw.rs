@@ -8,8 +8,8 @@ use protocol::{Interval, Ray, Shape};
 use super::line::Line;
 use super::{NEAR, SPHERE};
 use crate::domains::fields;
-use crate::domains::shape::ShapeCall;
-use crate::domains::{Call, Generator};
+use crate::domains::shape::{FOLLOW, ShapeCall};
+use crate::domains::{Call, Change, Generator};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
@@ -26,18 +26,32 @@ pub fn tables(
         domain: &SPHERE,
         subject: &drawn_shape,
         input: &ray,
-        similar: &|call| similar(call, judged),
+        changes: CHANGES,
+        // Items about a single quantity stay short.
+        most_changes: if judged.len() > 2 { CHANGES.len() } else { 1 },
+        follow: FOLLOW,
         fits: &|call| Line::of(call).is_some_and(|line| is_fair(&line) && belongs(&line)),
+        differ: &|one, other| one.differs(other, judged),
     };
     generator.tables(rng, sizes)
 }
 
 /// Draws a sphere with a radius of this class.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
-    let radius = fields::size(rng, size);
+    let size = fields::size(rng, size);
+    let radius = size as f32;
+    let mut center = fields::place(rng, size).as_vec3();
+    let axis = rng.index(3);
+    match rng.index(8) {
+        // The highest point is at the height of the origin, as that of the ground is.
+        0 => center.y = -radius,
+        1 if radius >= 100.0 => center.y = -radius,
+        1 => center[axis] = radius * rng.sign() as f32,
+        _ => {}
+    }
     Shape::Sphere {
-        center: fields::place(rng, radius).as_vec3(),
-        radius: radius as f32,
+        center,
+        radius,
         shape: fields::number(rng),
     }
 }
@@ -46,7 +60,10 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
 fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     let bounds = scan::bounds(shape);
     let (center, radius) = (bounds.center(), 0.5 * (bounds.max - bounds.min).x);
-    let dir = fields::direction(rng);
+    let dir = match rng.index(8) {
+        0 => fields::diagonal(rng),
+        _ => fields::direction(rng),
+    };
     let approach = match rng.index(6) {
         0 => 0.0,
         1 | 2 => rng.uniform(0.0, 0.9),
@@ -98,19 +115,17 @@ fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
     (end >= 0.0).then_some(range)
 }
 
-/// Returns a call whose answer differs in what is judged: another sphere is hit, or at another place.
-fn similar(call: &ShapeCall, judged: &[&str]) -> ShapeCall {
-    let Shape::Sphere { center, .. } = call.shape else {
-        return *call;
-    };
-    if judged.contains(&"shape") {
-        call.with_other_number()
-    } else if judged.contains(&"position") {
-        call.moved_to_origin(center)
-    } else {
-        call.smaller()
-    }
-}
+/// How a sphere can differ from the one before.
+const CHANGES: &[Change<ShapeCall>] = &[
+    ShapeCall::smaller,
+    ShapeCall::slightly_larger,
+    ShapeCall::elsewhere,
+    ShapeCall::with_other_number,
+    |call, _| {
+        let center = scan::bounds(&call.shape).center();
+        call.moved_to_origin(center.as_vec3())
+    },
+];
 
 #[cfg(test)]
 mod tests {

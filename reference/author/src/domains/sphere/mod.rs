@@ -3,7 +3,11 @@
 mod draw;
 mod line;
 
-use super::shape::{self, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
+use protocol::Shape;
+
+use super::shape::{
+    self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, ORIGIN, RANGE, ShapeCall,
+};
 use super::{Aspect, FunctionDomain, not_asked};
 
 pub use draw::tables;
@@ -14,13 +18,27 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
     calls: shape::calls,
     function: "Sphere::hit",
-    subject_aspects: &[Aspect::SIZE, Aspect::PLACE, Aspect::OCTANT, NUMBER],
+    subject_aspects: &[
+        Aspect::SIZE,
+        Aspect::ROUND,
+        EXACT,
+        Aspect::PLACE,
+        Aspect::OCTANT,
+        TOUCH,
+        NUMBER,
+    ],
     aspects: &[
-        START, DISTANCE, LINE, LATITUDE, DIRECTION, RANGE, END, HISTORY,
+        START, ORIGIN, DISTANCE, LINE, LATITUDE, DIRECTION, DIAGONAL, RANGE, END, HISTORY,
     ],
     not_asked: &[
         not_asked("distance", &[], &["`None`"], "A miss has no distance."),
         not_asked("latitude", &[], &["`None`"], "A miss has no latitude."),
+        not_asked(
+            "call before",
+            &["the axes in another order"],
+            &["normal", "unit_normal", "origin", "position", "shape", "uv"],
+            "Such a ray hits only shapes near the origin, so an exam may ask it for the distance alone.",
+        ),
         not_asked(
             "place",
             &["1,000 sizes away"],
@@ -52,6 +70,49 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             "Only the largest spheres are hit so far away, so an exam may ask it for the distance alone.",
         ),
     ],
+};
+
+/// Radii that are exactly a power of ten, and the largest ones.
+const EXACT: Aspect<ShapeCall> = Aspect {
+    name: "radius",
+    classes: &[
+        "exactly 1",
+        "exactly 10 or 100",
+        "exactly 0.1 or less",
+        "900 to 1000",
+    ],
+    class: |call| {
+        let Shape::Sphere { radius, .. } = call.shape else {
+            return None;
+        };
+        let exact = [1.0, 10.0, 100.0, 0.1, 0.01, 1e-3];
+        match exact.iter().position(|it| *it == radius) {
+            Some(index) => Some(usize::from(index > 0) + usize::from(index > 2)),
+            None => (radius >= 900.0).then_some(3),
+        }
+    },
+};
+
+/// Spheres that touch a plane of two axes.
+const TOUCH: Aspect<ShapeCall> = Aspect {
+    name: "touches",
+    classes: &[
+        "the plane y = 0 from below, as the ground does",
+        "the plane y = 0 from below, with a radius below 100",
+        "another plane",
+        "nothing",
+    ],
+    class: |call| {
+        let Shape::Sphere { center, radius, .. } = call.shape else {
+            return None;
+        };
+        let touches = center.to_array().iter().any(|it| it.abs() == radius);
+        Some(match (center.y == -radius, touches) {
+            (true, _) => usize::from(radius < 100.0),
+            (false, true) => 2,
+            (false, false) => 3,
+        })
+    },
 };
 
 /// The start of the ray, seen from the sphere.
@@ -90,6 +151,9 @@ const START: Aspect<ShapeCall> = Aspect {
     },
 };
 
+/// The least distance of a root that counts as distant, in radii.
+const DISTANT: f64 = 15.0;
+
 /// The distance from a root that counts as near, in radii.
 const NEAR: f64 = 0.1;
 
@@ -127,15 +191,23 @@ const LATITUDE: Aspect<ShapeCall> = Aspect {
 /// The ends of the range, seen from the roots.
 const END: Aspect<ShapeCall> = Aspect {
     name: "end of the range",
-    classes: &["just before or behind a root", "anywhere"],
+    classes: &[
+        "just before or behind a root",
+        "just before or behind a distant root",
+        "anywhere",
+    ],
     class: |call| {
         let line = Line::of(call)?;
         let ends = [line.ray64.min, line.ray64.max];
-        let mut distances = ends
-            .iter()
-            .flat_map(|end| line.roots.map(|root| (root - end).abs()));
-        Some(usize::from(
-            !distances.any(|it| it < 0.02 * line.sphere.radius),
-        ))
+        let mut roots = line.roots.into_iter();
+        let near = roots.find(|root| {
+            let mut beside = ends.iter().map(|end| (root - end).abs());
+            beside.any(|it| it < 0.02 * line.sphere.radius)
+        });
+        Some(match near {
+            Some(root) if root > DISTANT * line.sphere.radius => 1,
+            Some(_) => 0,
+            None => 2,
+        })
     },
 };

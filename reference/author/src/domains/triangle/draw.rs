@@ -1,13 +1,13 @@
 //! Draws triangles, and rays through and beside them.
 
-use glam::{BVec2, BVec3, DVec2, DVec3, Vec2, Vec3};
-use protocol::{Ray, Shape, Vertex};
+use glam::{BVec2, BVec3, DVec2, DVec3, Vec3, vec2};
+use protocol::{Interval, Ray, Shape, Vertex};
 
 use super::plane::Plane;
-use super::{ALMOST_RIGHT, EDGE, NEAR, TRIANGLE};
-use crate::domains::Generator;
-use crate::domains::fields;
-use crate::domains::shape::ShapeCall;
+use super::{ALMOST_RIGHT, EDGE, END, NEAR, SMALL_WEIGHT, TRIANGLE, almost_right_corner};
+use crate::domains::fields::{self, FURTHEST};
+use crate::domains::shape::{FOLLOW, ShapeCall};
+use crate::domains::{Call, Change, Generator};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
@@ -25,14 +25,18 @@ pub fn tables(
         domain: &TRIANGLE,
         subject: &drawn_shape,
         input: &ray,
-        similar: &|call| similar(call, judged),
+        changes: CHANGES,
+        // Items about a single quantity stay short.
+        most_changes: if judged.len() > 2 { CHANGES.len() } else { 1 },
+        follow: FOLLOW,
         fits: &|call| Plane::of(call).is_some_and(|plane| is_fair(&plane) && belongs(&plane)),
+        differ: &|one, other| one.differs(other, judged),
     };
     generator.tables(rng, sizes)
 }
 
-/// Draws a triangle of this size. It faces along an axis, almost so, or in any direction, and may be
-/// narrow at a corner.
+/// Draws a triangle of this size. It faces along an axis, almost so, along a diagonal, or in any
+/// direction, and may be narrow at a corner.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
     let corners = corners(rng);
@@ -43,7 +47,10 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     } else {
         fields::place(rng, size) - factor * bounds.center()
     };
-    let corners = corners.map(|corner| (start + factor * corner).as_vec3());
+    let mut corners = corners.map(|corner| (start + factor * corner).as_vec3());
+    if rng.index(5) == 0 {
+        corners = facing_along_a_diagonal(rng, corners).unwrap_or(corners);
+    }
     let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());
     let side = rng.sign() * (p1 - p0).cross(p2 - p0).normalize();
     let vertices = with_attributes(rng, corners, side);
@@ -84,6 +91,9 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
         let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
         (altitude > 0.3 * longest && longest > 0.5).then_some(corners)
     });
+    if rng.index(6) == 0 {
+        return with_legs_along_axes(rng, (axis + 1) % 3, (axis + 2) % 3);
+    }
     let corner = rng.index(3);
     let (second, third) = ((corner + 1) % 3, (corner + 2) % 3);
     match rng.index(5) {
@@ -92,7 +102,8 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
         // A corner is so close to the side opposite it that the triangle is flat there.
         1 => {
             let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
-            corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, 0.04));
+            let most = if rng.coin() { 0.014 } else { 0.04 };
+            corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, most));
         }
         // The angle at a corner is almost right.
         2 => {
@@ -109,6 +120,50 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
     corners
 }
 
+/// Draws the corners of a triangle with a right angle between two sides that are along axes.
+fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] {
+    let corner = rng.index(3);
+    let mut corners = [rng.point(1.0); 3];
+    let length = rng.uniform(0.6, 1.5);
+    let other_length = if rng.coin() {
+        length
+    } else {
+        rng.uniform(0.6, 1.5)
+    };
+    corners[(corner + 1) % 3][axis] += rng.sign() * length;
+    corners[(corner + 2) % 3][other] += rng.sign() * other_length;
+    corners
+}
+
+/// Moves corners so that the normal of the plane is exactly along a diagonal of a cube or of one of its
+/// faces. Returns `None` if the triangle would be narrow.
+fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3]> {
+    /// A side of a grid whose points have coordinates with so few digits that sums are exact, in parts of
+    /// the largest coordinate.
+    const STEP: f32 = 1.0 / (1 << 20) as f32;
+    let largest = corners.map(|corner| corner.abs().max_element());
+    let largest = largest.into_iter().fold(0.0, f32::max);
+    let step = largest.log2().ceil().exp2() * STEP;
+    let on_grid = corners.map(|corner| (corner / step).round() * step);
+    let diagonal = fields::diagonal(rng);
+    let normal = (diagonal.signum() * diagonal.abs().ceil()).as_vec3();
+    let axis = (0..3).find(|&axis| normal[axis] != 0.0)?;
+    let first = on_grid[0];
+    let moved = on_grid.map(|corner| {
+        let mut side = corner - first;
+        side[axis] = 0.0;
+        side[axis] = -normal.dot(side) / normal[axis];
+        first + side
+    });
+    let [p0, p1, p2] = moved.map(|corner| corner.as_dvec3());
+    let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+    let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+    let is_inside = moved
+        .iter()
+        .all(|it| f64::from(it.abs().max_element()) < FURTHEST);
+    (altitude > 0.3 * longest && is_inside).then_some(moved)
+}
+
 /// Draws normals, which more or less point to a side, and texture coordinates.
 fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
     let common = (side + 0.7 * rng.direction()).normalize();
@@ -117,12 +172,33 @@ fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3
     let tile = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
     let (same_u, same_v) =
         [(true, true), (false, true), (false, false), (false, false)][rng.index(4)];
-    corners.map(|corner| {
+    let mut vertices = corners.map(|corner| {
         let normal = (common + spread * rng.direction()).normalize();
         let uv = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
         let uv = DVec2::select(BVec2::new(same_u, same_v), tile, uv);
         Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
-    })
+    });
+    // Often, two corners have the same normal, or one has other texture coordinates by far.
+    let [from, to, any] = [rng.index(3), rng.index(3), rng.index(3)];
+    // Beside an angle that is almost right, such coordinates show what is wrong with the weights.
+    let right = almost_right_corner(corners.map(|corner| corner.as_dvec3()));
+    let right = right.filter(|_| rng.coin());
+    let (far, kind) = right.map_or_else(|| (any, rng.index(6)), |corner| (corner, 2));
+    match kind {
+        0 => vertices[to].normal = vertices[from].normal,
+        1 => vertices[to].uv = vertices[from].uv,
+        2 => {
+            let sign = if rng.coin() { 1.0 } else { -1.0 };
+            for (corner, vertex) in vertices.iter_mut().enumerate() {
+                let from_middle = if corner == far { 2.4 } else { -2.4 };
+                let from_middle = from_middle + rng.uniform(-0.1, 0.1);
+                vertex.uv = DVec2::splat(0.5 + sign * from_middle).as_vec2();
+                vertex.uv.x += rng.uniform(-0.05, 0.05) as f32;
+            }
+        }
+        _ => {}
+    }
+    vertices
 }
 
 /// Draws a ray through the plane of a triangle. Returns `None` if it would start too far away.
@@ -132,7 +208,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     let target = w0 * p0 + w1 * p1 + w2 * p2;
     let front = (p1 - p0).cross(p2 - p0).normalize();
     let size = scan::bounds(shape).half_side();
-    let kind = rng.index(6);
+    let kind = rng.index(7);
     let dir = match kind {
         0 => {
             let cosine = rng.sign() * rng.log_uniform(3.5e-3, 0.1);
@@ -140,6 +216,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
             (1.0 - cosine * cosine).sqrt() * along + cosine * front
         }
         1 => rng.sign() * front,
+        2 => fields::diagonal(rng),
         _ => fields::direction(rng),
     };
     let ahead = size
@@ -153,14 +230,32 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
             _ => -rng.log_uniform(0.05, 28.0),
         };
     let (origin, dir) = fields::ray_toward(rng, target, dir, ahead, size)?;
-    let range = fields::range(rng, ahead.max(0.0) + 2.0 * size);
-    Some(Ray::new(origin.as_vec3(), dir.as_vec3()).within(range.min, range.max))
+    let ray = Ray::new(origin.as_vec3(), dir.as_vec3());
+    let range = match rng.index(8) {
+        0 => range_from_the_plane(rng, &ShapeCall::new(*shape, ray))?,
+        _ => fields::range(rng, ahead.max(0.0) + 2.0 * size),
+    };
+    Some(ray.within(range.min, range.max))
+}
+
+/// Draws a range that begins or ends just before or behind the plane of the triangle.
+fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
+    let plane = Plane::of(call)?;
+    let beside = plane.size * rng.log_uniform(0.0102, END);
+    let end = (plane.distance + rng.sign() * beside) as f32;
+    let range = if rng.coin() {
+        Interval::new(end, f32::INFINITY)
+    } else {
+        Interval::new(0.0, end)
+    };
+    (end >= 0.0).then_some(range)
 }
 
 /// Returns the weights of a point: inside, near an edge, or outside.
 fn weights(rng: &mut Rng) -> [f64; 3] {
     let least = match rng.index(6) {
         0 | 1 => return fields::weights_inside(rng, EDGE),
+        2 if rng.coin() => rng.log_uniform(5e-4, SMALL_WEIGHT),
         2 => rng.log_uniform(5e-4, EDGE),
         3 => -rng.log_uniform(5e-4, EDGE),
         4 => -rng.uniform(EDGE, 1.0),
@@ -173,27 +268,51 @@ fn weights(rng: &mut Rng) -> [f64; 3] {
     weights
 }
 
-/// Returns a call whose answer differs in what is judged: another triangle is hit, or at another place.
-fn similar(call: &ShapeCall, judged: &[&str]) -> ShapeCall {
-    let Shape::Triangle { vertices, .. } = call.shape else {
-        return *call;
-    };
-    let of_corners = ["normal", "uv", "shape"];
-    if of_corners.iter().any(|name| judged.contains(name)) {
-        let mut similar = call.with_other_number();
-        if let Shape::Triangle { vertices, .. } = &mut similar.shape {
-            // Each corner has what another one had.
-            let [a, b, c] = vertices.map(|vertex| (vertex.normal, vertex.uv));
-            for (vertex, (normal, uv)) in vertices.iter_mut().zip([b, c, a]) {
-                (vertex.normal, vertex.uv) = (normal, uv + Vec2::splat(0.25));
-            }
-        }
-        similar
-    } else if judged.contains(&"position") {
-        call.moved_to_origin(vertices[0].position)
-    } else {
-        call.smaller()
+/// How a triangle can differ from the one before.
+const CHANGES: &[Change<ShapeCall>] = &[
+    ShapeCall::smaller,
+    ShapeCall::with_other_number,
+    |call, _| {
+        let [first, _, _] = scan::corners(&call.shape).unwrap_or_default();
+        call.moved_to_origin(first.as_vec3())
+    },
+    |call, random| with_other_corner(call, 0, call.offset(random)),
+    |call, random| with_other_corner(call, 1, call.offset(random)),
+    |call, random| with_other_corner(call, 2, call.offset(random)),
+    |call, random| {
+        with_other_attributes(call, random, |vertex| {
+            let normal = vertex.normal.as_dvec3() + 0.8 * random;
+            vertex.normal = normal.normalize().as_vec3();
+        })
+    },
+    |call, random| {
+        with_other_attributes(call, random, |vertex| {
+            vertex.uv = vec2(vertex.uv.y, vertex.uv.x);
+        })
+    },
+];
+
+/// Returns the call of a triangle with one corner at another place.
+fn with_other_corner(call: &ShapeCall, corner: usize, offset: Vec3) -> ShapeCall {
+    let mut changed = ShapeCall::new(call.shape, call.ray);
+    if let Shape::Triangle { vertices, .. } = &mut changed.shape {
+        vertices[corner].position += offset;
     }
+    changed
+}
+
+/// Returns the call of a triangle with another normal or other texture coordinates at one corner.
+fn with_other_attributes(
+    call: &ShapeCall,
+    random: DVec3,
+    change: impl Fn(&mut Vertex),
+) -> ShapeCall {
+    let mut changed = ShapeCall::new(call.shape, call.ray);
+    if let Shape::Triangle { vertices, .. } = &mut changed.shape {
+        let corner = random.max_position();
+        change(&mut vertices[corner]);
+    }
+    changed
 }
 
 #[cfg(test)]

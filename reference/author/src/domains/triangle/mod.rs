@@ -5,11 +5,14 @@ mod plane;
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use glam::Vec2;
+use glam::{DVec3, Vec2};
 use protocol::Shape;
 
 use self::plane::corner_normals;
-use super::shape::{self, DIRECTION, DISTANCE, HISTORY, NUMBER, RANGE, ShapeCall};
+use super::fields::{DIAGONALS, diagonal_class};
+use super::shape::{
+    self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, ORIGIN, RANGE, ShapeCall,
+};
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::scan;
 
@@ -18,32 +21,43 @@ pub use plane::Plane;
 
 /// The domain of `Triangle::hit`.
 pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
-    pairs: &[["size", "axis"], ["size", "start"]],
+    pairs: &[["size", "axis"], ["size", "start"], ["size", "crossing"]],
     calls: shape::calls,
     function: "Triangle::hit",
     subject_aspects: &[
         Aspect::SIZE,
+        Aspect::ROUND,
         Aspect::PLACE,
         Aspect::OCTANT,
         NUMBER,
         PLANE,
         FACING,
+        FACING_DIAGONAL,
         FORM,
+        FLAT,
         ANGLES,
+        RIGHT_AND_FAR,
         EDGE_ALONG,
+        LEGS,
         TILES,
+        EQUAL_UVS,
         NORMALS,
+        EQUAL_NORMALS,
         SPREAD,
     ],
     aspects: &[
         START,
+        ORIGIN,
         DISTANCE,
         COSINE,
         CROSSING,
         LEAST_WEIGHT,
+        SMALL_WEIGHTS,
         DIRECTION,
+        DIAGONAL,
         AXIS,
         RANGE,
+        ENDS,
         HISTORY,
     ],
     not_asked: &[
@@ -75,6 +89,34 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             "Only `triangle.outside` and `triangle.uv_corners` ask rays close to an edge, so that a mistake there costs few points. The small weights show in the texture coordinates.",
         ),
         not_asked(
+            "call before",
+            &["the axes in another order"],
+            &["normal", "origin", "position", "shape", "uv"],
+            "Such a ray hits only shapes near the origin, so an exam may ask it for the distance alone.",
+        ),
+        not_asked(
+            "call before",
+            &["the opposite direction"],
+            &["normal", "position", "uv"],
+            "The items about these quantities ask for rays from the front, and of two opposite rays one comes from behind.",
+        ),
+        not_asked(
+            "almost right and far",
+            &[],
+            &[
+                "`None`", "some", "distance", "normal", "origin", "position", "shape",
+            ],
+            "Where an angle is almost right, its difference shows in texture coordinates that differ by far.",
+        ),
+        not_asked(
+            "small weights",
+            &[],
+            &[
+                "`None`", "some", "distance", "normal", "origin", "position", "shape",
+            ],
+            "A weight below a thousandth shows in nothing but the texture coordinates.",
+        ),
+        not_asked(
             "form",
             &[
                 "narrow at p0",
@@ -86,6 +128,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             ],
             &["normal", "uv", "origin", "position", "shape"],
             "In a narrow or flat triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
+        ),
+        not_asked(
+            "altitude",
+            &[],
+            &["normal", "uv", "origin", "position", "shape"],
+            "A triangle that flat is asked as seldom as other flat ones, for the same reason.",
         ),
         not_asked(
             "cosine",
@@ -143,6 +191,16 @@ const FACING: Aspect<ShapeCall> = Aspect {
     },
 };
 
+/// The diagonal along which the triangle faces.
+const FACING_DIAGONAL: Aspect<ShapeCall> = Aspect {
+    name: "facing along a diagonal",
+    classes: DIAGONALS,
+    class: |call| {
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        diagonal_class((p1 - p0).cross(p2 - p0).as_vec3())
+    },
+};
+
 /// The form of the triangle.
 const FORM: Aspect<ShapeCall> = Aspect {
     name: "form",
@@ -171,6 +229,18 @@ const FORM: Aspect<ShapeCall> = Aspect {
     },
 };
 
+/// Triangles that almost have no area.
+const FLAT: Aspect<ShapeCall> = Aspect {
+    name: "altitude",
+    classes: &["below 0.6 % of the longest side"],
+    class: |call| {
+        let [p0, p1, p2] = scan::corners(&call.shape)?;
+        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+        (altitude < 0.006 * longest).then_some(0)
+    },
+};
+
 /// The largest angle that counts as narrow, in radians.
 const NARROW: f64 = 0.045;
 
@@ -184,13 +254,38 @@ const ANGLES: Aspect<ShapeCall> = Aspect {
         "usual",
     ],
     class: |call| {
-        let corners = scan::corners(&call.shape)?;
-        let cosine = |corner: usize| {
-            let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
-            side(1).dot(side(2))
-        };
-        let right = (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT);
+        let right = almost_right_corner(scan::corners(&call.shape)?);
         Some(right.unwrap_or(3))
+    },
+};
+
+/// Returns the corner at which the angle is right or almost right.
+fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
+    let cosine = |corner: usize| {
+        let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
+        side(1).dot(side(2))
+    };
+    (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT)
+}
+
+/// Triangles with an angle that is almost right, but not exactly, and whose texture coordinates differ so
+/// much there that the difference shows.
+const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
+    name: "almost right and far",
+    classes: &["at p0", "at p1", "at p2"],
+    class: |call| {
+        /// The least difference between texture coordinates.
+        const LEAST: f32 = 5.0;
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let corners = scan::corners(&call.shape)?;
+        let corner = almost_right_corner(corners)?;
+        let others = [(corner + 1) % 3, (corner + 2) % 3];
+        let [side, other] = others.map(|it| (corners[it] - corners[corner]).normalize());
+        let is_exact = side.dot(other).abs() < 0.4 * ALMOST_RIGHT;
+        let far = others.map(|it| vertices[it].uv.distance(vertices[corner].uv) > LEAST);
+        (!is_exact && far == [true, true]).then_some(corner)
     },
 };
 
@@ -217,6 +312,20 @@ const EDGE_ALONG: Aspect<ShapeCall> = Aspect {
     },
 };
 
+/// The corner with a right angle between two edges that are along axes.
+const LEGS: Aspect<ShapeCall> = Aspect {
+    name: "two edges along axes",
+    classes: &["at p0", "at p1", "at p2"],
+    class: |call| {
+        let corners = scan::corners(&call.shape)?;
+        (0..3).find(|&corner| {
+            let edge = |other: usize| corners[(corner + other) % 3] - corners[corner];
+            let is_along = |edge: DVec3| edge.to_array().iter().filter(|it| **it != 0.0).count();
+            is_along(edge(1)) == 1 && is_along(edge(2)) == 1
+        })
+    },
+};
+
 /// The texture coordinates of the corners.
 const TILES: Aspect<ShapeCall> = Aspect {
     name: "uv of the corners",
@@ -240,6 +349,38 @@ const TILES: Aspect<ShapeCall> = Aspect {
 fn all_equal(values: [f32; 3]) -> bool {
     values.iter().all(|value| *value == values[0])
 }
+
+/// Returns which two of three values are equal, if the third is another one.
+fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
+    match (a == b, b == c, c == a) {
+        (true, false, _) => Some(0),
+        (_, true, false) => Some(1),
+        (false, _, true) => Some(2),
+        _ => None,
+    }
+}
+
+/// The corners with the same two values.
+const EQUAL: &[&str] = &["at p0 and p1", "at p1 and p2", "at p2 and p0"];
+
+/// The two corners with the same texture coordinates.
+const EQUAL_UVS: Aspect<ShapeCall> = Aspect {
+    name: "same uv",
+    classes: EQUAL,
+    class: |call| {
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        equal_two(vertices.map(|vertex| vertex.uv))
+    },
+};
+
+/// The two corners with the same normal.
+const EQUAL_NORMALS: Aspect<ShapeCall> = Aspect {
+    name: "same normal",
+    classes: EQUAL,
+    class: |call| equal_two(corner_normals(&call.shape)?),
+};
 
 /// The side to which the normals of the corners point.
 const NORMALS: Aspect<ShapeCall> = Aspect {
@@ -341,6 +482,57 @@ const CROSSING: Aspect<ShapeCall> = Aspect {
 
 /// The largest weight at which a point counts as just inside an edge.
 const EDGE: f64 = 0.02;
+
+/// Weights that are small, and yet show in the texture coordinates of a hit.
+const SMALL_WEIGHTS: Aspect<ShapeCall> = Aspect {
+    name: "small weights",
+    classes: &["below a thousandth"],
+    class: |call| {
+        /// The least difference that shows.
+        const LEAST: f64 = 3e-3;
+        let Shape::Triangle { vertices, .. } = call.shape else {
+            return None;
+        };
+        let (plane, hit) = (Plane::of(call)?, call.hit()?);
+        let mut corners = plane.weights.into_iter().zip(vertices);
+        let shows = corners.any(|(weight, vertex)| {
+            let difference = vertex.uv.as_dvec2().distance(hit.uv);
+            weight < SMALL_WEIGHT && weight * difference > LEAST
+        });
+        shows.then_some(0)
+    },
+};
+
+/// The weight below which one is small.
+const SMALL_WEIGHT: f64 = 1e-3;
+
+/// The ends of the range, seen from the point where the ray crosses the plane.
+const ENDS: Aspect<ShapeCall> = Aspect {
+    name: "end of the range",
+    classes: &[
+        "just before or behind the plane",
+        "just before or behind a distant plane",
+        "anywhere",
+    ],
+    class: |call| {
+        let plane = Plane::of(call)?;
+        let ends = [plane.ray64.min, plane.ray64.max];
+        let is_near = ends
+            .iter()
+            .any(|end| (end - plane.distance).abs() < END * plane.size);
+        Some(match is_near {
+            true if plane.distance > DISTANT * plane.size => 1,
+            true => 0,
+            false => 2,
+        })
+    },
+};
+
+/// The largest distance of the range's end from the plane that counts as near, in sizes.
+const END: f64 = 0.02;
+
+/// The least distance of a plane that counts as distant, in sizes.
+const DISTANT: f64 = 20.0;
 
 /// The corner with the smallest weight.
 const LEAST_WEIGHT: Aspect<ShapeCall> = Aspect {

@@ -28,7 +28,7 @@ pub struct Plane {
     /// The longest side.
     longest: f64,
     /// Half of the longest side of the triangle's box.
-    size: f64,
+    pub(super) size: f64,
     /// The largest coordinate of the ray and the triangle.
     pub(super) coordinates: f64,
 }

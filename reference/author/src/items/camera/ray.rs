@@ -5,7 +5,10 @@ use judging::exam::ExamQuestion;
 use protocol::{Rows, Sample};
 
 use super::{camera, camera_question, direction_question, middle_of, random_below};
-use crate::domains::camera::{ASPECT_RATIOS, FIELDS_OF_VIEW, cameras, drawn, offset, sample, side};
+use crate::domains::camera::{
+    ASPECT_RATIOS, FIELDS_OF_VIEW, ROUND_ANGLES, almost_equal_cameras, cameras, drawn,
+    extreme_views, offset, sample, side,
+};
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
 
@@ -17,22 +20,38 @@ pub(super) const OFFSET: Declaration = Declaration {
     section: "camera.md#the-offset-is-measured-in-pixels",
     tests: &["`offset` is the position…"],
     questions: |rng| {
-        let mut question = |length: u32, along: [UVec2; 2]| {
-            let samples = (0..24).map(|_| {
-                let [x, y] = along.map(|axis| axis.as_vec2());
-                Sample {
+        let mut question = |length: u32, along: [UVec2; 2], field_of_view: f64| {
+            let [x, y] = along.map(|axis| axis.as_vec2());
+            let samples = (0..24).flat_map(|index| {
+                let first = Sample {
                     pixel: random_below(rng, length) * along[0],
                     offset: offset(rng) * x + 0.5 * y,
-                }
+                };
+                // Some are followed by one that is almost the same.
+                let away = rng.uniform(0.015, 0.03) as f32;
+                let away = if first.offset.dot(x) < 0.5 {
+                    away
+                } else {
+                    -away
+                };
+                let second = Sample {
+                    offset: first.offset + away * x,
+                    ..first
+                };
+                std::iter::once(first).chain((index % 4 == 0).then_some(second))
             });
+            let samples: Vec<Sample> = samples.collect();
             let film = length * along[0] + along[1];
             let aspect = f64::from(film.x) / f64::from(film.y);
-            direction_question(camera(50.0, aspect, film), samples)
+            direction_question(camera(field_of_view, aspect, film), samples)
         };
+        let angles = ROUND_ANGLES.into_iter().chain([50.0]);
         let lengths = [1, 3, 4].into_iter();
         let axes = [[UVec2::X, UVec2::Y], [UVec2::Y, UVec2::X]];
         let all = lengths.flat_map(|length| axes.map(|along| (length, along)));
-        all.map(|(length, along)| question(length, along)).collect()
+        all.zip(angles)
+            .map(|((length, along), angle)| question(length, along, angle))
+            .collect()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -83,15 +102,19 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
     questions: |rng| {
         let film = uvec2(3840, 2160);
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
-        let usual_samples = (0..24).map(|_| sample(rng, film)).collect();
         // In the middle of the widest view, even the pixels of a large film are large.
         let film = UVec2::from([(); 2].map(|()| rng.integer(2048, 4096)));
-        let wide = camera(rng.uniform(170.0, 175.0), 1.0, film);
+        let wide = camera(rng.uniform(173.0, 175.0), rng.uniform(8.0, 10.0), film);
         let in_the_middle = (0..12).map(|_| Sample {
             pixel: film / 2,
             offset: Vec2::new(offset(rng), offset(rng)),
         });
-        let mut all = vec![(usual, usual_samples), (wide, in_the_middle.collect())];
+        let wide = (wide, in_the_middle.collect());
+        let mut all = almost_equal_cameras(rng, usual);
+        let more = (0..16).map(|_| sample(rng, usual.film));
+        all[0].1 = more.chain(all[0].1.clone()).collect();
+        all.push(wide);
+        all.extend(extreme_views(rng));
         all.extend(cameras(rng));
         let all = all.into_iter();
         all.map(|(camera, samples)| direction_question(camera, samples))

@@ -100,7 +100,11 @@ pub(super) const OTHER_ASPECT: Declaration = Declaration {
         let films = [uvec2(9, 9), uvec2(16, 5), uvec2(5, 9)];
         let questions = films.into_iter().zip([[4, 1], [2, 6], [3, 5]]);
         let questions = questions.map(|(film, others)| {
-            let field_of_view = rng.uniform(60.0, 80.0);
+            let field_of_view = if film.x == film.y {
+                90.0
+            } else {
+                rng.uniform(60.0, 80.0)
+            };
             others.map(|other| {
                 let camera = camera(field_of_view, drawn(ASPECT_RATIOS[other], rng), film);
                 direction_question(camera, middle_row(film))

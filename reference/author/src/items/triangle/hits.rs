@@ -47,7 +47,11 @@ pub(super) const OUTSIDE: Declaration = Declaration {
            weight of the opposite corner is negative.",
     section: "triangle.md#test-the-third-weight-too",
     tests: &["Returns the ray's…", "The triangle can…"],
-    questions: |rng| questions(rng, &[], USUAL, |plane| is_ahead(plane) && is_steep(plane)),
+    questions: |rng| {
+        questions(rng, &[], EVERY_SIZE, |plane| {
+            is_ahead(plane) && is_steep(plane)
+        })
+    },
     ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
 

@@ -1,16 +1,21 @@
 //! Calls of `hit` of a single shape, and what all shapes have in common.
 
+mod changes;
+mod history;
+
 use glam::Vec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::fields::{
-    self, DIRECTIONS, DISTANCES, NUMBERS, RANGES, direction_class, distance_class, history_class,
-    number_class, range_class,
+    self, DIAGONALS, DIRECTIONS, DISTANCES, NUMBERS, RANGES, diagonal_class, direction_class,
+    distance_class, number_class, range_class,
 };
 use super::{Aspect, Call, Placed};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::{Ray64, scan};
+use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Rng;
+
+pub use history::FOLLOW;
 
 /// A call of `hit`: a shape and a ray.
 #[derive(Clone, Copy, Debug)]
@@ -24,33 +29,33 @@ pub struct ShapeCall {
 }
 
 impl ShapeCall {
-    /// Returns the call of a smaller shape with the same centre.
-    pub fn smaller(&self) -> Self {
-        const FACTOR: f32 = 0.75;
-        let middle = scan::bounds(&self.shape).center().as_vec3();
-        let scaled = |point: Vec3| middle + FACTOR * (point - middle);
-        let mut call = ShapeCall::new(moved(&self.shape, scaled), self.ray);
-        if let Shape::Sphere { radius, .. } = &mut call.shape {
-            *radius *= FACTOR;
-        }
-        call
+    /// Returns the hit, or `None` if there is none.
+    pub fn hit(&self) -> Option<Intersection> {
+        scan::intersect(&Ray64::from(&self.ray), &self.shape)
     }
 
-    /// Returns the call with everything moved, so that this point of the shape is the origin.
-    pub fn moved_to_origin(&self, point: Vec3) -> Self {
-        let shape = moved(&self.shape, |corner| corner - point);
-        let origin = self.ray.origin - point;
-        ShapeCall::new(shape, Ray { origin, ..self.ray })
-    }
-
-    /// Returns the call of a shape that differs in its number only.
-    pub fn with_other_number(&self) -> Self {
-        let mut call = ShapeCall::new(self.shape, self.ray);
-        let (Shape::Sphere { shape, .. }
-        | Shape::Triangle { shape, .. }
-        | Shape::FlatTriangle { shape, .. }) = &mut call.shape;
-        *shape ^= 1;
-        call
+    /// Returns whether the answer differs from another one in a judged quantity, by more than twice its
+    /// tolerance.
+    pub fn differs(&self, other: &Self, judged: &[&str]) -> bool {
+        let (Some(hit), Some(other_hit)) = (self.hit(), other.hit()) else {
+            return self.is_hit() != other.is_hit();
+        };
+        let coordinates = |call: &ShapeCall| {
+            let Bounds { min, max } = scan::bounds(&call.shape);
+            let corners = min.abs().max(max.abs());
+            corners.max(call.ray.origin.as_dvec3().abs()).max_element()
+        };
+        let scale = coordinates(self).max(coordinates(other));
+        let scale = scale.max(hit.distance).max(other_hit.distance);
+        judged.iter().any(|&quantity| match quantity {
+            "distance" => (hit.distance - other_hit.distance).abs() > 2e-4 * scale,
+            "position" => hit.position.distance(other_hit.position) > 2e-4 * scale,
+            "normal" => hit.normal.distance(other_hit.normal) > 2e-3,
+            "uv" => hit.uv.distance(other_hit.uv) > 4e-3,
+            "origin" => self.ray.origin != other.ray.origin,
+            "shape" => hit.shape != other_hit.shape,
+            _ => false,
+        })
     }
 
     /// Returns half of the largest side of the shape's box.
@@ -79,14 +84,25 @@ pub const DIRECTION: Aspect<ShapeCall> = Aspect {
     class: |call| direction_class(call.ray.dir),
 };
 
+/// Rays that start at the origin, as those of a camera do.
+pub const ORIGIN: Aspect<ShapeCall> = Aspect {
+    name: "ray",
+    classes: &["from the origin"],
+    class: |call| (call.ray.origin == Vec3::ZERO).then_some(0),
+};
+
+/// The diagonal that the ray is parallel to.
+pub const DIAGONAL: Aspect<ShapeCall> = Aspect {
+    name: "diagonal",
+    classes: DIAGONALS,
+    class: |call| diagonal_class(call.ray.dir),
+};
+
 /// The distance of the hit.
 pub const DISTANCE: Aspect<ShapeCall> = Aspect {
     name: "distance",
     classes: DISTANCES,
-    class: |call| {
-        let hit = scan::intersect(&Ray64::from(&call.ray), &call.shape)?;
-        Some(distance_class(hit.distance))
-    },
+    class: |call| Some(distance_class(call.hit()?.distance)),
 };
 
 /// The range of the ray.
@@ -99,24 +115,19 @@ pub const RANGE: Aspect<ShapeCall> = Aspect {
 /// The call before.
 pub const HISTORY: Aspect<ShapeCall> = Aspect {
     name: "call before",
-    classes: &["none", "another ray", "the same ray with another range"],
-    class: |call| Some(history_class(call.before.as_ref(), &call.ray)),
+    classes: &[
+        "none",
+        "another ray",
+        "the same ray with another range",
+        "the same ray with almost the same range",
+        "almost the same direction",
+        "almost the same start",
+        "the opposite direction",
+        "the axes in another order",
+        "a ray that hits almost where this one starts",
+    ],
+    class: |call| Some(history::class_of(call)),
 };
-
-/// Returns a shape with its centre or its corners moved.
-fn moved(shape: &Shape, to: impl Fn(Vec3) -> Vec3) -> Shape {
-    let mut shape = *shape;
-    match &mut shape {
-        Shape::Sphere { center, .. } => *center = to(*center),
-        Shape::Triangle { vertices, .. } => {
-            for vertex in vertices {
-                vertex.position = to(vertex.position);
-            }
-        }
-        Shape::FlatTriangle { corners, .. } => *corners = corners.map(to),
-    }
-    shape
-}
 
 impl Call for ShapeCall {
     type Subject = Shape;
@@ -139,11 +150,11 @@ impl Call for ShapeCall {
     }
 
     fn is_hit(&self) -> bool {
-        scan::intersect(&Ray64::from(&self.ray), &self.shape).is_some()
+        self.hit().is_some()
     }
 
     fn with_other_range(&self, rng: &mut Rng) -> Option<Self> {
-        let distance = scan::intersect(&Ray64::from(&self.ray), &self.shape)?.distance;
+        let distance = self.hit()?.distance;
         let range = fields::range(rng, distance + 2.0 * self.size());
         let ray = self.ray.within(range.min, range.max);
         Some(ShapeCall { ray, ..*self })

@@ -1,0 +1,77 @@
+//! Calls of shapes that differ from others in a single property.
+
+use glam::{DVec3, Vec3};
+use protocol::{Ray, Shape};
+
+use super::ShapeCall;
+use crate::domains::Call;
+use crate::oracle::scan;
+
+impl ShapeCall {
+    /// Returns the call of a smaller shape with the same centre.
+    pub fn smaller(&self, _: DVec3) -> Self {
+        self.scaled(0.75)
+    }
+
+    /// Returns the call of a shape with the same centre whose size differs by less than a hundredth.
+    pub fn slightly_larger(&self, random: DVec3) -> Self {
+        self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
+    }
+
+    fn scaled(&self, factor: f32) -> Self {
+        let middle = scan::bounds(&self.shape).center().as_vec3();
+        let scaled = |point: Vec3| middle + factor * (point - middle);
+        let mut call = ShapeCall::new(self.shape, self.ray);
+        match &mut call.shape {
+            Shape::Sphere { radius, .. } => *radius *= factor,
+            triangle @ (Shape::Triangle { .. } | Shape::FlatTriangle { .. }) => {
+                *triangle = moved(triangle, scaled);
+            }
+        }
+        call
+    }
+
+    /// Returns the call with everything moved, so that this point of the shape is the origin.
+    pub fn moved_to_origin(&self, point: Vec3) -> Self {
+        let shape = moved(&self.shape, |corner| corner - point);
+        let origin = self.ray.origin - point;
+        ShapeCall::new(shape, Ray { origin, ..self.ray })
+    }
+
+    /// Returns the call of the shape at another place, less than a size away.
+    pub fn elsewhere(&self, random: DVec3) -> Self {
+        let offset = self.offset(random);
+        ShapeCall::new(moved(&self.shape, |point| point + offset), self.ray)
+    }
+
+    /// Returns the call of a shape that differs in its number only.
+    pub fn with_other_number(&self, _: DVec3) -> Self {
+        let mut call = ShapeCall::new(self.shape, self.ray);
+        let (Shape::Sphere { shape, .. }
+        | Shape::Triangle { shape, .. }
+        | Shape::FlatTriangle { shape, .. }) = &mut call.shape;
+        *shape ^= 1;
+        call
+    }
+
+    /// Returns a vector that is a small part of the shape's size, or a large part of it.
+    pub fn offset(&self, random: DVec3) -> Vec3 {
+        let part = if random.x > 0.0 { 0.5 } else { 0.02 };
+        (part * self.size() * random).as_vec3()
+    }
+}
+
+/// Returns a shape with its centre or its corners moved.
+fn moved(shape: &Shape, to: impl Fn(Vec3) -> Vec3) -> Shape {
+    let mut shape = *shape;
+    match &mut shape {
+        Shape::Sphere { center, .. } => *center = to(*center),
+        Shape::Triangle { vertices, .. } => {
+            for vertex in vertices {
+                vertex.position = to(vertex.position);
+            }
+        }
+        Shape::FlatTriangle { corners, .. } => *corners = corners.map(to),
+    }
+    shape
+}

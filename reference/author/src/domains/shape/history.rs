@@ -1,0 +1,135 @@
+//! Calls that follow another one of the same shape and are almost the same.
+
+use glam::Vec3Swizzles;
+use protocol::Ray;
+
+use super::ShapeCall;
+use crate::domains::Call;
+use crate::domains::fields::is_same_line;
+use crate::domains::tables::Follow;
+use crate::oracle::{Ray64, scan};
+use crate::seed::Rng;
+
+/// The largest angle between almost the same directions, in radians.
+const ANGLE: f64 = 2e-3;
+
+/// The largest distance between almost the same starts, in sizes.
+const DISTANCE: f64 = 0.02;
+
+/// The largest difference between almost the same ends of a range, in sizes.
+const ENDS: f64 = 0.03;
+
+/// How a call can follow another one.
+pub const FOLLOW: &[Follow<ShapeCall>] = &[
+    |rng, before| {
+        let dir = before.ray.dir.as_dvec3();
+        let dir = dir + rng.log_uniform(0.2, 0.95) * ANGLE * rng.perpendicular_to(dir);
+        let dir = dir.normalize().as_vec3();
+        Some(vec![before.with_ray(Ray { dir, ..before.ray })])
+    },
+    |rng, before| {
+        let away = rng.log_uniform(0.1, 0.95) * DISTANCE * before.size() * rng.direction();
+        let origin = before.ray.origin + away.as_vec3();
+        Some(vec![before.with_ray(Ray {
+            origin,
+            ..before.ray
+        })])
+    },
+    with_ranges_beside_a_hit,
+    |_, before| {
+        let dir = -before.ray.dir;
+        Some(vec![before.with_ray(Ray { dir, ..before.ray })])
+    },
+    |rng, before| {
+        let Ray { origin, dir, .. } = before.ray;
+        let (origin, dir) = if rng.coin() {
+            (origin.yzx(), dir.yzx())
+        } else {
+            (origin.zxy(), dir.zxy())
+        };
+        let ray = Ray {
+            origin,
+            dir,
+            ..before.ray
+        };
+        Some(vec![before.with_ray(ray)])
+    },
+    |rng, before| {
+        let beside = rng.uniform(0.51, 0.9) * DISTANCE * before.size() * rng.sign();
+        let distance = (before.hit()?.distance + beside) as f32;
+        let origin = before.ray.at(distance);
+        Some(vec![before.with_ray(Ray {
+            origin,
+            ..before.ray
+        })])
+    },
+];
+
+/// Returns two calls of the same ray: the range of one ends or begins just before a hit, and that of the
+/// other just behind it.
+fn with_ranges_beside_a_hit(rng: &mut Rng, before: &ShapeCall) -> Option<Vec<ShapeCall>> {
+    let whole = before.ray.within(0.0, f32::INFINITY);
+    let distance = scan::intersect(&Ray64::from(&whole), &before.shape)?.distance;
+    let range = before.ray.range;
+    let begins = range.min > 0.0 && rng.coin();
+    let side = rng.sign();
+    let ends = [side, -side].map(|side| {
+        let beside = side * rng.uniform(0.34, 0.48) * ENDS * before.size();
+        let end = (distance + beside) as f32;
+        let ray = if begins {
+            before.ray.within(end, range.max)
+        } else {
+            before.ray.within(range.min, end)
+        };
+        (end >= 0.0 && ray.range.min <= ray.range.max).then(|| before.with_ray(ray))
+    });
+    let [first, second] = ends;
+    Some(vec![first?, second?])
+}
+
+/// Returns the class of the call before: none, one with another ray, or one that is almost the same.
+pub fn class_of(call: &ShapeCall) -> usize {
+    let Some(before) = call.before else {
+        return 0;
+    };
+    let (ray, size) = (call.ray, call.size());
+    let is_almost = |a: f32, b: f32| a == b || f64::from((a - b).abs()) < ENDS * size;
+    let (same_start, same_dir) = (before.origin == ray.origin, before.dir == ray.dir);
+    let same_range = before.range == ray.range;
+    let between = ray.origin.as_dvec3().distance(before.origin.as_dvec3());
+    if is_same_line(&before, &ray) {
+        let is_other = !same_range
+            && is_almost(before.range.min, ray.range.min)
+            && is_almost(before.range.max, ray.range.max);
+        return if is_other { 3 } else { 2 };
+    }
+    if same_start && same_range && before.dir == -ray.dir {
+        return 6;
+    }
+    let angle = before.dir.as_dvec3().distance(ray.dir.as_dvec3());
+    if same_start && same_range && angle < ANGLE {
+        return 4;
+    }
+    if same_dir && same_range && between < DISTANCE * size {
+        return 5;
+    }
+    let is_in_other_order = [
+        (before.origin.yzx(), before.dir.yzx()),
+        (before.origin.zxy(), before.dir.zxy()),
+    ]
+    .contains(&(ray.origin, ray.dir));
+    if is_in_other_order && same_range {
+        return 7;
+    }
+    let hit = ShapeCall::new(call.shape, before).hit();
+    let starts_there =
+        hit.is_some_and(|hit| hit.position.distance(ray.origin.as_dvec3()) < DISTANCE * size);
+    if starts_there { 8 } else { 1 }
+}
+
+impl ShapeCall {
+    /// Returns the call of the same shape with another ray.
+    fn with_ray(&self, ray: Ray) -> Self {
+        ShapeCall::new(self.shape, ray)
+    }
+}

@@ -109,17 +109,20 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let sides = bounds.max - bounds.min;
     let foil = (0..3).find(|&axis| 0.0 < sides[axis] && sides[axis] < 2.0 * FOIL * size);
-    if let Some(axis) = foil.filter(|_| rng.index(4) == 0) {
+    if let Some(axis) = foil.filter(|_| rng.coin()) {
         return slanted_across_foil(rng, bounds, axis);
     }
-    let dir = match rng.index(26) {
+    if sides.min_element() == 0.0 && rng.index(6) == 0 {
+        return past_a_corner(rng, bounds);
+    }
+    let dir = match rng.index(30) {
         0 | 1 => fields::diagonal(rng),
         2 | 3 => return slanted(rng, bounds),
         4 | 5 => return from_faces(rng, bounds),
         6 => return from_center(rng, bounds),
-        7..=9 => return from_the_origin(rng, bounds),
-        10 => return from_a_plane_of_axes(rng, bounds),
-        11 | 12 => return past_a_corner(rng, bounds),
+        7 => return from_a_plane_of_axes(rng, bounds),
+        8 | 9 => return past_a_corner(rng, bounds),
+        10..=16 => return from_the_origin(rng, bounds),
         _ => fields::direction(rng),
     };
     query_along(rng, bounds, dir)

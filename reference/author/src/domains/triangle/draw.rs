@@ -48,7 +48,7 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
         fields::place(rng, size) - factor * bounds.center()
     };
     let mut corners = corners.map(|corner| (start + factor * corner).as_vec3());
-    if rng.index(5) == 0 {
+    if rng.index(3) == 0 {
         corners = facing_along_a_diagonal(rng, corners).unwrap_or(corners);
     }
     let [p0, p1, p2] = corners.map(|corner| corner.as_dvec3());

@@ -167,7 +167,7 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
 /// Returns what draws each layout of clumps along each axis.
 fn in_clumps() -> Vec<Draw> {
     /// How many times as many primitives as shown each layout has. One of those with a gap has over 1,024.
-    const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 90, 1, 5, 2, 20, 1, 50];
+    const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 96, 1, 5, 2, 20, 1, 50];
     let layouts = [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate();
     let along_axes =
         layouts.flat_map(|(number, layout)| (0..3).map(move |axis| (number, layout, axis)));
@@ -230,13 +230,16 @@ fn of_many() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns what draws a crowd and, far from it, less than a sixteenth as many primitives.
+/// Returns what draws a crowd and, far from it, less than a sixteenth as many primitives. Both are multiples
+/// of a 64th of all, rounded up, so that builders with 64 chunks of equal numbers find the gap, too.
 fn of_outliers() -> Vec<Draw> {
     let counts = [(18, 60), (100, 180)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
         Box::new(move |rng| {
             let count = rng.integer(least, most) as usize;
-            let far = 1 + rng.index((count / 20).max(1));
+            let chunk = count.div_ceil(64);
+            let count = count / chunk * chunk;
+            let far = chunk * (1 + rng.index((count / (20 * chunk)).max(1)));
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let layout = Layout {
                 clumps: &[(0.0, 0.01, far), (0.9, 1.0, count - far)],

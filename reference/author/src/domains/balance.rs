@@ -1,4 +1,4 @@
-//! Draws calls so that each class occurs about equally often.
+//! Draws calls so that each class occurs about equally often, and those that are seldom drawn a little more.
 
 use std::collections::BTreeMap;
 
@@ -100,11 +100,11 @@ mod tests {
     }];
 
     #[test]
-    fn a_rare_class_is_chosen_as_often_as_a_usual_one() {
+    fn a_rare_class_is_chosen_at_least_as_often_as_a_usual_one() {
         let (mut balance, mut rng) = (Balance::new(ASPECTS), Seed(1).rng("balance"));
         let chosen = (0..40).map(|_| balance.choose(&mut rng, |rng| Some(rng.index(10) == 0)));
         let rare = chosen.flatten().filter(|&is_rare| is_rare).count();
-        assert!((15..=20).contains(&rare), "{rare}");
+        assert!((20..=27).contains(&rare), "{rare}");
         assert_eq!(balance.choose(&mut rng, |_| None), None);
     }
 }

@@ -32,12 +32,13 @@ impl Classes {
             counts: BTreeMap::new(),
             pairs: BTreeMap::new(),
         };
+        let pairs = pairs_of_aspects(domain);
         let mut judged_anywhere = BTreeSet::new();
         for asked in items.into_iter().flat_map(|item| &item.questions) {
             let Key::Table { judged, rows, .. } = &asked.key else {
                 let judged = judged_of_tree(&asked.key);
                 judged_anywhere.extend(judged.iter().map(|&name| name.to_owned()));
-                counted.add_all(&domain.classes(&asked.question), |_| {
+                counted.add_all(&pairs, &domain.classes(&asked.question), |_| {
                     std::iter::once(PRESENT)
                         .chain(judged.iter().copied())
                         .collect()
@@ -45,7 +46,7 @@ impl Classes {
                 continue;
             };
             judged_anywhere.extend(judged.iter().cloned());
-            counted.add_all(&domain.classes(&asked.question), |row| {
+            counted.add_all(&pairs, &domain.classes(&asked.question), |row| {
                 if rows.is_present(row) {
                     let quantities = judged.iter().map(String::as_str);
                     std::iter::once(PRESENT).chain(quantities).collect()
@@ -66,20 +67,21 @@ impl Classes {
 
     fn add_all<'a>(
         &mut self,
+        pairs: &[[usize; 2]],
         calls: &[Vec<Option<usize>>],
         columns: impl Fn(usize) -> Vec<&'a str>,
     ) {
-        for (row, classes) in calls.iter().enumerate() {
-            let classes = classes.iter().enumerate();
-            let classes = classes.filter_map(|(aspect, class)| Some((aspect, (*class)?)));
-            let classes: Vec<(usize, usize)> = classes.collect();
-            for &(aspect, class) in &classes {
+        for (row, of_call) in calls.iter().enumerate() {
+            let classes = of_call.iter().enumerate();
+            for (aspect, class) in classes.filter_map(|(aspect, class)| Some((aspect, (*class)?))) {
                 for column in columns(row) {
                     let key = (aspect, class, column.to_owned());
                     *self.counts.entry(key).or_default() += 1;
                 }
-                for &other in &classes {
-                    *self.pairs.entry([(aspect, class), other]).or_default() += 1;
+            }
+            for &[a, b] in pairs {
+                if let (Some(class), Some(other)) = (of_call[a], of_call[b]) {
+                    *self.pairs.entry([(a, class), (b, other)]).or_default() += 1;
                 }
             }
         }
@@ -105,19 +107,13 @@ impl Classes {
         cells
     }
 
-    /// Returns how often each pair of classes is asked that shall be asked together. Panics if the domain
-    /// has a pair of aspects that it does not have.
+    /// Returns how often each pair of classes is asked that shall be asked together.
     pub fn pairs(&self, domain: &dyn Domain) -> Vec<Pair> {
         /// The column of pairs in a domain's reasons.
         const COLUMN: &str = "pairs";
         let aspects = domain.aspects();
-        let find = |name: &str| {
-            let found = aspects.iter().position(|aspect| aspect.0 == name);
-            found.expect("a pair names two aspects of its domain")
-        };
         let mut pairs = Vec::new();
-        for names in domain.pairs() {
-            let [a, b] = names.map(find);
+        for (names, [a, b]) in domain.pairs().iter().zip(pairs_of_aspects(domain)) {
             for (i, class) in aspects[a].1.iter().enumerate() {
                 for (j, other) in aspects[b].1.iter().enumerate() {
                     let count = self.pairs.get(&[(a, i), (b, j)]).copied().unwrap_or(0);
@@ -173,6 +169,18 @@ impl Pair {
     pub fn is_missing(&self) -> bool {
         self.count == 0 && self.reason.is_none()
     }
+}
+
+/// Returns the places of the aspects in each pair of a domain. Panics if a pair has an aspect that the domain
+/// does not have.
+fn pairs_of_aspects(domain: &dyn Domain) -> Vec<[usize; 2]> {
+    let aspects = domain.aspects();
+    let place = |name: &str| {
+        let found = aspects.iter().position(|aspect| aspect.0 == name);
+        found.expect("a pair names two aspects of its domain")
+    };
+    let pairs = domain.pairs().iter();
+    pairs.map(|names| names.map(place)).collect()
 }
 
 /// Returns why an exam does not ask a class for what a column counts, if it has a reason.

@@ -51,7 +51,9 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     // The others give no answers at all, which says little about the cause.
     let _lock = lock_builds();
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
-    assert_recognised(&recognition, 100, SOLUTIONS.mistakes.len() / 100);
+    // Three end with a stack overflow, and get the hint of another that does so with the same lists. What
+    // this hint says about the answers is true of them, too.
+    assert_recognised(&recognition, 100, 3);
 }
 
 #[test]

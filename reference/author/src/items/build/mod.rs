@@ -9,7 +9,7 @@ mod unusual_inputs;
 
 use judging::exam::TreeCheck::{Partition, Split};
 use judging::exam::{ExamQuestion, TreeCheck};
-use protocol::Shape;
+use protocol::{Question, Shape};
 
 use super::meshes;
 use crate::domains::build::BUILD;
@@ -48,11 +48,18 @@ pub static TASK: AuthoredTask = AuthoredTask {
     finish: |seed, items| {
         let control = control(seed);
         for item in items {
+            // The first wrong answer is about numbers that a person can follow.
+            item.questions().sort_by_key(is_large);
             item.questions().push(control.clone());
         }
     },
     points: POINTS,
 };
+
+/// Returns whether a question is about over a thousand primitives.
+fn is_large(question: &ExamQuestion) -> bool {
+    matches!(&question.question, Question::Build { shapes, .. } if shapes.len() > 1000)
+}
 
 /// Returns the last question of every item, whose answer is wrong if there is no tree or if half of
 /// the primitives are in one leaf. Its primitives are far apart, so that no heuristic prefers to keep

@@ -186,8 +186,8 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         let crowd = build_question(&[LeafSize], meshes::soup(crowd, 100, 0.3, 2.5), 1);
         // The triangles are so large that the heuristic alone would make some leaves too large. In
         // the first question, there are so many triangles that some node is split at its very last
-        // plane. In the last question, they are so close together that buckets over the node's box
-        // do not separate them.
+        // plane. In the crowd, they are so close together that buckets over the node's
+        // box do not separate them.
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
         let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
         questions.push(crowd);

@@ -16,7 +16,8 @@ pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -
         return Some("there is no answer".to_owned());
     };
     let question = question.single(element);
-    // A picture may be wrong at some positions; this asks about one of them.
+    // A picture passes with a few wrong positions, but this position should be reported if it is
+    // wrong.
     if let Some(mismatches) = mismatches(&question, &answer) {
         let mismatch = mismatches.into_iter().flatten().next()?;
         let what = mismatch.aspect.name();
@@ -40,7 +41,7 @@ pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -
     })
 }
 
-/// Appends the size of the error, if it has one.
+/// Appends the size of the error, if any.
 fn with_size(what: &str, deviation: f64) -> String {
     if !(deviation > 1.0 && deviation.is_finite()) {
         return what.to_owned();
@@ -78,7 +79,7 @@ mod tests {
         }
     }
 
-    /// A miss, and a hit at this distance.
+    /// Returns a miss followed by a hit at this distance.
     fn answer(distance: f32) -> Answer {
         Answer::Hits(vec![
             ElementOutcome::Value(None),
@@ -93,15 +94,15 @@ mod tests {
         assert_eq!(element_error(&question, &answer(2.0), 1), None);
         let error = element_error(&question, &answer(2.002), 1).expect("this is wrong");
         assert!(error.starts_with("distance; the error is "), "{error}");
-        // The other element is correct, whatever this one is.
+        // The other element is correct regardless of this one.
         assert_eq!(element_error(&question, &answer(2.002), 0), None);
         let none = Answer::Hits(Vec::new());
         let error = element_error(&question, &none, 1);
         assert_eq!(error.as_deref(), Some("there is no answer"));
     }
 
-    /// Returns a picture of which both rays hit a wall. At the position `alternative`, a miss is correct
-    /// as well.
+    /// Returns a picture whose two rays both hit a wall. At the position `alternative`, a miss is
+    /// correct too.
     fn picture_of_a_wall(alternative: u32) -> ExamQuestion {
         let wall = Surface {
             depth: 2.0,

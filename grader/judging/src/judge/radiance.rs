@@ -1,6 +1,5 @@
 //! Compares path-traced pictures with the key. Both use common random numbers: the framework draws
-//! every random number from the stream that was used when the key was recorded, so there is no
-//! noise to tolerate.
+//! every random number from the stream used to record the key, so no tolerance for noise is needed.
 
 use std::iter;
 
@@ -51,7 +50,7 @@ impl Comparison for Radiance<'_> {
 }
 
 impl Radiance<'_> {
-    /// Returns the deviation of each pixel, or `None` if there are not as many as in the key.
+    /// Returns the deviation of each pixel, or `None` if their number differs from the key's.
     fn deviations(&self) -> Option<impl Iterator<Item = Deviation>> {
         let got = self.answer.value()?;
         let pixels = got.iter().zip(self.pixels);

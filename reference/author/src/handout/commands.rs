@@ -71,7 +71,7 @@ fn unknown_command(
     if !own {
         return Some(format!("cargo has no command {command}"));
     }
-    // Replace placeholders with valid values.
+    // Replace placeholders with valid values so that clap accepts them.
     let arguments = arguments.iter().map(|word| match *word {
         "ITEM#N" | "ITEM#NUMBER" => "sphere.from_inside#7",
         "N" => "60",
@@ -100,7 +100,7 @@ fn unknown_command(
     Some(format!("`{text}`: {first}"))
 }
 
-/// Returns the problem with a flag, or `None` if some command has it.
+/// Returns the problem with a flag, or `None` if some command accepts it.
 fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');

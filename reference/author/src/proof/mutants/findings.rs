@@ -1,4 +1,4 @@
-//! The outcomes of grading the mutants, compared with the expected ones.
+//! The outcomes of grading the mutants, compared with the expected outcomes.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub enum MutantOutcome {
 /// The outcomes of all mutants.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    /// The outcomes by the mutants' names.
+    /// The outcomes, keyed by the mutants' names.
     pub outcomes: BTreeMap<String, MutantOutcome>,
     /// The mutants that are expected to survive.
     pub equivalent: Vec<EquivalentMutant>,

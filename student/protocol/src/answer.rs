@@ -20,7 +20,7 @@ pub enum Answer {
     /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray spends
     /// inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
-    /// The answer to `Reflect`: a direction for each direction.
+    /// The answer to `Reflect`: a reflected direction for each direction.
     Directions(Vec<ElementOutcome<LocalDirection>>),
     /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),
@@ -103,7 +103,7 @@ impl<T> ElementOutcome<T> {
         }
     }
 
-    /// Returns the outcome with another value.
+    /// Returns the outcome with its value replaced.
     pub fn map<'a, U>(&'a self, change: impl FnOnce(&'a T) -> U) -> ElementOutcome<U> {
         match self {
             ElementOutcome::Value(value) => ElementOutcome::Value(change(value)),

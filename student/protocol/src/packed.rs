@@ -25,7 +25,7 @@ pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::O
     out.serialize_str(&STANDARD_NO_PAD.encode(bytes))
 }
 
-/// Deserialises a list from either form, whatever its length.
+/// Deserialises a list of any length from either form.
 pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {

@@ -13,7 +13,7 @@ use crate::view::{PIXEL_OFFSETS, Sample};
 
 /// The arguments of one call of a function.
 pub trait Input: Record + Data {
-    /// A picture each of whose positions is a row.
+    /// A picture with one row per position.
     type View: View<Self>;
 }
 
@@ -94,7 +94,7 @@ impl<I: Input> Rows<I> {
         Rows::List(rows.map(row).collect())
     }
 
-    /// Returns the picture whose positions are the rows, unless they are a list.
+    /// Returns the picture whose positions are the rows, or `None` if they are a list.
     pub fn view(&self) -> Option<&I::View> {
         match self {
             Rows::List(_) => None,

@@ -1,10 +1,10 @@
 //! Colours and line styles. Colour is never the only difference: the expected answer is drawn with
 //! solid lines and discs, and the submitted answer with dashed lines and crosses.
 //!
-//! A page may set the custom properties `--right`, `--wrong` and `--paper`, for example for its
-//! dark theme. The default colours are from Okabe and Ito, "Color Universal Design", 2008.
+//! A page may set the custom properties `--right`, `--wrong` and `--paper`, e.g. for a dark theme.
+//! The default colours are from Okabe and Ito, "Color Universal Design", 2008.
 
-/// A colour of the lines, areas and texts in a drawing.
+/// A colour for lines, areas and texts in a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
     /// The text colour of the page.

@@ -28,8 +28,8 @@ impl Window {
         let (min, max) = extent(points).unwrap_or((DVec2::NEG_ONE, DVec2::ONE));
         let available = panel.max - panel.min - 2.0 * MARGIN;
         let size = max - min;
-        // The lower bound avoids a division by zero for a single point, which is in the middle at
-        // any scale.
+        // The lower bound avoids a division by zero for a single point, which is centred at any
+        // scale.
         let scale = (available / size.max(DVec2::splat(1e-12))).min_element();
         Window {
             panel,
@@ -77,7 +77,7 @@ impl Window {
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
-        // Far enough away to look infinite, and near enough to be precise in `f64`.
+        // Far enough away to look infinite, but near enough to be precise in `f64`.
         let farthest = DVec2::splat(1e9);
         let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {

@@ -1,4 +1,4 @@
-//! Windows: no process groups, no signals, and files inherit their permissions.
+//! Windows, which has no process groups and no signals, and where files inherit their permissions.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -11,7 +11,7 @@ use super::{EntryKind, ExitReason, single_name};
 /// Does nothing: Windows has no process groups.
 pub fn use_own_process_group(_: &mut Command) {}
 
-/// Does nothing: the caller kills only the child itself.
+/// Does nothing: the caller only kills the child itself.
 pub fn kill_group(_: &Child) {}
 
 /// Returns how a process ended. A crash also results in an exit code, a large negative number.
@@ -41,9 +41,9 @@ pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
 
 /// Opens a regular file. Returns `None` for anything else. A symbolic link that replaced the file
 /// after the check would be followed, but on Windows, creating one needs privileges that students
-/// do not have.
+/// don't have.
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
-    // Checked first, because opening anything else may fail.
+    // Check the type first, because opening anything else may fail.
     if !path.symlink_metadata()?.is_file() {
         return Ok(None);
     }
@@ -56,7 +56,7 @@ pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// Opens a folder that the user has named. The path itself may contain links.
+    /// Opens a folder named by the user. The path itself may contain links.
     pub fn open(path: &Path) -> io::Result<Self> {
         path.read_dir()?;
         Ok(Folder(path.to_owned()))

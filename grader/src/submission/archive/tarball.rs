@@ -68,7 +68,7 @@ impl Tarball {
                     let size = entry.size();
                     listing.members.push(Member { path, size, index });
                 }
-                // Other entries are metadata, such as the header in which Git stores the commit id.
+                // Other entries are metadata, such as the header where Git stores the commit id.
                 Ok(_) => {}
             }
             Ok(())

@@ -1,4 +1,4 @@
-//! A small exam for tests: items of a question or two, made by hand.
+//! A small exam for tests, with handmade items of one or two questions.
 
 use glam::Vec3;
 use judging::exam::{Exam, ExamQuestion, Item, Key};

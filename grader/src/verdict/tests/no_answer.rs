@@ -15,7 +15,7 @@ fn faults() -> [(Fault, Verdict); 4] {
     ]
 }
 
-/// Every reason why a file is not compiled.
+/// Every reason for not compiling a file.
 fn reasons() -> [NotCompiled; 4] {
     [
         NotCompiled::Unreadable(TaskFileError::Missing),

@@ -1,5 +1,5 @@
-//! The bits that reach students in any case, since points and verdicts depend on the answers.
-//! `SECURITY.md` states them.
+//! The number of bits that reach students in any case, since points and verdicts depend on the
+//! answers. It is documented in `SECURITY.md`.
 
 use std::fs;
 use std::path::Path;
@@ -48,7 +48,7 @@ fn distinct_results(score: &Score, item: &Item, level: &str) -> usize {
     seen.len()
 }
 
-/// Returns the number of sets of hints that an item can have, including the empty one. It is an
+/// Returns the number of sets of hints that an item can have, including the empty one. This is an
 /// upper bound, because the hints of a task must agree.
 fn sets_of_hints(item: &Item) -> usize {
     let choose = |from: usize, count: usize| {

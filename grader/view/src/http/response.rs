@@ -30,7 +30,7 @@ pub struct Response {
 }
 
 /// Headers of every response. Nothing is loaded from elsewhere, no other page may embed this one,
-/// and no link tells another site the address.
+/// and no link reveals the address to another site.
 const HEADERS: [(&str, &str); 7] = [
     (
         "Content-Security-Policy",
@@ -60,7 +60,7 @@ impl Response {
         Response::new(status, "text/plain; charset=utf-8", format!("{text}\n"))
     }
 
-    /// Creates a response that says that there is nothing new.
+    /// Creates a response which says that there is nothing new.
     pub fn nothing() -> Self {
         Response {
             status: Status::NO_CONTENT,

@@ -15,7 +15,7 @@ pub enum Error {
     /// The grader or the machine is at fault.
     #[error("{0}")]
     Machine(String),
-    /// The required isolation is not available.
+    /// The required isolation isn't available.
     #[error("{0}")]
     Isolation(String),
 }

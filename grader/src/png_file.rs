@@ -19,7 +19,7 @@ pub fn data_uri(film: UVec2, pixels: &[Colour]) -> String {
 ///
 /// # Panics
 ///
-/// If the number of bytes does not match the size.
+/// If the number of bytes doesn't match the size.
 pub fn encode(film: UVec2, bytes: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, film.x, film.y);

@@ -268,7 +268,7 @@ impl Replayed {
         }
     }
 
-    /// Returns whether the answer is right, or what is wrong with it.
+    /// Describes whether the answer is right or how it is wrong.
     fn verdict(&self, item: &Item, exam_run: &ExamRun) -> String {
         let (question, element) = self.position;
         let single = item.questions[question].single(element);
@@ -284,7 +284,7 @@ impl Replayed {
 }
 
 /// Returns the expected answer as text, with alternatives on separate lines. A path-traced picture
-/// is not printed.
+/// isn't printed.
 fn expected_text(question: &ExamQuestion, element: usize) -> String {
     if let Question::Radiance { .. } = question.question {
         return "the reference's picture".to_owned();

@@ -1,8 +1,8 @@
 //! Numbers, paths and text of SVG images.
 //!
 //! The elements are markup by `maud`, which escapes text. It has no `<path/>`, so an element
-//! without contents is written `path d=(…) {}`. With a `;` instead of the braces, the element would
-//! not be closed, which is invalid XML.
+//! without contents is written `path d=(…) {}`. With a `;` instead of the braces, the element
+//! wouldn't be closed, which is invalid XML.
 
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ pub fn closed_path(points: &[DVec2]) -> String {
     path(points) + "Z"
 }
 
-/// Returns the text without control characters, which XML does not allow, not even escaped.
+/// Returns the text without control characters, which XML doesn't allow, not even escaped.
 pub fn text(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }

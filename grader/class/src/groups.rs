@@ -9,7 +9,7 @@ use crate::names::are_equal;
 use crate::roster::Member;
 
 /// Assigns entries that are named after a group and match nobody to the group's members, according
-/// to the roster or, if the group isn't in it, another list. Returns whether there are any.
+/// to the roster or, if the group isn't in it, another list. Returns whether any were found.
 pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let mut has_teams = false;
     for info in entries {
@@ -54,7 +54,7 @@ pub fn remove_repetitions(people: &mut Vec<Person>) {
 }
 
 /// Adds the other members of a group to the entry of the member who submitted, except those with a
-/// submission of their own. Returns whether there are any.
+/// submission of their own. Returns whether any were found.
 pub fn add_group_members(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let members = rows.iter().filter(|row| row.list == ListKind::Roster);
     let people = entries.iter().flat_map(|info| info.people.clone());

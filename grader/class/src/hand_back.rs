@@ -34,7 +34,7 @@ pub struct HandBack {
     pub archive: Vec<u8>,
     /// The number of pages in the archive.
     pub pages: usize,
-    /// The people whose pages are not in the archive, with the reasons.
+    /// The people whose pages aren't in the archive, with the reasons.
     pub left_out: Vec<String>,
 }
 

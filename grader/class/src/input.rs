@@ -124,7 +124,7 @@ fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec
     }
 }
 
-/// Why an entry has no gradable submission. This doesn't affect other entries.
+/// Why an entry contains no gradable submission. This doesn't affect other entries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCollected {
     /// The entry contains nothing to grade.

@@ -64,7 +64,7 @@ pub struct KeptList {
 pub type KeptLists = BTreeMap<ListKind, KeptList>;
 
 impl KeptList {
-    /// Returns whether the other list has the same contents.
+    /// Returns whether the contents of both lists are the same.
     pub fn is_same(&self, other: &KeptList) -> bool {
         (&self.hash, &self.column) == (&other.hash, &other.column)
     }

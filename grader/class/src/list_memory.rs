@@ -1,6 +1,6 @@
 //! Remembers the lists that the results in an output folder depend on. The folder contains a copy
-//! of each. If a list is not given to a later run, the run uses the copy, so that the points,
-//! extensions and names in it are not lost.
+//! of each. If a list isn't given to a later run, the run uses the copy, so that the points,
+//! extensions and names in it aren't lost.
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -119,7 +119,7 @@ impl UsedLists {
         Ok(())
     }
 
-    /// Writes the copies and `run.json` into an output folder, and removes copies that it does not
+    /// Writes the copies and `run.json` into an output folder, and removes copies that it doesn't
     /// name. File names contain the hash, so that the copies of the last run are kept until
     /// `run.json` is written.
     pub fn save(&self, store: &Store, run: &Run) -> Result<(), Error> {

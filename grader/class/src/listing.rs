@@ -19,10 +19,10 @@ pub struct Node {
     pub name: String,
     /// The path of the file, folder or link.
     pub path: PathBuf,
-    /// The contents of a folder, sorted by name; `None` for a file. A link to a folder has no
-    /// contents.
+    /// The contents of a folder, sorted by name. `None` for a file, and empty for a link to a
+    /// folder.
     pub children: Option<Vec<Node>>,
-    /// Whether this is a link. Links are not followed, because they may lead to another student's
+    /// Whether this is a link. Links aren't followed, because they may lead to another student's
     /// files.
     pub is_link: bool,
 }
@@ -44,7 +44,7 @@ impl Node {
         children.find(|node| node.name == name && !node.is_link)
     }
 
-    /// Returns whether this file has the name of an archive, even if the format is not supported.
+    /// Returns whether this file has the name of an archive, even if the format isn't supported.
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }

@@ -75,7 +75,7 @@ pub fn complete_entries(
 }
 
 impl ListFindings {
-    /// Prints a warning for each extension in the policy that does not belong to one person.
+    /// Prints a warning for each extension in the policy that doesn't belong to one person.
     pub fn warn_about_extensions(&self, policy: &Policy) {
         let people = self.people.iter().chain(&self.missing);
         warn_about_extensions(policy, &people.collect::<Vec<_>>());
@@ -142,7 +142,7 @@ mod tests {
     use crate::graded_class::tests::{lists, person};
     use crate::list_kind::ListKind::{self, Canvas, Gradescope, Roster};
 
-    /// Completes the entries. Returns the people on these lists who are not in any entry.
+    /// Completes the entries. Returns the people on these lists who aren't in any entry.
     fn missing(texts: &[(ListKind, &str)], entries: &mut [&mut EntryInfo]) -> Vec<Person> {
         let (_folder, lists) = lists(texts);
         complete_entries(&lists, &RAYS, entries).unwrap().missing

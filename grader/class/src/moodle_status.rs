@@ -36,7 +36,7 @@ pub struct MoodleStatus<'a> {
     pub unsubmitted: Option<&'a str>,
     /// The end of an extension, in Moodle's format.
     pub extension: Option<&'a str>,
-    /// A sentence that is not recognised.
+    /// A sentence that isn't recognised.
     pub unknown: Option<&'a str>,
 }
 

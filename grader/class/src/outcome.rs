@@ -123,7 +123,7 @@ pub struct Stamp {
     /// The cache key: a hash of the submission and everything else its score depends on. Empty if
     /// there is no score.
     pub key: String,
-    /// The round in which the entry was graded.
+    /// The round when the entry was graded.
     pub round: u32,
     /// The result, without its id (the folder's name) and its score (stored in a separate file).
     #[serde(flatten)]

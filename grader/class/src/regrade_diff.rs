@@ -1,5 +1,5 @@
-//! Compares the scores of a regrade with the earlier ones: whose points changed, in which items,
-//! and why.
+//! Compares the scores of a regrade with the earlier ones: whose points changed, for what items and
+//! why.
 
 use std::collections::BTreeSet;
 
@@ -66,7 +66,7 @@ fn find_drifts(
     Ok(drifts)
 }
 
-/// Returns sentences about the entries in the stores that are not among `ids`, each with its people
+/// Returns sentences about the entries in the stores that aren't among `ids`, each with its people
 /// and points. An entry in several stores is only named once.
 pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Error> {
     let mut known: BTreeSet<String> = ids.iter().map(|id| (*id).to_owned()).collect();
@@ -97,7 +97,7 @@ pub struct Drift {
     pub id: String,
     /// The points before the regrade.
     pub was: u32,
-    /// The points after the regrade; `None` if the entry no longer has a score.
+    /// The points after the regrade. `None` if the entry no longer has a score.
     pub now: Option<u32>,
     /// The items whose points changed.
     pub items: Vec<ItemChange>,

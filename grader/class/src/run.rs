@@ -64,7 +64,7 @@ pub struct Settings {
     pub grader: String,
     /// The hash of the compiler, the dependencies and the reference.
     pub built_with: String,
-    /// The isolation level at which the submissions are graded.
+    /// The isolation level used to grade the submissions.
     pub isolation: String,
     /// The command-line options that affect scores.
     pub options: String,

@@ -37,8 +37,7 @@ pub struct ClassSummary {
     pub undated: usize,
     /// The number of submissions without final points because their submission time is unclear.
     pub unclear_times: usize,
-    /// The number of submissions that are not used because another submission by the same person
-    /// is.
+    /// The number of submissions that aren't used because another submission by the same person is.
     pub superseded: usize,
     /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
@@ -66,14 +65,14 @@ pub struct TaskDistribution {
     pub points: Distribution,
 }
 
-/// An item that some submissions failed, which means that they did not get its full points.
+/// An item that some submissions failed, which means that they didn't get its full points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailedItem {
     /// The item's id, such as `sphere.from_inside`.
     pub item: String,
     /// The item's title: a sentence that describes the correct behaviour.
     pub title: String,
-    /// The number of submissions that did not get full points for this item.
+    /// The number of submissions that didn't get full points for this item.
     pub count: usize,
 }
 

@@ -8,7 +8,7 @@ use judging::sanitize::sanitize_line;
 
 use crate::error::Error;
 
-/// A CSV table. Cells are kept as text: numbers and dates are not parsed.
+/// A CSV table. Cells are kept as text: numbers and dates aren't parsed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
     /// The cells of the first row, which name the columns.

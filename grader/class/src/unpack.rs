@@ -1,5 +1,5 @@
-//! Unpacks an export's archive into a temporary folder. Files that are not needed later are created
-//! empty, so that they do not fill the disk. A file that cannot be unpacked is reported without
+//! Unpacks an export's archive into a temporary folder. Files that aren't needed later are created
+//! empty, so that they don't fill the disk. A file that cannot be unpacked is reported without
 //! affecting the others.
 
 use std::fs;

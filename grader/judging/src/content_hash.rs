@@ -26,8 +26,7 @@ impl ContentHash {
     }
 }
 
-/// Returns the hash of a single file, as published in score files: a prefix of the output of
-/// `b2sum`.
+/// Returns the hash of a single file, as published in score files: a prefix of `b2sum`'s output.
 pub fn file_hash(bytes: &[u8]) -> String {
     blake2b_simd::blake2b(bytes).to_hex()[..DIGITS].to_owned()
 }

@@ -1,8 +1,7 @@
-//! Data for drawings that explain the correct answer, such as the order in which a correct
-//! traversal visits the nodes.
+//! Data for drawings that explain the correct answer, such as a correct traversal's order of nodes.
 //!
 //! The data is stored in the exam file because the grader contains no solution that could compute
-//! it. It is not judged and not sent to the probe.
+//! it. It isn't judged and not sent to the probe.
 
 use glam::Vec3;
 use protocol::{Geometry, Interval, Question, Rows, packed};
@@ -71,7 +70,7 @@ pub struct LevelNode {
 const OTHER_KIND: &str = "the drawing data is of another kind than the question";
 
 impl DrawingData {
-    /// Returns whether there is no data.
+    /// Returns whether this is [`DrawingData::None`].
     pub fn is_none(&self) -> bool {
         match self {
             DrawingData::None => true,
@@ -79,7 +78,7 @@ impl DrawingData {
         }
     }
 
-    /// Returns why the data does not fit `question`, or `None` if it fits.
+    /// Returns why the data doesn't fit `question`, or `None` if it fits.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {

@@ -41,9 +41,9 @@ pub fn affects_surroundings(c: char) -> bool {
     c.is_control() || is_direction_mark || is_separator || is_invisible(c)
 }
 
-/// Returns whether a character has no width and no effect on the text around it: soft hyphens, zero
-/// width spaces, fillers, tags and variation selectors. Such a character makes two names differ
-/// that look the same.
+/// Returns whether a character is invisible and doesn't affect the text around it: soft hyphens,
+/// zero width spaces, fillers, tags and variation selectors. Such a character makes two names
+/// differ that look the same.
 fn is_invisible(c: char) -> bool {
     matches!(
         c,

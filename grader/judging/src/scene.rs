@@ -21,7 +21,7 @@ pub struct QuestionScene<'a> {
 
 impl<'a> QuestionScene<'a> {
     /// Returns the scene of a question. Returns `None` for a path-traced picture, which has a scene
-    /// file, and for a question that is about neither shapes nor a box.
+    /// file, and for a question that isn't about shapes or a box.
     pub fn of(question: &'a Question) -> Option<Self> {
         if let Question::Build {
             shapes,

@@ -30,13 +30,13 @@ pub struct MistakeSignatures {
     /// The correct answers to these elements.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "packed::text")]
     pub correct_answers: Vec<ObservedAnswer>,
-    /// The wrong answers. A mistake that is not listed answers all elements correctly.
+    /// The wrong answers. A mistake that isn't listed answers all elements correctly.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistake_answers: Vec<MistakeAnswers>,
 }
 
 impl MistakeSignatures {
-    /// Returns whether there are no signatures.
+    /// Returns whether the list of signatures is empty.
     pub fn is_empty(&self) -> bool {
         self.elements.is_empty()
     }
@@ -65,7 +65,7 @@ pub enum ObservedAnswer {
     Tree(Option<(String, f32)>),
     /// The code panicked with an unclassified message.
     Panicked,
-    /// The whole item has no answer.
+    /// The entire item was not answered.
     NoAnswer(NoAnswerReason),
     // Last, so that exams from before this variant can still be read.
     /// The code panicked with an error of this kind.

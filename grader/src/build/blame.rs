@@ -6,7 +6,7 @@ use crate::build::diagnostics::Diagnostic;
 use crate::handed_out::{ChangedDeclaration, TaskFile, changed_declaration};
 use crate::submission::{Submission, TaskFileError};
 
-/// Why a file is not part of the program.
+/// Why a file isn't part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompiled {
     /// The file is missing or unreadable.
@@ -25,7 +25,7 @@ pub enum NotCompiled {
 }
 
 impl NotCompiled {
-    /// Returns a file's errors as a reason, or `None` if there are none.
+    /// Returns a file's errors as a reason, if any.
     fn of_errors<'a>(file: &str, errors: impl Iterator<Item = &'a Diagnostic>) -> Option<Self> {
         let errors: Vec<&Diagnostic> = errors.collect();
         let first = errors.first()?;

@@ -19,7 +19,7 @@ pub struct Diagnostic {
     rendered: Option<String>,
 }
 
-/// The code of an error, such as `E0308`. Syntax errors have no code.
+/// The code of an error, such as `E0308`. Syntax errors don't have one.
 #[derive(Clone, Debug, Deserialize)]
 struct ErrorCode {
     code: String,

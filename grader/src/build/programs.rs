@@ -44,7 +44,7 @@ pub struct Build {
 pub enum SubstitutedProgram<'a> {
     /// The program, by its path.
     Program(&'a Path),
-    /// The submission's file does not compile with these parts.
+    /// The submission's file doesn't compile with these parts.
     NotCompiled,
     /// There is no reference, there are no parts for this file, or the submission's file is missing
     /// or doesn't compile.
@@ -64,7 +64,7 @@ impl Build {
     }
 
     /// Returns an error unless the control program can be compiled and run. If it can, the machine
-    /// is not why another program was killed.
+    /// isn't why another program was killed.
     pub fn check_run(&self) -> io::Result<()> {
         trial::check_run(&self.rustc, &self.build_dir.path().join("control"))
     }
@@ -79,8 +79,8 @@ impl Build {
     }
 
     /// Returns an error unless the starter, compiled in the same way as this program, can be
-    /// started. If it can, the machine is not why the program can't. `cpu` is the starter's CPU
-    /// time limit.
+    /// started. If it can, the machine isn't why the program can't. `cpu` is the starter's CPU time
+    /// limit.
     pub fn check_start(&self, program: &Path, cpu: Duration) -> io::Result<()> {
         let mut substitutions = self.substitutions.iter();
         let is_of = |substitution: &&Substitution| {

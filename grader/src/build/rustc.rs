@@ -45,7 +45,7 @@ const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again
 /// Result of an attempt to compile.
 #[derive(Debug)]
 enum CompileAttempt {
-    /// The outcome. The machine is not the cause.
+    /// The outcome. The machine isn't the cause.
     Certain(CompileOutcome),
     /// The compiler failed without an error that says why.
     Unexplained(CompileOutcome),

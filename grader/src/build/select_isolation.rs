@@ -1,4 +1,4 @@
-//! Selects the isolation level for grading. If the requested level is not available, nothing is
+//! Selects the isolation level for grading. If the requested level isn't available, nothing is
 //! graded.
 
 use crate::build::{Builder, SelfTestError};

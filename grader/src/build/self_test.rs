@@ -18,7 +18,7 @@ const END: &str = "end";
 /// Contents of a file that the sandbox must hide.
 const SECRET: &str = "a secret that no submission may read";
 
-/// Why an isolation level is not available.
+/// Why an isolation level isn't available.
 #[derive(Debug, thiserror::Error)]
 pub enum SelfTestError {
     /// A part of the sandbox cannot be set up, or a file of the test cannot be written.

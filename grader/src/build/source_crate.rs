@@ -63,7 +63,7 @@ pub enum CompileOutcome {
     Done(PathBuf),
     /// The source code has errors.
     Errors(Vec<Diagnostic>),
-    /// The compiler did not finish, or it failed and no error could be parsed from its messages.
+    /// The compiler didn't finish, or it failed and no error could be parsed from its messages.
     Failed(String),
 }
 

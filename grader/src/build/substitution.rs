@@ -1,11 +1,11 @@
-//! Compiles a file of a submission with the reference's parts in place of the other files, so that a
-//! mistake in the box test does not also cost the points for traversing a tree.
+//! Compiles a file of a submission with the reference's parts in place of the other files, so that
+//! a mistake in the box test doesn't also cost the points for traversing a tree.
 //!
 //! The parts are some of the reference's files, compiled once. The submission's file is compiled
 //! only against their metadata, and linked with them in a step that reads none of its source. The
-//! reference's own version of the file is not used. The scaffold around the file may replace some
-//! of the file's functions: around `bvh.rs`, it replaces the submission's `build` with a plain one,
-//! so that a mistake in building doesn't also cost the points for traversal.
+//! reference's own version of the file isn't used. The scaffold around the file may replace some of
+//! the file's functions: around `bvh.rs`, it replaces the submission's `build` with a plain one, so
+//! that a mistake in building doesn't also cost the points for traversal.
 
 use std::fs;
 use std::io;
@@ -171,7 +171,7 @@ pub struct Substitution {
     pub parts: ReferenceParts,
     /// The compiler, which compiles the program on the first request.
     pub rustc: Rustc,
-    /// The build folder, which does not exist yet.
+    /// The build folder, which doesn't exist yet.
     pub folder: PathBuf,
     /// The result of compiling the program, once it has been requested.
     pub program: OnceLock<Option<PathBuf>>,

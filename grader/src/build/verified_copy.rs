@@ -20,7 +20,7 @@ pub(super) enum OutputFile {
     Verified(PathBuf),
     /// The file has this many bytes, which is too large.
     TooLarge(u64),
-    /// There is no such file, or it is not a regular file that begins like a program or library.
+    /// The file is missing, or it isn't a regular file that begins like a program or library.
     Missing,
 }
 

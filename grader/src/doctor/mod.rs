@@ -82,7 +82,7 @@ impl fmt::Display for Diagnosis {
     }
 }
 
-/// Returns advice for a level that is not available, unless the reason already says what to do.
+/// Returns advice for a level that isn't available, unless the reason already says what to do.
 fn remedy(why: &SelfTestError) -> Option<&'static str> {
     match why {
         SelfTestError::NotCompiled(_) => Some(

@@ -1,7 +1,7 @@
 //! An SVG image, built element by element in page units: x to the right, y down.
 //!
-//! Coordinates may come from submissions, so elements with points that are not finite or far off
-//! the page are skipped. An image that has reached [`MAX_BYTES`] accepts no more elements.
+//! Coordinates may come from submissions, so elements with points that aren't finite or far off the
+//! page are skipped. An image that has reached [`MAX_BYTES`] accepts no more elements.
 
 use glam::{DVec2, dvec2};
 use maud::{Markup, PreEscaped, Render, html};
@@ -18,7 +18,7 @@ pub(super) const WIDTH: f64 = 340.0;
 const FONT_SIZE: f64 = 12.5;
 /// The size of a drawing, in bytes, above which no more elements are added.
 const MAX_BYTES: usize = 120_000;
-/// The limit for the absolute value of a coordinate. Points beyond it are not drawn.
+/// The limit for the absolute value of a coordinate. Points beyond it aren't drawn.
 const MAX_COORDINATE: f64 = 1e4;
 /// The background colour of the page.
 const PAPER: &str = "var(--paper, Canvas)";

@@ -69,7 +69,7 @@ pub(super) struct Stroke {
 }
 
 impl LineStyle {
-    /// Returns the attributes of a line of this style.
+    /// Returns the attributes for this line style.
     pub(super) fn stroke(self) -> Stroke {
         let (ink, opacity, width, dashes) = match self {
             LineStyle::Outline => (Ink::Text, None, "1.5", None),

@@ -129,7 +129,7 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
     None
 }
 
-/// Returns the value of an element, or `None` if there is none, e.g. because the code panicked.
+/// Returns the value of an element, or `None` if it is missing, e.g. because the code panicked.
 fn value<T>(outcomes: &[ElementOutcome<T>], element: usize) -> Option<&T> {
     match outcomes.get(element)? {
         ElementOutcome::Value(value) => Some(value),

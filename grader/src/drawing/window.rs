@@ -55,7 +55,7 @@ impl Window {
     }
 
     /// Converts a point to page coordinates and clamps it to the panel. The flag is true if the
-    /// point was outside. Returns `None` if the point is not finite.
+    /// point was outside. Returns `None` if the point isn't finite.
     pub(super) fn pin_to_border(&self, at: DVec2) -> Option<(DVec2, bool)> {
         let (min, max) = (self.panel.min + 7.0, self.panel.max - 7.0);
         let page = self.page_position(at);
@@ -95,7 +95,7 @@ impl Window {
     }
 }
 
-/// Returns the smallest and largest coordinates of the finite points, or `None` if there are none.
+/// Returns the smallest and largest coordinates of the finite points, if any.
 pub(super) fn extent(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
     let finite = points.into_iter().filter(|point| point.is_finite());
     finite.fold(None, |so_far, point| match so_far {

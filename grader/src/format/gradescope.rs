@@ -139,7 +139,7 @@ fn test(
     test
 }
 
-/// Returns Gradescope's status, or `None` for an item that is not graded yet.
+/// Returns Gradescope's status, or `None` for an item that isn't graded yet.
 fn status(verdict: &Verdict) -> Option<&'static str> {
     match verdict.kind() {
         VerdictKind::Passed => Some("passed"),

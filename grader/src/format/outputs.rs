@@ -145,8 +145,8 @@ fn checkout() -> PathBuf {
     named.unwrap_or_else(|| env::current_dir().unwrap_or_default())
 }
 
-/// Returns the folder of the task files relative to the checkout. The result is empty if the files are
-/// not below the checkout.
+/// Returns the folder of the task files relative to the checkout. The result is empty if the files
+/// aren't below the checkout.
 fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut) -> String {
     let below = handed_out.folders_in(submitted).next();
     let folder = below.and_then(|below| submitted.join(below).canonicalize().ok());

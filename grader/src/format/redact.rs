@@ -11,7 +11,7 @@ use crate::score::{
 };
 
 /// Returns the score without the parts that students may not see now. Every field is listed here,
-/// so that a new field is not shown before someone decides who may see it.
+/// so that a new field isn't shown before someone decides who may see it.
 pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
     Score {
         schema: score.schema,
@@ -63,7 +63,7 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
 }
 
 /// Removes everything from an item that students may not see at this visibility, including the ids
-/// of `hidden` items. Every field is listed here, so that a new field is not shown before someone
+/// of `hidden` items. Every field is listed here, so that a new field isn't shown before someone
 /// decides who may see it.
 pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
     let verdict = without_hidden_id(&item.verdict, hidden);

@@ -21,7 +21,7 @@ pub struct FormatSpec {
     /// The environment variable with the path of a file that the platform shares between commands.
     /// If it is set, the text is appended to that file unless a different path is requested.
     pub shared_file: Option<&'static str>,
-    /// Renders the file. `None` for the score file, which is not for students.
+    /// Renders the file. `None` for the score file, which isn't for students.
     pub render: Option<Render>,
     /// Renders commands for the CI runner, which are printed to standard output.
     pub runner_commands: Option<Render>,
@@ -30,7 +30,7 @@ pub struct FormatSpec {
 /// A renderer. It only gets what students may see.
 pub type Render = fn(&StudentView, &FormatContext) -> String;
 
-/// Facts about a submission that are not part of its score.
+/// Facts about a submission that aren't part of its score.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormatContext {
     /// The folder of the task files in the repository, such as `student/src`. It is empty if they
@@ -54,7 +54,7 @@ pub struct MethodLocation {
 }
 
 impl FormatContext {
-    /// Returns the name of the file with a task's method. It is empty if the task is not one of the
+    /// Returns the name of the file with a task's method. It is empty if the task isn't one of the
     /// assignment's.
     pub fn file_of(&self, task: Task) -> &str {
         self.methods.get(&task).map_or("", |method| method.file)

@@ -65,7 +65,7 @@ impl StudentView {
         shows_everything(&self.all_items).then_some(build_ms + exam_ms)
     }
 
-    /// Returns a notice if grading is not complete.
+    /// Returns a notice if grading isn't complete.
     pub fn unfinished_notice(&self) -> Option<String> {
         let all = self.all_items.len();
         let graded = self
@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(visibility(&one, "triangle.edge"), Visibility::Points);
         assert_eq!(visibility(&one, "triangle.inside"), Visibility::Feedback);
         assert_eq!(visibility(&one, "camera.corners"), Visibility::All);
-        // Items that are not open anyway stay unchanged.
+        // Items that aren't open anyway stay unchanged.
         let all = view("triangle = 'points'\n'triangle.edge' = 'hidden'");
         assert_eq!(visibility(&all, "triangle.inside"), Visibility::Points);
         assert_eq!(visibility(&all, "triangle.edge"), Visibility::Hidden);

@@ -163,7 +163,7 @@ impl<'a> Grader<'a> {
         source_paths(self.options, &self.workspace)
     }
 
-    /// Reads the submission's files as they are now.
+    /// Reads the current version of the submission's files.
     pub fn collect(&self) -> Result<Submission, Error> {
         collect(self.options, &self.workspace)
     }
@@ -218,8 +218,8 @@ impl<'a> Grader<'a> {
         })
     }
 
-    /// Returns the report's files, or `None` if only some tasks are graded, since their points are
-    /// not a score.
+    /// Returns the report's files, or `None` if only some tasks are graded, since their points
+    /// aren't a score.
     pub fn files(&self, submission: &Submission, reload: Reload) -> Option<ReportFiles> {
         let folder = match &self.options.out {
             Some(folder) => folder.clone(),

@@ -50,7 +50,7 @@ pub struct HandIn {
     pub archive: PathBuf,
     /// The submission read back from the archive.
     submission: Submission,
-    /// The task files in the folder, some of which may be missing or unreadable.
+    /// The task files in the folder. Some may be missing or unreadable.
     original: Submission,
     /// The compiler's errors and notes about files.
     build: BuildReport,

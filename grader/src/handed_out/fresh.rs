@@ -29,7 +29,7 @@ impl HandedOut {
     ///
     /// # Panics
     ///
-    /// If the assignment has no such task.
+    /// If the task isn't part of the assignment.
     pub fn task_method(&self, task: Task, text: &str) -> Result<TaskMethod, String> {
         let info = self.assignment.info(task);
         let file = self.task_file(info.file).expect("tasks have a task file");
@@ -72,7 +72,7 @@ pub struct ChangedDeclaration {
 }
 
 /// Returns the first declaration in a file that differs from the starter's in more than its format.
-/// Methods that are not found are left to the compiler.
+/// Methods that aren't found are left to the compiler.
 pub fn changed_declaration(file: &TaskFile, text: &str) -> Option<ChangedDeclaration> {
     let own = methods(text).ok()?;
     starter_methods(file).into_iter().find_map(|given| {

@@ -85,7 +85,7 @@ struct Scan<'a> {
 
 impl Scan<'_> {
     fn add(&mut self, token: &Token, bytes: Range<usize>) -> Result<(), &'static str> {
-        // An ordinary comment above an item is not part of it.
+        // An ordinary comment above an item isn't part of it.
         if let TokenKind::Whitespace
         | TokenKind::LineComment { doc_style: None }
         | TokenKind::BlockComment {

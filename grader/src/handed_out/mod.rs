@@ -26,7 +26,7 @@ pub use tokens::without_comments;
 /// The assignments that `--assignment` selects from. The first is the default.
 pub static ASSIGNMENTS: [&HandedOut; 1] = [&RAYS];
 
-/// An assignment as it is handed out.
+/// An assignment as handed out to students.
 #[derive(PartialEq, Eq)]
 pub struct HandedOut {
     /// The assignment's tasks.

@@ -2,8 +2,8 @@
 
 use ra_ap_rustc_lexer::{FrontmatterAllowed, TokenKind, tokenize};
 
-/// Returns the texts of the tokens of Rust source code, without white space and comments. Works on
-/// any text: anything that isn't a Rust token is kept unchanged.
+/// Returns the tokens of Rust source code as text, without white space and comments. Works on any
+/// text: anything that isn't a Rust token is kept unchanged.
 pub(super) fn tokens(text: &str) -> Vec<&str> {
     let mut rest = text;
     let mut found = Vec::new();

@@ -10,7 +10,7 @@ pub enum TaskSelection {
     /// All tasks.
     #[default]
     All,
-    /// Some of the tasks. Their points are not a score.
+    /// Some of the tasks. Their points aren't a score.
     Only(Vec<Task>),
 }
 

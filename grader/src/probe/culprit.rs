@@ -73,7 +73,7 @@ impl Culprit {
         for (number, question) in questions.enumerate() {
             match probe.ask([&question], LIMITS) {
                 Ok(_) => {}
-                // The fault is not the question's.
+                // The fault isn't the question's.
                 Err(fault) if fault.is_doubtful() => break,
                 Err(_) => {
                     faulty = Some(number);

@@ -16,7 +16,7 @@ pub struct ItemLimits {
     /// The CPU time limit of a program that prints a lot. Printing on every call takes a thousand
     /// times as long as a correct answer.
     pub cpu_if_printing: Duration,
-    /// The limit on the time the program waits, e.g. sleeps. Waiting for a processor is not
+    /// The limit on the time the program waits, e.g. sleeps. Waiting for a processor isn't
     /// included, because on a busy machine it says nothing about the code.
     pub waiting: Duration,
 }

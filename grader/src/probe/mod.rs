@@ -154,8 +154,8 @@ impl Probe {
         }
     }
 
-    /// Ends the probe. Returns the beginning of what the submission printed, without the messages
-    /// of the Rust runtime.
+    /// Ends the probe. Returns the beginning of the submission's output, without the messages of
+    /// the Rust runtime.
     pub fn finish(self) -> String {
         self.program.finish()
     }

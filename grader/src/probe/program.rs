@@ -45,7 +45,7 @@ pub struct RunningProgram {
 }
 
 impl RunningProgram {
-    /// Starts a program. On Linux it ends with the thread that started it, so that it does not
+    /// Starts a program. On Linux it ends with the thread that started it, so that it doesn't
     /// outlive a killed grader.
     pub fn start(program: &Path, sandbox: &Sandbox, limits: Limits) -> io::Result<Self> {
         let folder = program.parent().unwrap_or(Path::new("."));
@@ -78,7 +78,7 @@ impl RunningProgram {
                 self.process.kill();
                 Err(Fault::Protocol(error.to_string()))
             }
-            // A child process of the program may keep the pipe open, so do not wait for it to close.
+            // A child process of the program may keep the pipe open, so don't wait for it to close.
             Err(RecvTimeoutError::Timeout) if self.process.exit_reason().is_some() => {
                 match self.streams.next(OUTPUT_TIMEOUT) {
                     Ok(Ok(frame)) => Ok(Some(frame)),
@@ -94,7 +94,7 @@ impl RunningProgram {
         self.output.total()
     }
 
-    /// Kills the program. Returns the beginning of what it printed, without the messages of the Rust
+    /// Kills the program. Returns the beginning of its output, without the messages of the Rust
     /// runtime.
     pub fn finish(mut self) -> String {
         self.process.kill();

@@ -1,5 +1,5 @@
 //! The threads that write to and read from a probe's pipes, so that a probe that never reads or
-//! never answers does not block the grader.
+//! never answers doesn't block the grader.
 //!
 //! Questions and answers are exchanged in batches, because a system call or waking a thread takes
 //! as long as answering many questions.

@@ -1,4 +1,4 @@
-//! The answers drawn in an HTML report. They are not part of the score file, which is for programs
+//! The answers drawn in an HTML report. They aren't part of the score file, which is for programs
 //! and should stay small.
 
 use std::collections::BTreeMap;

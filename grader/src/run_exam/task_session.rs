@@ -201,7 +201,7 @@ impl<'a> TaskSession<'a> {
     }
 
     /// If the outcome is a fault, counts it towards stopping the task. Faults that another task may
-    /// have caused are not counted.
+    /// have caused aren't counted.
     pub fn count_fault(&mut self, outcome: &ItemOutcome) {
         let ItemOutcome::Fault { fault, .. } = outcome else {
             return;

@@ -33,7 +33,7 @@ pub enum Profile {
 /// The launcher's instructions for starting one program.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LaunchRequest {
-    /// The required level of isolation. If it is not available, nothing is started.
+    /// The required level of isolation. If it isn't available, nothing is started.
     pub(super) level: Isolation,
     /// The grader's process id. A probe is killed when the grader ends.
     pub(super) grader: u32,

@@ -41,8 +41,8 @@ pub struct Sandbox {
     launcher: PathBuf,
 }
 
-/// Runs this process as the launcher if it was started as one, and returns its exit code. Returns
-/// `None` otherwise.
+/// Runs this process as the launcher if it was started as one. Returns its exit code in that case,
+/// otherwise `None`.
 ///
 /// Every program that uses a [`Sandbox`] must call this first in its `main`.
 pub fn run_as_launcher() -> Option<ExitCode> {
@@ -51,7 +51,7 @@ pub fn run_as_launcher() -> Option<ExitCode> {
         return None;
     }
     Some(platform::launch(arguments).unwrap_or_else(|error| {
-        // The grader reads this from standard error, since the program itself has not been started.
+        // The grader reads this from standard error, since the program itself hasn't been started.
         eprint!("{error}");
         ExitCode::FAILURE
     }))

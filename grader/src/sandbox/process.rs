@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::machine::system::{self, ExitReason, Limits, ProcessTime};
 use crate::sandbox::launch_request::READY;
 
-/// The maximum length of a launcher's error message, in bytes. The rest is not read.
+/// The maximum length of a launcher's error message, in bytes. The rest isn't read.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
 /// A running program, with pipes to its three standard streams. The program is killed when this

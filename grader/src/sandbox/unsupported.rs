@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io;
 use std::process::ExitCode;
 
-/// Returns an error that says that this system has no sandbox.
+/// Returns an error, since this system doesn't support a sandbox.
 pub(super) fn launch(_: impl Iterator<Item = OsString>) -> io::Result<ExitCode> {
     Err(io::Error::new(
         io::ErrorKind::Unsupported,

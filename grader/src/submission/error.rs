@@ -15,13 +15,14 @@ const MAX_NAMES: usize = 10;
 /// are graded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TaskFileError {
-    /// The file does not exist.
+    /// The file doesn't exist.
     Missing,
     /// The path is a folder, a link or a device.
     NotRegular,
     /// The file is longer than any reasonable solution.
     TooLong,
-    /// The file is not valid UTF-8. The number is the line of the first invalid byte, counted from 1.
+    /// The file isn't valid UTF-8. The number is the line of the first invalid byte, counted from
+    /// 1.
     NotText(usize),
     /// The system cannot read the file, with this message.
     Unreadable(String),
@@ -30,7 +31,7 @@ pub enum TaskFileError {
 /// Reasons for finding no submission to grade at a path. These are usage errors.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
-    /// The path does not exist.
+    /// The path doesn't exist.
     #[error("there is no {0}: name the folder with the task files, such as `student`")]
     NotFound(PathBuf),
     /// The path is a device, a pipe or a socket.

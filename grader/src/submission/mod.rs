@@ -45,9 +45,9 @@ pub struct Submission {
     pub name: String,
     /// The text of each task file, or why there is none, in lecture order.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
-    /// Notes about files that look like task files or archives but are not graded.
+    /// Notes about files that look like task files or archives but aren't graded.
     pub ignored_copies: Vec<String>,
-    /// Notes about other files that were found but are not graded.
+    /// Notes about other files that were found but aren't graded.
     pub notes: Vec<String>,
 }
 
@@ -201,7 +201,7 @@ impl Submission {
         self.handed_out.task_method(task.task(), text).ok()
     }
 
-    /// Returns whether the assignment has not been started: every task file is the starter's, token
+    /// Returns whether the assignment hasn't been started: every task file is the starter's, token
     /// for token.
     pub fn is_as_handed_out(&self) -> bool {
         let mut files = self.files.iter();
@@ -254,7 +254,7 @@ fn decode(bytes: Vec<u8>) -> Result<String, TaskFileError> {
     })
 }
 
-/// Returns notes that list the other files found and say that they are not used.
+/// Returns notes that list the other files found and say that they aren't used.
 fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec<String> {
     let note = |(name, bytes): (&String, &Vec<u8>)| match handed_out.given_file(name) {
         // `main.rs` only renders pictures, and the reference's may differ because it imports

@@ -26,7 +26,7 @@ const TEXT_EXTENSIONS: [&str; 14] = [
     "txt", "text", "rust", "bak", "old", "orig", "save", "tmp", "swp", "rtf", "doc", "docx", "odt",
     "pages",
 ];
-/// Extensions of archives, most of which cannot be read.
+/// Extensions of archives. Most kinds cannot be read.
 const ARCHIVE_EXTENSIONS: [&str; 30] = [
     "zip", "tar", "gz", "tgz", "rar", "7z", "xz", "txz", "bz2", "tbz", "tbz2", "zst", "tzst", "lz",
     "lz4", "lzma", "lzh", "z", "z01", "zipx", "arj", "ace", "cab", "iso", "dmg", "sit", "sitx",
@@ -40,9 +40,9 @@ const MACOS_METADATA: &str = "._";
 pub(super) enum Resemblance {
     /// It is the task file's name.
     Exact,
-    /// It is the task file's name with what a browser or a file manager adds to a copy: `bvh
-    /// (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name, it is used as that
-    /// file.
+    /// It is the task file's name with the additions that a browser or a file manager makes for a
+    /// copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name, it is
+    /// used as that file.
     Copy,
     /// It contains the task file's name, such as `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
     Similar,
@@ -91,7 +91,7 @@ pub fn may_be_task_file(name: &str, handed_out: &HandedOut) -> bool {
     files.any(|file| resemblance(name, file).is_some())
 }
 
-/// Returns whether this is the name of an archive or a copy of one, even if its kind is not
+/// Returns whether this is the name of an archive or a copy of one, even if its kind isn't
 /// supported.
 pub fn is_archive_name(name: &str) -> bool {
     let lower = name.to_lowercase();

@@ -103,7 +103,7 @@ impl Search {
         for file in handed_out.file_names() {
             let resembles = |(name, contents): &(String, FileContents)| {
                 let kind = resemblance(name, file)?;
-                // A folder or a link is not a copy.
+                // A folder or a link isn't a copy.
                 let is_copy = *contents != Err(TaskFileError::NotRegular);
                 (kind == Resemblance::Exact || is_copy).then(|| Lookalike {
                     path: join(&path, name),

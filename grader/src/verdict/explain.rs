@@ -41,8 +41,8 @@ fn is_whole_task<'a>(items: impl Iterator<Item = &'a Item>, info: &TaskInfo) -> 
     items.map(|item| item.points).sum::<u32>() == info.points
 }
 
-/// Returns whether a hint is possible: there is a wrong answer, or a known reason why there is no
-/// answer.
+/// Returns whether a hint is possible: there is a wrong answer, or a known reason for a missing
+/// one.
 fn can_have_hint(verdict: &Verdict) -> bool {
     // Invalid answers say nothing about the mistake.
     matches!(verdict.kind(), VerdictKind::Failed | VerdictKind::NoAnswer)
@@ -138,7 +138,7 @@ mod tests {
         assert!(clue.is_some());
         assert_eq!(clue_in(&wrong, &whole, &miss), clue);
         assert_eq!(clue_in(&wrong, &whole, &hit), None);
-        // A question that is not asked could have been a hit.
+        // A question that isn't asked could have been a hit.
         let mut some = whole.clone();
         some.items.pop();
         assert_eq!(clue_in(&wrong, &some, &miss), None);

@@ -8,11 +8,11 @@ use crate::probe::Fault;
 /// The outcome of running one item.
 #[derive(Clone, Debug)]
 pub enum ItemOutcome<'a> {
-    /// The item has not been run yet.
+    /// The item hasn't been run yet.
     Pending,
-    /// The task's file is not part of the program.
+    /// The task's file isn't part of the program.
     NotCompiled(&'a NotCompiled),
-    /// There is no answer.
+    /// The item was not answered.
     Fault {
         /// Why there is no answer.
         fault: Fault,
@@ -64,7 +64,7 @@ impl ItemOutcome<'_> {
 
 /// Returns the failure shown in an item's report and the index of its question. An item's points
 /// are those of its worst question, so this is that question's failure. Returns `None` if all
-/// answers are right, or if the worst question has no answer to show.
+/// answers are right, or if there is no answer to the worst question.
 pub fn worst_failure(judgements: &[Judgement]) -> Option<(usize, &Failure)> {
     let worst = judgements.iter().map(|judgement| judgement.credit).min()?;
     if worst == Credit::FULL {

@@ -188,7 +188,7 @@ fn failed_items(exam: &Exam, last: &Score) -> Exam {
     exam.with_needed_items(|item| lost.contains(&item.id.as_str()))
 }
 
-/// Reasons why grading a version was interrupted.
+/// Reasons for interrupting the grading of a version.
 enum Interruption {
     /// A file was saved in the meantime.
     Saved,

@@ -1,6 +1,6 @@
 //! Detects when a submission has been saved, by polling its task files.
 //!
-//! File system events would be a few milliseconds faster, but they are not always delivered on
+//! File system events would be a few milliseconds faster, but they aren't always delivered on
 //! network drives, in containers and in virtual machines. Reading a few small files takes 50 µs.
 
 use std::thread;

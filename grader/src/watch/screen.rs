@@ -1,4 +1,4 @@
-//! The terminal output of `--watch`: a single page, redrawn in one write so that it does not
+//! The terminal output of `--watch`: a single page, redrawn in one write so that it doesn't
 //! flicker. Without a terminal, reports are printed one after the other.
 
 use std::cell::Cell;
@@ -53,7 +53,7 @@ impl<'a> Screen<'a> {
     pub fn open(options: &'a GradeOptions, paths: SourcePaths) -> Self {
         let term = Term::buffered_stdout();
         if term.is_term() {
-            // Scroll up the contents of the screen so that they are not overwritten.
+            // Scroll up the contents of the screen so that they aren't overwritten.
             let rows = usize::from(term.size().0);
             let _ = term.write_str(&"\n".repeat(rows));
         }
@@ -80,7 +80,7 @@ impl<'a> Screen<'a> {
         })
     }
 
-    /// Shows a score, complete or not. The items in `old` have not been graded since the last save.
+    /// Shows a score, complete or not. The items in `old` haven't been graded since the last save.
     pub fn show(&self, score: &Score, phase: Phase, old: &BTreeSet<String>) -> io::Result<()> {
         if !self.term.is_term() && phase != Phase::Waiting {
             return Ok(());

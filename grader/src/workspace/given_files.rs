@@ -28,8 +28,8 @@ pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
         .collect()
 }
 
-/// Returns a note if files of the workspace in this folder differ from the list. A missing file does not
-/// compile, so it needs no note.
+/// Returns a note if files of the workspace in this folder differ from the list. A missing file
+/// doesn't compile, so it needs no note.
 pub fn changed(root: &Path) -> Option<String> {
     let list = files::read_to_string(root.join(LIST)).ok()?;
     let listed = list.lines().filter_map(|line| line.split_once("  "));

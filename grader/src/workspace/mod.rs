@@ -39,7 +39,7 @@ impl Workspace {
                 folder.join("student/framework/Cargo.toml").is_file()
                     && folder.join("Cargo.lock").is_file()
             })
-            // The path is not canonicalised: on Windows, that would give a path such as
+            // The path isn't canonicalised: on Windows, that would give a path such as
             // `\\?\C:\...`, which looks odd in messages.
             .map(|root| Workspace {
                 root: root.to_owned(),

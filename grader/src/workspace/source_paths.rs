@@ -42,7 +42,7 @@ impl SourcePaths {
     }
 }
 
-/// Replaces the name in each `mention`, such as `sphere.rs:`, that precedes a line number and is not
+/// Replaces the name in each `mention`, such as `sphere.rs:`, that precedes a line number and isn't
 /// already part of a path.
 fn with_path(text: &str, mention: &str, path: &str) -> String {
     let mut replaced = String::new();

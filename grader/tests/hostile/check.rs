@@ -34,7 +34,7 @@ pub enum ViolationKind {
     Forged,
     /// A secret was found in the output, or a listener was contacted.
     Leaked,
-    /// The system is not in the same state as before.
+    /// The system isn't in the same state as before.
     LeftBehind,
     /// The grader didn't work correctly.
     Harmed,

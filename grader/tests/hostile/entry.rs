@@ -16,7 +16,7 @@ use crate::packaging::{Packaging, pack};
 /// except the description are added to the task files or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
-/// The file with the descriptions of the entries that have no files.
+/// The file with the descriptions of the entries without files.
 const PACKAGED_FILE: &str = "packaged.toml";
 /// The prefix of the lines where a file describes its entry.
 const DESCRIPTION: &str = "//!";
@@ -142,7 +142,7 @@ impl Entry {
         }
     }
 
-    /// Reads the entries that have no files.
+    /// Reads the entries without files.
     fn packaged(descriptions: &str) -> Vec<Self> {
         let descriptions: BTreeMap<String, Expectation> =
             toml::from_str(descriptions).unwrap_or_else(|error| panic!("{PACKAGED_FILE}: {error}"));

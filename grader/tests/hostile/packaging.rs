@@ -1,4 +1,4 @@
-//! Submissions that are not five plain files in a folder: archives that an ordinary program would
+//! Submissions that aren't five plain files in a folder: archives that an ordinary program would
 //! never make, and folders with unusual files.
 
 use std::fs::{self, File, Permissions};
@@ -50,7 +50,7 @@ pub enum Packaging {
     OtherKind,
     /// A folder with a sparse file of 10 GB.
     Sparse,
-    /// A folder where one file has all permissions and another has none.
+    /// A folder with a file that grants all permissions and a file that grants none.
     OddModes,
     /// A folder with a named pipe in place of a file.
     PipeOnDisk,

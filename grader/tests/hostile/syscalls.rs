@@ -21,7 +21,7 @@ const WALL_LIMIT: Duration = Duration::from_secs(60);
 /// The last line that the program prints.
 const END_LINE: &str = "end";
 
-/// Returns the system calls that are not refused at this level. Don't call this at level `none`,
+/// Returns the system calls that aren't refused at this level. Don't call this at level `none`,
 /// where the system calls succeed and leave something behind.
 pub fn allowed_calls(level: Isolation) -> Vec<String> {
     if !cfg!(target_arch = "x86_64") {

@@ -7,7 +7,7 @@ use insta::assert_snapshot;
 use crate::cases::NOT_COMPILING;
 use crate::harness::{FULL_POINTS, GradeRun, Submission, full_points_except, no_points, without};
 
-/// Asserts that a submission has no points for spheres and full points for every other task except
+/// Asserts that a submission gets no points for spheres and full points for every other task except
 /// `traverse`.
 #[track_caller]
 fn assert_other_tasks_keep_their_points(graded: &GradeRun) {
@@ -119,7 +119,7 @@ fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
     let begin = format!("{}:{line}: error: ", sphere.display());
     assert!(graded.error().starts_with(&begin), "{}", graded.error());
 
-    // A declaration with unusual formatting is not an error.
+    // A declaration with unusual formatting isn't an error.
     let spaced = grade_sphere_with(&[(right, "pub struct\n    Sphere {")]);
     assert_eq!(spaced.verdicts("sphere"), ["pass"]);
 }

@@ -233,7 +233,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
     }
 }
 
-/// A question that ends the program loses the answers to the other questions too, which are not to
+/// A question that ends the program loses the answers to the other questions too, which aren't to
 /// blame.
 #[test]
 fn replay_tells_a_right_answer_that_is_lost_to_another_question() {

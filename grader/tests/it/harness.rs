@@ -138,7 +138,7 @@ impl Submission {
         self.results(command.output().unwrap())
     }
 
-    /// Reads the results of a run of [`Submission::command`].
+    /// Reads the results of running [`Submission::command`].
     pub fn results(&self, output: Output) -> GradeRun {
         GradeRun {
             output,

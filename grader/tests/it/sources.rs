@@ -8,7 +8,7 @@ use crate::harness::workspace;
 /// A file, by its path below the workspace with `/`, and its text.
 type Source = (String, String);
 
-/// Paths that are not read: generated files, files by others, and this file, which quotes the
+/// Paths that aren't read: generated files, files by others, and this file, which quotes the
 /// phrases it looks for.
 const SKIPPED: [&str; 9] = [
     "target",

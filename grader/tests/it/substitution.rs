@@ -8,7 +8,7 @@ use crate::harness::{FULL_POINTS, GradeRun, Submission};
 /// An interval that begins and ends at the origin of a ray.
 const NEVER: &str = "protocol::Interval::new(0.0, 0.0)";
 
-/// The condition under which the left child is visited first.
+/// The condition for visiting the left child first.
 const LEFT_FIRST: &str = "if in_l.min <= in_r.min {";
 
 /// Returns a submission whose box test only works for rays with positive directions, since it
@@ -97,7 +97,7 @@ fn a_tree_without_end_does_not_cost_traversal_points() {
     assert_costs_blocked_items(&alone, 2);
 }
 
-/// A triangle without area makes the triangle task hang, so its last items are not run. An item of
+/// A triangle without area makes the triangle task hang, so its last items aren't run. An item of
 /// another task that depends on one of them isn't run either, even if it wouldn't hang itself.
 #[test]
 fn what_depends_on_a_stopped_task_is_not_run() {

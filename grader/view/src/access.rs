@@ -50,7 +50,7 @@ impl Access {
         format!("/?token={}", self.token)
     }
 
-    /// Returns why a request is not answered, or `None` if it is. The page's files are public,
+    /// Returns why a request isn't answered, or `None` if it is. The page's files are public,
     /// because they are the same for everyone and contain no secrets.
     pub fn refusal(&self, request: &Request, is_public: bool) -> Option<&'static str> {
         // A page from another site can send requests here by resolving its own name to this
@@ -76,7 +76,7 @@ fn forwarded_host(port: u16) -> Option<String> {
     Some(format!("{name}-{port}.{domain}"))
 }
 
-/// Returns a host without its port. The port is not compared, because a tunnel can use a different
+/// Returns a host without its port. The port isn't compared, because a tunnel can use a different
 /// port.
 fn without_port(host: &str) -> &str {
     match host.rsplit_once(':') {

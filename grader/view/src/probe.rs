@@ -24,7 +24,7 @@ pub struct Probe {
     _program: Program,
 }
 
-/// Why work has no result.
+/// Why work didn't produce a result.
 #[derive(Debug, thiserror::Error)]
 pub enum Stop {
     /// The result is no longer wanted, or the reason has been reported.

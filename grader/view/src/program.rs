@@ -44,7 +44,7 @@ pub enum BuildState {
     Compiling,
     /// The program is ready.
     Ready(Program),
-    /// The submission does not compile.
+    /// The submission doesn't compile.
     Failed(Vec<FileError>),
     /// The compiler could not be run.
     Broken(String),
@@ -97,7 +97,7 @@ impl Programs {
         &self.folder
     }
 
-    /// Reads the submission's files as they are now.
+    /// Reads the current version of the submission's files.
     pub fn collect(&self) -> Result<Submission, SubmissionError> {
         if self.is_package {
             Submission::collect_package(&self.folder, self.drawing)

@@ -43,7 +43,7 @@ pub struct Subject {
 /// A ray of the exam and the texts of its question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExamRay {
-    /// The ray, if the question is about one. The page only sees whether there is one.
+    /// The ray, if the question is about one. The page only sees whether it exists.
     #[serde(rename = "has_ray", serialize_with = "is_some")]
     pub ray: Option<Ray>,
     /// Boxes to draw, as corners: for questions about boxes.
@@ -79,8 +79,7 @@ impl Subject {
         }
     }
 
-    /// Returns why a tree is not read, or `None` if it is not much larger than a correct tree can
-    /// be.
+    /// Returns why a tree isn't read, or `None` if it isn't much larger than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
         let own = match &self.data.tree {
@@ -162,7 +161,7 @@ impl SceneList {
             self.scenes.push((stem.to_owned(), path));
             return Ok(stem.to_owned());
         }
-        // In a subfolder of the workspace, `scenes/flat.json` is not an existing path.
+        // In a subfolder of the workspace, `scenes/flat.json` isn't an existing path.
         if self.scenes.iter().any(|(name, _)| name == stem) {
             Ok(stem.to_owned())
         } else {

@@ -56,7 +56,7 @@ impl<'a> Stamps<'a> {
     }
 
     /// Waits until a file seems to have changed, but not too long: a file can be replaced by one
-    /// with the same time and size, and archives and other folders are not checked.
+    /// with the same time and size, and archives and other folders aren't checked.
     fn wait(&mut self) {
         while self.at.elapsed() < READ_INTERVAL && self.read() == self.last {
             thread::sleep(POLL_INTERVAL);

@@ -1,4 +1,4 @@
-//! Generates everything in this repository that is not written by hand: the starter, the exams, and
+//! Generates everything in this repository that isn't written by hand: the starter, the exams, and
 //! the bundles and packages that are handed out. Also tests the exam by grading many solutions
 //! ([`proof`]).
 //!

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 pub struct Seed(pub u64);
 
 impl Seed {
-    /// The seed of the practice exam. It is not secret, because the practice exam is handed out with
+    /// The seed of the practice exam. It isn't secret, because the practice exam is handed out with
     /// its keys.
     pub const PRACTICE: Seed = Seed(2025);
 

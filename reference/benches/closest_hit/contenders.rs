@@ -25,7 +25,7 @@ pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree over the triangles, which finds closest hits.
 pub trait Contender {
-    /// Returns the distance to the closest hit of each ray, or infinity if there is none.
+    /// Returns the distance to the closest hit of each ray, or infinity if it hits nothing.
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 

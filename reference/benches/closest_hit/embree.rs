@@ -1,4 +1,4 @@
-//! Embree 4, loaded at run time from the library named by the variable `EMBREE`. The library is not
+//! Embree 4, loaded at run time from the library named by the variable `EMBREE`. The library isn't
 //! part of this project. The Python package `embreex` contains one.
 //!
 //! This is the only `unsafe` code outside the sandbox, because functions of a C library cannot be
@@ -147,7 +147,7 @@ impl Embree {
 }
 
 impl EmbreeScene<'_> {
-    /// Returns the distance to the closest hit, or infinity if there is none.
+    /// Returns the distance to the closest hit, or infinity if the ray hits nothing.
     pub fn distance(&self, ray: &Ray) -> f32 {
         let mut hit = RayHit {
             origin: ray.origin.to_array(),

@@ -1,5 +1,5 @@
 //! Draws the plot. The left panel compares the tests per ray with brute force. The right panel has
-//! a linear vertical axis, so that counts that grow with the logarithm of the number of triangles
+//! a linear vertical axis, so that counts that grow logarithmically with the number of triangles
 //! are straight lines.
 
 use maud::{Markup, html};

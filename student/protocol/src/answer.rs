@@ -95,7 +95,7 @@ pub enum ElementOutcome<T> {
 }
 
 impl<T> ElementOutcome<T> {
-    /// Returns the value, or `None` if there is none.
+    /// Returns the value, if any.
     pub fn value(&self) -> Option<&T> {
         match self {
             ElementOutcome::Value(value) => Some(value),
@@ -136,7 +136,7 @@ impl Panic {
     pub const MAX_PER_QUESTION: usize = 3;
 
     /// Returns whether the panic came from `todo!` or `unimplemented!`, which means that the task
-    /// is not written yet.
+    /// isn't written yet.
     pub fn is_unimplemented(&self) -> bool {
         self.message.starts_with("not yet implemented")
             || self.message.starts_with("not implemented")

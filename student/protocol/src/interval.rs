@@ -30,7 +30,7 @@ impl Interval {
 
     /// Returns whether the interval contains no number. An interval with a NaN end is empty.
     pub fn is_empty(&self) -> bool {
-        // `min > max` is not enough: it is false for NaN, so an interval with a NaN end wouldn't be
+        // `min > max` isn't enough: it is false for NaN, so an interval with a NaN end wouldn't be
         // empty.
         !matches!(
             self.min.partial_cmp(&self.max),

@@ -1,7 +1,7 @@
 //! Compact serialisation of long lists in text formats such as JSON.
 //!
 //! `#[serde(with = "packed")]` writes a list of more than [`MAX_PLAIN_LEN`] elements as one string:
-//! the base64 form of its binary encoding. Shorter lists stay readable, and binary formats are not
+//! the base64 form of its binary encoding. Shorter lists stay readable, and binary formats aren't
 //! affected.
 
 use std::fmt;

@@ -54,14 +54,14 @@ pub trait Record: Debug {
     ///
     /// # Panics
     ///
-    /// If there is no such field.
+    /// If `index` is out of range.
     fn value(&self, index: usize) -> Value<'_>;
 
     /// Changes the value of the field at `index`. A value of a different type is ignored.
     ///
     /// # Panics
     ///
-    /// If there is no such field.
+    /// If `index` is out of range.
     fn set(&mut self, index: usize, value: Value<'_>);
 }
 

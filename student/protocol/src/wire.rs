@@ -33,7 +33,7 @@ pub enum WireError {
         /// The maximum length, in bytes.
         limit: usize,
     },
-    /// The body does not encode a value of the expected type.
+    /// The body doesn't encode a value of the expected type.
     #[error("a frame cannot be decoded: {0}")]
     Malformed(postcard::Error),
     /// The body contains bytes after the end of the value.

@@ -106,7 +106,7 @@ fn answer() -> impl Strategy<Value = Answer> {
     ]
 }
 
-/// Encodes a value. The tests compare bytes rather than values, because NaN is not equal to itself.
+/// Encodes a value. The tests compare bytes rather than values, because NaN isn't equal to itself.
 fn bytes<T: serde::Serialize>(value: &T) -> Vec<u8> {
     wire::encode(0, value).expect("every value can be encoded")
 }

@@ -176,7 +176,7 @@ pub fn change(root: &Path, folder: &Path, round: usize) {
     }
 }
 
-/// Returns the median, which is not affected by a few slow runs. For an even number of values,
+/// Returns the median, which isn't affected by a few slow runs. For an even number of values,
 /// returns the larger of the two in the middle.
 pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();

@@ -1,4 +1,4 @@
-//! Tests for what is graded, what is reused from earlier runs and how faults are handled.
+//! Tests for grading entries, reusing earlier results and handling faults.
 
 use std::collections::BTreeMap;
 use std::fs;

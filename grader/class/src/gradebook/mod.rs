@@ -51,8 +51,8 @@ struct Gradebook {
     table: Table,
     /// The column to fill in.
     target: usize,
-    /// The columns that identify people, the most reliable first. A row without the first key is
-    /// not about a person.
+    /// The columns that identify people, the most reliable first. A row without the first key isn't
+    /// about a person.
     keys: Vec<Key>,
     /// The columns with the parts of a person's name, for messages.
     names: Vec<usize>,
@@ -82,7 +82,7 @@ enum KeyKind {
     Login,
     /// An email address. A person may have several.
     Email,
-    /// A name. Two people may have the same one.
+    /// A name. Two people may share one.
     Name,
 }
 
@@ -126,7 +126,7 @@ impl Key {
         is_certain && !known.is_empty() && self.person_texts(person).contains(&known)
     }
 
-    /// Returns whether the key proves that a row is not this person's.
+    /// Returns whether the key proves that a row isn't this person's.
     fn rules_out(&self, row: &[String], person: &Person) -> bool {
         let (known, texts) = (self.row_text(row), self.person_texts(person));
         let differs = !known.is_empty() && !texts.is_empty() && !texts.contains(&known);

@@ -35,7 +35,7 @@ pub struct ClassRow {
 /// One person's grade for a submission.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PersonGrade {
-    /// The final points after applying the policy. `None` if there is no score or it is not used.
+    /// The final points after applying the policy. `None` if there is no score or it isn't used.
     pub counted: Option<CountedPoints>,
     /// Why a score has no final points.
     pub problem: Option<GradeProblem>,

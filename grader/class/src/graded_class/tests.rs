@@ -103,7 +103,7 @@ fn problems() -> [GradeProblem; 3] {
     ]
 }
 
-/// Returns a grade that is not used because of this problem.
+/// Returns a grade that isn't used because of this problem.
 fn with_problem(problem: GradeProblem) -> PersonGrade {
     PersonGrade {
         problem: Some(problem),

@@ -1,4 +1,4 @@
-//! Tests for which shards belong together and how they are merged.
+//! Tests for matching and merging shards.
 
 use std::fs;
 

@@ -78,8 +78,8 @@ impl Member {
     }
 
     /// Returns whether the person's name equals the name or an identifier in this row. Names are
-    /// only compared if the person has no email address, student id or account name, as in a folder
-    /// named after a student, and if the row or the person lacks a platform number.
+    /// only compared if the person's email address, student id and account name are unknown, as in
+    /// a folder named after a student, and if the row or the person lacks a platform number.
     fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
         let is_bare = person.own_identifiers() == [""; 3];
@@ -183,8 +183,8 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     Some(members)
 }
 
-/// Rejects a roster where two rows have the same email address, student id or account name but
-/// differ otherwise. A row may be repeated, e.g. for each attempt or section.
+/// Rejects a roster where two rows share an email address, student id or account name but differ
+/// otherwise. A row may be repeated, e.g. for each attempt or section.
 fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
     let mut rows: BTreeMap<(usize, String), usize> = BTreeMap::new();
     for (index, member) in members.iter().enumerate() {
@@ -218,7 +218,7 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
 }
 
 /// Reads the people on all lists. A person has one row per list they are on. No two people in the
-/// roster may have the same identifier.
+/// roster may share an identifier.
 pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
     let mut rows = Vec::new();
     if let Some(path) = &lists.roster {

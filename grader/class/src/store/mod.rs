@@ -246,8 +246,8 @@ impl Store {
         Ok(Some(result))
     }
 
-    /// Saves the last score of every entry as its previous score. If there was nothing to grade,
-    /// the previous score is removed. It is safe to repeat this after an interruption.
+    /// Saves the last score of every entry as its previous score. If an entry had nothing to grade,
+    /// its previous score is removed. It is safe to repeat this after an interruption.
     pub fn save_previous_scores(&self) -> Result<(), Error> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
@@ -300,7 +300,7 @@ impl Store {
     }
 }
 
-/// Returns the paths of a folder's entries, or none if the folder does not exist.
+/// Returns the paths of a folder's entries, or none if the folder doesn't exist.
 fn list_if_exists(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
     match files::read_dir(folder) {
         Err(error) if error.source.kind() == ErrorKind::NotFound => Ok(Vec::new()),

@@ -64,7 +64,7 @@ static DISK: FaultyDisk = FaultyDisk(Mutex::new(State {
 const NO_SPACE: i32 = 28;
 const INPUT_OUTPUT: i32 = 5;
 
-/// Installs the disk. It has no faults until [`start`] is called.
+/// Installs the disk. Nothing fails until [`start`] is called.
 pub fn install() {
     assert!(disk::install(&DISK), "no other disk is installed");
 }
@@ -132,7 +132,7 @@ impl Disk for FaultyDisk {
 }
 
 /// Leaves behind the same files as an operation during which the process is killed. Temporary files
-/// are renamed, because a process that is not really killed removes its own.
+/// are renamed, because a process that isn't really killed removes its own.
 fn leave_half(operation: Operation) {
     let left = |file: &Path, contents: &[u8]| {
         fs::write(file.with_file_name(".tmpKilled"), contents).unwrap();

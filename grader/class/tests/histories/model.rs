@@ -10,7 +10,7 @@ use crate::recorded_grader::score;
 /// The model of a folder where a class is graded.
 #[derive(Debug, Default)]
 pub struct Model {
-    /// The folder as it was last seen.
+    /// The folder's last observed state.
     pub observed: Observed,
     /// The cache keys seen so far in this course.
     pub keys: Keys,

@@ -60,7 +60,7 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// Returns the current round; 0 in a new folder.
+    /// Returns the current round, or 0 in a new folder.
     pub fn round(&self) -> u64 {
         self.run
             .as_ref()

@@ -84,7 +84,7 @@ pub fn source(student: &str, version: u32) -> String {
     format!("// {student}, version {version}\n")
 }
 
-/// Returns the score of a version of a student's submission.
+/// Returns the score of a submission's version.
 pub fn score(student: &str, version: u32, exam: usize) -> Score {
     let name = ExamName {
         id: "exam".to_owned(),

@@ -51,7 +51,7 @@ pub enum Target {
 #[derive(Debug)]
 pub struct World {
     root: PathBuf,
-    /// The version that each student has submitted; `None` for an empty folder.
+    /// The version each student has submitted. `None` for an empty folder.
     pub submissions: BTreeMap<&'static str, Option<u32>>,
     /// The exam.
     pub exam: usize,
@@ -122,7 +122,7 @@ impl World {
         fs::remove_dir_all(self.folder(target)).ok();
     }
 
-    /// Replaces a student's submission; `None` leaves an empty folder.
+    /// Replaces a student's submission. `None` leaves an empty folder.
     pub fn submit(&mut self, student: &'static str, version: Option<u32>) {
         let folder = self.input().join(student);
         fs::remove_dir_all(&folder).ok();

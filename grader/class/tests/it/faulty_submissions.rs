@@ -150,7 +150,7 @@ fn an_unreadable_folder_is_listed_with_the_reason() {
     assert_contains(&preview, &expected);
 }
 
-/// A linker that fails while there is a file `fault-*` next to it. Each failure removes one such
+/// A linker that fails while a file `fault-*` exists next to it. Each failure removes one such
 /// file. Like every linker started by the grader, it runs without a PATH.
 #[cfg(unix)]
 const LINKER: &str = r#"

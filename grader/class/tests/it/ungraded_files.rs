@@ -1,4 +1,4 @@
-//! Tests that every file that looks like a task file or an archive but is not graded is mentioned
+//! Tests that every file that looks like a task file or an archive but isn't graded is mentioned
 //! where people look, and that an untouched starter file next to a changed copy is never graded.
 
 use crate::harness::{TestClass, assert_contains, source, zip};

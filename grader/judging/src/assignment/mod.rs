@@ -99,7 +99,7 @@ impl Assignment {
         self.tasks.iter().map(|task| task.points).sum()
     }
 
-    /// Returns the task with this id, or `None` if the assignment has no such task.
+    /// Returns the task with this id, or `None` if it isn't part of the assignment.
     pub fn find(&self, id: &str) -> Option<&'static TaskInfo> {
         self.tasks.iter().find(|task| task.id == id)
     }
@@ -114,8 +114,8 @@ impl Assignment {
     ///
     /// # Panics
     ///
-    /// If the assignment has no such task. This cannot happen for ids from exam files, which are
-    /// checked when the file is read.
+    /// If the task isn't part of the assignment. This can't happen for ids from exam files, which
+    /// are checked when the file is read.
     pub fn info(&self, task: Task) -> &'static TaskInfo {
         let info = self.find(task.id());
         info.unwrap_or_else(|| panic!("the assignment {} has no task {task}", self.id))

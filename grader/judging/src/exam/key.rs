@@ -29,7 +29,7 @@ pub enum Key {
         checks: Vec<TreeCheck>,
         /// SAH cost of the exact sweep's tree, which uses the best split at every node and the same
         /// maximum leaf size. C_trav = C_isect = 1, and areas are divided by the root's area.
-        /// `None` if the cost is not checked.
+        /// `None` if the cost isn't checked.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sweep_cost: Option<f64>,
     },

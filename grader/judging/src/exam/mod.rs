@@ -30,7 +30,7 @@ pub struct Exam {
     /// The known mistakes. The items' signatures refer to them by index.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistakes: Vec<KnownMistake>,
-    /// The items in the order in which they are graded. An item comes after the items it needs.
+    /// The items, in grading order. An item comes after the items it needs.
     pub items: Vec<Item>,
 }
 
@@ -101,7 +101,7 @@ impl Item {
     ///
     /// # Panics
     ///
-    /// If the id does not begin with a task.
+    /// If the id doesn't begin with a task.
     pub fn new(id: &str, points: u32, questions: Vec<ExamQuestion>) -> Self {
         Item {
             id: id.to_owned(),
@@ -157,7 +157,7 @@ pub struct ExamQuestion {
     pub question: Question,
     /// The answer key, which never leaves the grader.
     pub key: Key,
-    /// Data for drawing the correct answer. It is neither sent to the probe nor judged.
+    /// Data for drawing the correct answer. It isn't sent to the probe and isn't judged.
     #[serde(default, skip_serializing_if = "DrawingData::is_none")]
     pub drawing_data: DrawingData,
 }
@@ -193,7 +193,7 @@ impl ExamQuestion {
     ///
     /// # Panics
     ///
-    /// If the question has no such element.
+    /// If the element doesn't exist.
     pub fn single(&self, element: usize) -> ExamQuestion {
         ExamQuestion::new(
             question_subset(&self.question, element..element + 1),

@@ -11,7 +11,7 @@ use crate::types::multiple::in_units_of;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// The tolerance the error is compared to. `None` for errors without a size: hit or miss, a
-    /// panic, or nodes that do not form a tree.
+    /// panic, or nodes that don't form a tree.
     pub threshold: Option<Threshold>,
     /// The error as a multiple of the tolerance. Values up to 1 are correct. Never NaN. If there is
     /// no threshold, the value is 0 or infinite.
@@ -90,7 +90,7 @@ impl Measurement {
     }
 }
 
-/// Returns the largest deviation for each threshold, for a table in which every element must be
+/// Returns the largest deviation for each threshold, for a table where every element must be
 /// correct.
 pub(super) fn worst_by_threshold(
     deviations: impl IntoIterator<Item = Deviation>,

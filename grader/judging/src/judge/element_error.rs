@@ -1,16 +1,16 @@
-//! The error of a single element, in words. It does not affect points.
+//! The error of a single element, in words. It doesn't affect points.
 
 use protocol::Answer;
 
 use super::{Deviation, FailureKind, Measurement, judge, measure, mismatches};
 use crate::exam::ExamQuestion;
 
-/// Returns what is wrong with the answer to one element, and by how much, such as "distance; the
-/// error is 12 times the tolerance". Returns `None` if it is correct.
+/// Describes the error in the answer to one element and its size, such as "distance; the error is
+/// 12 times the tolerance". Returns `None` if it is correct.
 ///
 /// # Panics
 ///
-/// If the question has no such element.
+/// If the element doesn't exist.
 pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -> Option<String> {
     let Some(answer) = answer.single(element) else {
         return Some("there is no answer".to_owned());

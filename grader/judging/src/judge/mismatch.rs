@@ -1,4 +1,4 @@
-//! Mismatches: the wrong positions of a picture, used to draw its mask. They do not affect points.
+//! Mismatches: the wrong positions of a picture, used to draw its mask. They don't affect points.
 
 use arrayvec::ArrayVec;
 

@@ -99,7 +99,7 @@ trait Comparison {
     fn measure(&self) -> Vec<Measurement>;
 
     /// Returns the deviation of each quantity at each position of a picture. Returns `None` if the
-    /// question does not ask for a picture.
+    /// question doesn't ask for a picture.
     fn positions(&self) -> Option<Vec<Position>> {
         None
     }
@@ -131,7 +131,7 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
 }
 
 /// Returns the error at each position of a picture, in the order of the question's elements.
-/// [`judge`] decides from the same numbers. Returns `None` if the question does not ask for a
+/// [`judge`] decides from the same numbers. Returns `None` if the question doesn't ask for a
 /// picture, or if the answer has the wrong size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
     let positions = comparison(question, answer)?.positions()?;
@@ -180,7 +180,7 @@ fn comparison<'a>(
             max_wrong_pixels: *allowed,
             answer,
         }),
-        // Unreachable: an exam whose key does not fit its question is rejected when it is loaded.
+        // Unreachable: an exam whose key doesn't fit its question is rejected when it is loaded.
         (Key::FirstHits { .. } | Key::Tree { .. } | Key::Radiance { .. }, ..) => return None,
     })
 }

@@ -16,7 +16,7 @@ use crate::types::multiple::in_units_of;
 /// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
 /// expected pixel.
 pub(super) const RELATIVE_TOLERANCE: f32 = 0.01;
-/// Minimum brightness from which a tolerance is computed. Darker pixels use this brightness.
+/// Minimum brightness for computing a tolerance. Darker pixels use this brightness.
 const MIN_BRIGHTNESS: f32 = 0.01;
 
 /// A path-traced picture and its key.

@@ -25,7 +25,7 @@ pub(crate) struct TableAnswer<'a> {
     rows: Vec<Returned<'a>>,
 }
 
-/// One row: what the function returned, and what it should have.
+/// One row: the function's result and the expected one.
 pub(crate) struct Row<'a> {
     pub(crate) got: Option<&'a dyn Record>,
     pub(crate) wanted: Option<Box<dyn Record>>,
@@ -50,7 +50,7 @@ pub(crate) fn judged_quantities(
 
 impl<'a> TableAnswer<'a> {
     /// Returns an answer and its key. Returns `None` if one of them doesn't belong to this
-    /// question, or if the question is not a table.
+    /// question, or if the question isn't a table.
     pub(crate) fn new(question: &'a ExamQuestion, answer: &'a Answer) -> Option<Self> {
         let table = question.question.table()?;
         let Key::Table {
@@ -220,7 +220,7 @@ pub(crate) struct ExpectedTable {
 }
 
 impl ExpectedTable {
-    /// Returns the expected rows, or `None` if the question is not a table or its key doesn't fit.
+    /// Returns the expected rows, or `None` if the question isn't a table or its key doesn't fit.
     pub(crate) fn new(question: &ExamQuestion) -> Option<Self> {
         let table = question.question.table()?;
         let Key::Table { judged, rows, .. } = &question.key else {

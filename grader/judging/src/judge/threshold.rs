@@ -9,7 +9,7 @@ use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 use crate::types::{self, Tolerance, direction, length, uv};
 
-/// A threshold between correct and wrong. The steps of partial credit are not listed here, because
+/// A threshold between correct and wrong. The steps of partial credit aren't listed here, because
 /// they only distinguish degrees of wrong answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
@@ -31,9 +31,9 @@ pub enum Threshold {
     RadiancePixels,
     /// SAH cost of a tree.
     SahCost,
-    /// Distance by which a box extends beyond its contents.
+    /// How far a box extends beyond its contents.
     BoxTooLarge,
-    /// Distance by which a primitive extends beyond its box.
+    /// How far a primitive extends beyond its box.
     BoxTooSmall,
 }
 

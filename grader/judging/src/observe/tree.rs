@@ -1,4 +1,4 @@
-//! Observes wrong trees. Correct builders produce different trees, so nodes and indices are not
+//! Observes wrong trees. Correct builders produce different trees, so nodes and indices aren't
 //! compared. Instead, an observation is the kind of defect, the nodes affected, and amounts that
 //! don't depend on the order of nodes.
 
@@ -84,7 +84,7 @@ fn of_boxes(
         };
         excess(&of_all).value as f32
     });
-    // Rounding is not characteristic of a mistake.
+    // Rounding isn't characteristic of a mistake.
     let amount = if amount > 1.0 { amount } else { 0.0 };
     (format!("{what}: {kinds}{manner}"), amount)
 }

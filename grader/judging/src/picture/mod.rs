@@ -1,5 +1,5 @@
 //! Compares a submitted picture with the expected one for display. This shows the judge's findings
-//! and does not affect points.
+//! and doesn't affect points.
 //!
 //! Pixels are listed in the order of the question's elements: row by row from the bottom.
 
@@ -29,7 +29,7 @@ pub struct Picture {
     pub mask: Vec<MaskPixel>,
     /// Number of judged positions. In pictures of first hits, each pixel has five.
     pub positions: usize,
-    /// Number of positions at which each aspect is wrong, the most serious aspect first.
+    /// Number of positions where each aspect is wrong, the most serious aspect first.
     pub wrong_counts: Vec<(Aspect, usize)>,
     /// The worst pixels.
     pub worst_pixels: Vec<WorstPixel>,
@@ -60,7 +60,7 @@ pub fn asks_for_picture(question: &ExamQuestion) -> bool {
     grid(&question.question).is_some()
 }
 
-/// Compares a submitted picture with the expected one. Returns `None` if the question does not ask
+/// Compares a submitted picture with the expected one. Returns `None` if the question doesn't ask
 /// for a picture, or if the answer has the wrong size.
 pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     let (film, per_pixel) = grid(&question.question)?;

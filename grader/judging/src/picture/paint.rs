@@ -13,7 +13,7 @@ pub type Colour = [u8; 3];
 const MISS_COLOUR: Vec3 = Vec3::new(0.13, 0.13, 0.16);
 /// Colour of missing answers, NaN and infinity. No valid value has this colour.
 const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
-/// Factor by which differences are amplified.
+/// Amplification of differences.
 pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
 /// A comparison of the expected and the submitted picture in one quantity, such as depth. A pixel's
@@ -100,7 +100,7 @@ fn wanted_layers(key: &Key) -> Vec<LayerSamples> {
     }
 }
 
-/// Paints the submitted picture. Returns `None` if the answer is not a picture.
+/// Paints the submitted picture. Returns `None` if the answer isn't a picture.
 fn got_layers(key: &Key, answer: &Answer) -> Option<Vec<LayerSamples>> {
     Some(match (key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {

@@ -7,7 +7,7 @@ use crate::signatures::ObservedAnswer;
 
 /// The minimum number of items a mistake must fail to be named if it produces no answers at all.
 const MIN_FAILED_ITEMS: usize = 3;
-/// The same minimum for a mistake that does not explain all answers on its own.
+/// The same minimum for a mistake that doesn't explain all answers on its own.
 const MIN_FAILED_ITEMS_OF_SEVERAL: usize = 5;
 
 /// The answers to a task's items, together with the answers known mistakes would give.
@@ -90,7 +90,7 @@ impl<'a> Evidence<'a> {
 
     /// Returns the mistakes whose hint is in every pair that explains all answers, provided that in
     /// one of these pairs each mistake explains an item on its own. Otherwise, the second mistake
-    /// may only fill in what the first does not explain, which it could also do for the answers of
+    /// may only fill in what the first doesn't explain, which it could also do for the answers of
     /// an unknown mistake. For the same reason, at least three in five answers to the items a
     /// mistake affects must be its own.
     fn causes_in_pairs(&self) -> Vec<usize> {

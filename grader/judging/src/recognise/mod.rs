@@ -24,7 +24,7 @@ use crate::recognise::evidence::Evidence;
 use crate::signatures::{KnownMistake, NoAnswerReason, ObservedAnswer};
 
 /// Maximum number of mistakes to name for an item. If there are more, none is named, because a long
-/// list would not help.
+/// list wouldn't help.
 pub const MAX_MISTAKES: usize = 3;
 
 /// The minimum number of answered items with rays that should hit something before "nothing is ever
@@ -36,14 +36,14 @@ const MIN_ITEMS_WITHOUT_HITS: usize = 3;
 pub struct Observations {
     /// The answers to the signature elements of each item, by item id.
     answers: BTreeMap<String, Vec<ObservedAnswer>>,
-    /// The number of answered items in which a ray should hit something.
+    /// The number of answered items where a ray should hit something.
     items_to_hit: usize,
     /// Whether any answer is something other than a miss.
     has_other_than_miss: bool,
 }
 
 impl Observations {
-    /// Records the answers to an item, or why there are none.
+    /// Records the answers to an item, or why they are missing.
     pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
         if let Ok(answers) = answers {
             self.items_to_hit += usize::from(can_be_hit(item));

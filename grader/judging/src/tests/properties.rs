@@ -28,7 +28,7 @@ fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
     elements
 }
 
-/// Returns the credit of an answer in which these elements are wrong.
+/// Returns the credit of an answer where these elements are wrong.
 fn credit(question: &ExamQuestion, answer: &Answer, wrong: &[usize], how: Error) -> Credit {
     let mut answer = answer.clone();
     for &element in wrong {

@@ -40,8 +40,8 @@ pub(crate) trait FieldType {
         None
     }
 
-    /// Returns the error of the value, as a multiple of the tolerance. Never NaN; infinite if the
-    /// values cannot be compared. `scale` is the question's.
+    /// Returns the error of the value, as a multiple of the tolerance. Never NaN, and infinite if
+    /// the values cannot be compared. `scale` is the question's.
     fn error(&self, _wanted: &Value, _scale: f32) -> f64 {
         f64::INFINITY
     }

@@ -50,7 +50,7 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the plane of `axis` and whichever other axis has the larger `size`.
+/// Returns the plane of `axis` and the other axis with the larger `size`.
 fn plane_containing(axis: usize, size: DVec3) -> Plane {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     Plane::of(axis, if size[p] >= size[q] { p } else { q })

@@ -103,7 +103,7 @@ fn level_node(node: &ReachedNode, root: &ReachedNode) -> LevelNode {
         start: node.start as u32,
         count: node.count as u32,
         is_leaf: node.leaf_primitives.is_some(),
-        // The area of an empty node is not finite.
+        // The area of an empty node isn't finite.
         cost: if cost.is_finite() { cost } else { 0.0 } as f32,
     }
 }

@@ -36,7 +36,7 @@ impl HitAnswer {
 /// The field of a hit that the drawing shows: the first judged field that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drawing) enum Focus {
-    /// Whether there is a hit, and its distance.
+    /// The presence and the distance of the hit.
     Distance,
     /// The position, which may not be on the ray.
     Position,
@@ -61,7 +61,7 @@ pub(in crate::drawing) struct HitComparison {
 
 impl HitComparison {
     /// Compares one element of a question about rays. Returns `None` for any other question, for an
-    /// element that doesn't exist, and for a ray whose origin is not finite or whose direction is
+    /// element that doesn't exist, and for a ray whose origin isn't finite or whose direction is
     /// invalid.
     pub(in crate::drawing) fn new(
         question: &ExamQuestion,

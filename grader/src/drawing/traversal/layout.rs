@@ -27,7 +27,7 @@ pub(super) enum NodeStatus {
 }
 
 impl NodeStatus {
-    /// Returns whether a correct traversal tests the node's box but does not enter the node.
+    /// Returns whether a correct traversal tests the node's box but doesn't enter the node.
     pub(super) fn is_skipped(self) -> bool {
         match self {
             NodeStatus::Missed | NodeStatus::OutOfRange | NodeStatus::Beyond => true,
@@ -61,7 +61,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Returns the layout of a traversal, or `None` if its nodes do not form a tree.
+    /// Returns the layout of a traversal, or `None` if its nodes don't form a tree.
     pub(super) fn new(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Layout> {
         let tree = Tree {
             nodes: traversal.nodes.to_vec(),

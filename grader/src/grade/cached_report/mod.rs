@@ -107,7 +107,7 @@ impl CacheKey {
 }
 
 /// Returns, as text, the options that the report depends on, or `None` if a report with these
-/// options is not cached.
+/// options isn't cached.
 fn cacheable_options(options: &GradeOptions) -> Option<String> {
     // Don't use `..` here, so that a new option doesn't compile until this function handles it.
     let GradeOptions {

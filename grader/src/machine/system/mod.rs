@@ -78,7 +78,7 @@ impl Limits {
     }
 }
 
-/// The kind of an entry of a [`Folder`]. Links are not followed.
+/// The kind of an entry of a [`Folder`]. Links aren't followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
     /// A regular file.
@@ -166,13 +166,13 @@ pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns `None`, since a process's CPU time is not available on this system.
+/// Returns `None`, since a process's CPU time isn't available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
     None
 }
 
-/// Returns `None`, since a process's CPU time is not available on this system.
+/// Returns `None`, since a process's CPU time isn't available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time_with_children(_: &std::process::Child) -> Option<Duration> {
     None
@@ -190,7 +190,7 @@ pub fn process_time(_: &std::process::Child) -> Option<ProcessTime> {
     None
 }
 
-/// Returns `None`, since a process's memory use is not available on this system.
+/// Returns `None`, since a process's memory use isn't available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn memory(_: &std::process::Child) -> Option<u64> {
     None

@@ -123,7 +123,7 @@ impl Folder {
         Ok(Folder(folder))
     }
 
-    /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
+    /// Opens a subfolder. Returns `None` if the entry with this name isn't a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let flags = FOLDER_FLAGS | OFlags::NOFOLLOW;
         match rustix::fs::openat(&self.0, single_name(name)?, flags, Mode::empty()) {

@@ -1,4 +1,4 @@
-//! Windows, which has no process groups and no signals, and where files inherit their permissions.
+//! Windows, where files inherit their permissions and process groups and signals don't exist.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -8,7 +8,7 @@ use std::process::{Child, Command, ExitStatus};
 
 use super::{EntryKind, ExitReason, single_name};
 
-/// Does nothing: Windows has no process groups.
+/// Does nothing, since Windows doesn't support process groups.
 pub fn use_own_process_group(_: &mut Command) {}
 
 /// Does nothing: the caller only kills the child itself.
@@ -34,7 +34,7 @@ pub fn symlink(original: &Path, path: &Path) -> io::Result<()> {
     std::os::windows::fs::symlink_file(original, path)
 }
 
-/// Opens a regular file, like [`open_regular_file`]. Hard links are not checked.
+/// Opens a regular file, like [`open_regular_file`]. Hard links aren't checked.
 pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     open_regular_file(path)
 }
@@ -62,7 +62,7 @@ impl Folder {
         Ok(Folder(path.to_owned()))
     }
 
-    /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
+    /// Opens a subfolder. Returns `None` if the entry with this name isn't a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let is_folder = self.kind(name)? == EntryKind::Folder;
         Ok(is_folder.then(|| Folder(self.0.join(name))))
@@ -105,12 +105,12 @@ pub fn make_folder_accessible(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns `None`: free space is not available on this system.
+/// Returns `None`: free space isn't available on this system.
 pub fn free_space(_: &Path) -> Option<u64> {
     None
 }
 
-/// Returns a command that runs `program`. It is not killed when its standard input closes.
+/// Returns a command that runs `program`. It isn't killed when its standard input closes.
 pub fn command_killed_at_eof(program: &Path) -> Command {
     Command::new(program)
 }

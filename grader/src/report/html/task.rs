@@ -220,7 +220,7 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders a drawing of the wrong question, if it can be drawn. If the code is not written yet,
+/// Renders a drawing of the wrong question, if it can be drawn. If the code isn't written yet,
 /// draws the first question.
 fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {

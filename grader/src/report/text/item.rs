@@ -74,7 +74,7 @@ pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt
     writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
 }
 
-/// Writes the number of failing items that are not shown and `how` to see them.
+/// Writes the number of failing items that aren't shown and `how` to see them.
 pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
     if count == 0 {
         return Ok(());

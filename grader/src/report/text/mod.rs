@@ -44,9 +44,9 @@ pub enum HintDetail {
 /// Results of an earlier version of the submission that a report still shows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OldResults<'a> {
-    /// The ids of the items that have not been graded again.
+    /// The ids of the items that haven't been graded again.
     pub items: Option<&'a BTreeSet<String>>,
-    /// Whether the submission has not been compiled again.
+    /// Whether the submission hasn't been compiled again.
     pub build: bool,
 }
 

@@ -31,7 +31,7 @@ pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result
     let status = rules
         .restrict_self()
         .map_err(while_doing("enable Landlock"))?;
-    // With namespaces, other files are already out of reach, so Landlock is not essential.
+    // With namespaces, other files are already out of reach, so Landlock isn't essential.
     if status.ruleset == RulesetStatus::NotEnforced && request.level < Isolation::Full {
         return Err(io::Error::other(
             "cannot use Landlock: the kernel lacks it (it needs Linux 5.13, and `landlock` in \

@@ -48,7 +48,7 @@ pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io:
 /// running at the same time have different users. Two programs can only get the same id if the few
 /// low ids are used.
 ///
-/// Returns `None` if this process is not root. Also returns `None` for a compiler without
+/// Returns `None` if this process isn't root. Also returns `None` for a compiler without
 /// namespaces, because its toolchain may be in root's home folder, which no other user can read.
 pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
     let is_reachable = match request.profile {

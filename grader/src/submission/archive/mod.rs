@@ -1,5 +1,5 @@
 //! Reads a submission from an archive, which may be malicious. The archive is read in memory and
-//! never unpacked. The sizes and counts in its headers are not trusted. Limits apply to the bytes
+//! never unpacked. The sizes and counts in its headers aren't trusted. Limits apply to the bytes
 //! that are actually read and inflated.
 
 mod paths;
@@ -65,7 +65,7 @@ impl ArchiveLimits {
 /// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ArchiveError {
-    /// The archive has no bytes, or no members.
+    /// The archive is empty, or contains no members.
     #[error("it is empty: download or submit it again")]
     Empty,
     /// The file is an archive of an unsupported kind.
@@ -73,7 +73,7 @@ pub enum ArchiveError {
         "it is a {0} archive, but only .zip, .tar and .tar.gz can be read: pack it as one of these"
     )]
     UnsupportedKind(&'static str),
-    /// The file is not an archive.
+    /// The file isn't an archive.
     #[error("it is neither a folder nor a .zip, .tar or .tar.gz, whatever its name says")]
     NotAnArchive,
     /// The archive is truncated or malformed.
@@ -85,10 +85,10 @@ pub enum ArchiveError {
     /// A member is compressed with an unsupported method.
     #[error("the file {0} in it is compressed with an unsupported method: create a plain .zip")]
     UnsupportedCompression(String),
-    /// Two Rust files have the same path on at least some file systems.
+    /// The paths of two Rust files are the same on at least some file systems.
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
     DuplicatePath(String, String),
-    /// There are too many members.
+    /// The archive contains too many members.
     #[error("it has more than {0} files: pack the task files, without target/")]
     TooManyFiles(usize),
     /// The contents are too large.

@@ -64,7 +64,7 @@ pub(super) struct Choice {
     pub(super) is_complete: bool,
 }
 
-/// A file in a folder or an archive that resembles a task file but is not graded as one.
+/// A file in a folder or an archive that resembles a task file but isn't graded as one.
 #[derive(Debug)]
 pub(super) struct Lookalike {
     /// The path of the file below the submission, with `/`.
@@ -247,7 +247,7 @@ impl Candidate {
     }
 
     /// Returns the files that are changed in this folder, which is in an archive, but are the
-    /// starter's in another folder that is not in an archive.
+    /// starter's in another folder that isn't in an archive.
     fn archived_copies_of_starter(
         &self,
         other: &Candidate,

@@ -1,4 +1,4 @@
-//! Reads the task files in a folder on disk, its subfolders and the archives in them. Links are not
+//! Reads the task files in a folder on disk, its subfolders and the archives in them. Links aren't
 //! followed, and only regular files are read.
 
 use std::collections::BTreeSet;

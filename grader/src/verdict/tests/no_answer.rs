@@ -1,4 +1,4 @@
-//! Items without answers: faults, items that were not run, and files that are not compiled.
+//! Items without answers: faults, items that were not run, and files that aren't compiled.
 
 use crate::probe::{Crash, TimeLimit};
 use crate::submission::TaskFileError;

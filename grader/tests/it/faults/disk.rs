@@ -26,7 +26,7 @@ const SCRIPT: &str = r#"
 /// The exit code of the script if it cannot mount the disk.
 const MOUNT_FAILED: i32 = 99;
 
-/// Grades on a disk of this size in kilobytes. Returns `None` if this system does not allow the
+/// Grades on a disk of this size in kilobytes. Returns `None` if this system doesn't allow the
 /// mount.
 fn grade_on_disk(
     kilobytes: usize,

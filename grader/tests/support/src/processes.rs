@@ -34,7 +34,7 @@ pub fn name(process: u32) -> Option<String> {
     stat(process).map(|(name, _)| name)
 }
 
-/// Returns whether a process has not ended.
+/// Returns whether a process hasn't ended.
 pub fn is_running(process: u32) -> bool {
     stat(process).is_some_and(|(_, words)| words[0] != "Z")
 }

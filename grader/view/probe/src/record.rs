@@ -62,7 +62,7 @@ pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace
     hit
 }
 
-/// Counts a test and adds it to the current ray. A test outside any ray is not listed.
+/// Counts a test and adds it to the current ray. A test outside any ray isn't listed.
 fn record(number: fn(&mut TestCounts) -> &mut u32, test: impl FnOnce() -> Test) {
     let add = |counts: &mut TestCounts| {
         let number = number(counts);

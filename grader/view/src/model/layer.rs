@@ -55,7 +55,7 @@ impl<T: Copy + Default> Layer<T> {
         })
     }
 
-    /// Returns all values, row by row from the bottom, with `None` for pixels that are not drawn.
+    /// Returns all values, row by row from the bottom, with `None` for pixels that aren't drawn.
     pub fn values(&self) -> impl Iterator<Item = Option<T>> {
         let drawn = self.tiles.counts.iter().zip(&self.values);
         drawn.map(|(count, value)| (*count > 0).then_some(*value))

@@ -96,8 +96,8 @@ impl Tiles {
         }
     }
 
-    /// Takes the tile with the fewest samples among those that need more and are not being drawn,
-    /// if any. Returns its index and the request for it.
+    /// Takes the tile with the fewest samples among those that need more and aren't being drawn, if
+    /// any. Returns its index and the request for it.
     pub fn take(&mut self, layer: LayerKind, milliseconds: u32) -> Option<(usize, Draw)> {
         let steps = self.steps();
         let samples = self.samples;
@@ -143,7 +143,7 @@ impl Tiles {
         (STRIDES.len() as u32 - 1).saturating_add(self.samples)
     }
 
-    /// Returns whether every pixel has all of its samples.
+    /// Returns whether all samples of every pixel have been drawn.
     pub fn is_complete(&self) -> bool {
         let steps = self.steps();
         self.tiles.iter().all(|tile| tile.step >= steps)

@@ -111,7 +111,7 @@ impl Viewpoint {
     }
 
     /// Returns the viewpoint after a movement. `height` is the height of the picture at distance
-    /// one. Movements with numbers that are not finite are ignored.
+    /// one. Movements with numbers that aren't finite are ignored.
     pub fn moved(self, movement: Movement, height: f32) -> Self {
         let Placement { position, axes } = self.placement;
         let forward = -axes.z_axis;

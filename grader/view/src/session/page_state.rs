@@ -134,7 +134,7 @@ impl Session {
         }
     }
 
-    /// Returns why the pinned pixel is not explained.
+    /// Returns why the pinned pixel isn't explained.
     fn explanation_problem(&self) -> Option<String> {
         self.pinned?;
         if let (BuildState::Failed(_) | BuildState::Broken(_), None) =

@@ -130,7 +130,7 @@ impl Session {
         }
     }
 
-    /// Reports an explanation, or why there is none.
+    /// Reports an explanation, or why it failed.
     pub fn explained(&mut self, key: Key, pinned: &Pinned, result: Result<Explanation, String>) {
         if key.has_tree_of(&self.numbers) && self.pinned.as_ref() == Some(pinned) {
             let (explanation, fault) = match result {

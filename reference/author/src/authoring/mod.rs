@@ -16,7 +16,7 @@ pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
 /// mistakes, variants and equivalent mutants.
 #[derive(Debug)]
 pub struct Authoring {
-    /// The assignment as it is handed out.
+    /// The assignment as handed out to students.
     pub handed_out: &'static HandedOut,
     /// The file of the practice exam, relative to the workspace's root.
     pub practice_exam: &'static str,

@@ -13,10 +13,10 @@ use crate::bundle::Bundle;
 const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
 /// The manifest of the only crate whose tests, the worked examples, are in the bundle.
 const STUDENT_MANIFEST: &str = "student/Cargo.toml";
-/// The manifest keys for tests and benches, which are not in the bundle.
+/// The manifest keys for tests and benches, which aren't in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
-/// The profile for benches. It configures packages that are not in the bundle.
+/// The profile for benches. It configures packages that aren't in the bundle.
 const STAFF_PROFILE: &str = "bench";
 
 /// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
@@ -61,8 +61,8 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     Ok(())
 }
 
-/// Declares that a crate has no tests and benches. Otherwise, editors would compile the leftovers
-/// of its tests after each save, and they don't compile.
+/// Declares that a crate contains no tests or benches. Otherwise, editors would compile the
+/// leftovers of its tests after each save, and they don't compile.
 fn leave_out_tests(manifest: &mut DocumentMut) {
     let programs = manifest.get_mut("bin");
     let programs = programs.and_then(Item::as_array_of_tables_mut);

@@ -68,7 +68,7 @@ impl Bundle {
         test_modules::remove(&mut bundle);
         if let Some(book) = book {
             folders::copy_tree(book, "handout/book", &mut bundle)?;
-            // Leaving out the pages would not be enough, because the book's search index contains
+            // Leaving out the pages wouldn't be enough, because the book's search index contains
             // their words.
             let pages = folders::staff_pages("handout/book", &bundle);
             if !pages.is_empty() {

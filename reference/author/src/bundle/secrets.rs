@@ -1,7 +1,7 @@
 //! Searches a bundle for secrets: lines of solutions, and final exams.
 //!
 //! A secret line is a line of code of a solution, variant, mistake, mutant or oracle. White space
-//! is ignored when lines are compared. Lines of the given files are not secret. Neither are lines
+//! is ignored when lines are compared. Lines of the given files aren't secret. Neither are lines
 //! that compute nothing, e.g. `use std::fs;` or a closing brace.
 
 use std::collections::{HashMap, HashSet};
@@ -153,8 +153,7 @@ fn normalize(line: &str) -> Option<String> {
     (computes && !is_no_code && !is_idiom && line.len() >= MIN_LENGTH).then_some(line)
 }
 
-/// Returns whether the line contains arithmetic. An arrow or a dereferenced field is not
-/// arithmetic.
+/// Returns whether the line contains arithmetic. An arrow or a dereferenced field isn't arithmetic.
 fn is_formula(line: &str) -> bool {
     let operators = line.replace("->", "").replace(": *", "").replace(":*", "");
     operators.contains(['+', '-', '*', '/'])

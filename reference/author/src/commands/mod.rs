@@ -93,7 +93,7 @@ fn solutions(authoring: &'static Authoring) -> anyhow::Result<Solutions> {
     Solutions::load(Workbench::open(authoring)?)
 }
 
-/// Prints the problems and the summary line. Fails if there are problems.
+/// Prints the problems and the summary line. Fails if any problems were found.
 fn report(problems: &[String], line: &str) -> CommandResult {
     for problem in problems {
         print_error_line(problem);
@@ -114,7 +114,7 @@ fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> Comm
     Ok(())
 }
 
-/// Formats seeds as they are written on the command line.
+/// Formats seeds as on the command line.
 fn written(seeds: &Range<u64>) -> String {
     format!("{}..{}", seeds.start, seeds.end)
 }

@@ -35,7 +35,7 @@ const SOURCES: [&str; 10] = [
     "scenes",
 ];
 
-/// Folders that are not searched for files.
+/// Folders that aren't searched for files.
 const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
 
 /// A source file to search for names.

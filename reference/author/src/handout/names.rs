@@ -100,7 +100,7 @@ fn item_id<'a>(text: &'a str, exam: &Exam) -> Option<&'a str> {
     (is_task && is_identifier(name) && name != "rs").then_some(id)
 }
 
-/// Returns whether a text has the form of a file or folder name.
+/// Returns whether a text looks like a file or folder name.
 fn is_path(text: &str) -> bool {
     let endings = [".rs", ".md", ".json", ".toml", ".obj", ".html", "/"];
     let plain = |letter: char| letter.is_alphanumeric() || "._-/".contains(letter);

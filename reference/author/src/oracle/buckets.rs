@@ -93,7 +93,8 @@ fn subtree_cost(
 }
 
 impl BucketedBuilder {
-    /// Returns the index of the bucket of a primitive's centre along an axis of the box `over`.
+    /// Returns the index of the bucket that contains a primitive's centre along an axis of the box
+    /// `over`.
     fn bucket_of(self, bounds: &Bounds, over: &Bounds, axis: usize) -> usize {
         let size = over.max[axis] - over.min[axis];
         let part = (bounds.center()[axis] - over.min[axis]) / size;

@@ -66,7 +66,7 @@ pub fn bounds(shape: &Shape) -> Bounds {
 }
 
 /// Returns the box around a subject's shapes and points, enlarged by its lengths, such as a radius.
-/// Returns `None` if the subject has no shapes or points.
+/// Returns `None` if the subject contains no shapes or points.
 pub fn extent(subject: &dyn Record) -> Option<Bounds> {
     let (mut boxes, mut margin) = (Vec::new(), 0.0_f64);
     for value in subject.values() {
@@ -86,7 +86,7 @@ pub fn extent(subject: &dyn Record) -> Option<Bounds> {
 }
 
 /// Returns whether all correct formulas in single precision agree on the ray's hit or miss of this
-/// shape, because it is not close to an edge, a tangent or an end of the range.
+/// shape, because it isn't close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
     /// The minimum difference between a distance and the ends of the range, in sizes of the shape.
     const END_MARGIN: f64 = 1e-2;

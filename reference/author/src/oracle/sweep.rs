@@ -127,7 +127,7 @@ fn given_order_is_worse(boxes: &[Bounds], cost: f64) -> bool {
 /// Returns whether every way to divide a few primitives costs at least as much, with a plane or
 /// without. Such divisions are possible because rounding may sort coinciding centres in any order.
 fn no_sides_are_cheaper(boxes: &[Bounds], cost: f64) -> bool {
-    /// The maximum number of primitives for which all ways are tried.
+    /// All ways are tried for at most this many primitives.
     const FEW: usize = 10;
     if boxes.len() > FEW {
         return true;

@@ -14,7 +14,7 @@ use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, NotCompiledError, Workbench};
 
-/// Builds solutions and returns what `ask` returns for each. A solution that does not compile is an
+/// Builds solutions and returns what `ask` returns for each. A solution that doesn't compile is an
 /// error. `unit` is shown with the progress.
 pub(super) fn run<'a, R: Send>(
     workbench: &Workbench,

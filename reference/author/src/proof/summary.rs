@@ -75,7 +75,7 @@ impl ProofSummary {
         lines
     }
 
-    /// Returns notes that are worth knowing but are not problems, one line each.
+    /// Returns notes that are worth knowing but aren't problems, one line each.
     pub fn notes(&self) -> Vec<String> {
         let results = self.results.iter();
         let notes = results.flat_map(|result| {

@@ -32,8 +32,8 @@ use crate::solutions::sources::Sources;
 pub struct Mistake {
     /// The task's id, a dot, and a name, such as `sphere.far_first`.
     pub id: String,
-    /// A description of what the wrong code does. An independent mistake has the description of its
-    /// known mistake.
+    /// A description of what the wrong code does. An independent mistake uses its known mistake's
+    /// description.
     #[serde(default)]
     pub title: String,
     /// The id of the variant that an independent mistake is in.
@@ -87,7 +87,7 @@ pub struct Change {
 }
 
 /// Reads all known mistakes of an assignment in the workspace at `root`, ordered by task and then
-/// by file. A task without a folder has no mistakes.
+/// by file. There are no mistakes in a task without a folder.
 pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     let mut all: Vec<Mistake> = Vec::new();
     for task in handed_out.assignment.tasks() {
@@ -152,7 +152,7 @@ fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Ve
     Ok(files.into_iter().flat_map(|file| file.mistake).collect())
 }
 
-/// Reads the TOML files in a folder of the catalogue. There are none if the folder does not exist.
+/// Reads the TOML files in a folder of the catalogue. Returns none if the folder doesn't exist.
 pub(super) fn read_folder<T: DeserializeOwned>(
     root: &Path,
     handed_out: &HandedOut,
@@ -208,7 +208,7 @@ impl Solutions {
         read_mistakes(self.workbench.root(), self.workbench.handed_out(), folder)
     }
 
-    /// Returns the task of a wrong solution that is not a known mistake. Checks the ids in its
+    /// Returns the task of a wrong solution that isn't a known mistake. Checks the ids in its
     /// entry.
     pub(super) fn check_unknown(
         &self,
@@ -300,7 +300,7 @@ impl Mistake {
     }
 }
 
-/// Applies changes to a solution: to the files they name, or else to `own_file`. If a text does not
+/// Applies changes to a solution: to the files they name, or else to `own_file`. If a text doesn't
 /// occur exactly once, returns the file and the number of occurrences.
 fn apply_changes(
     base: &Sources,

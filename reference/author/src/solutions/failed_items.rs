@@ -1,5 +1,5 @@
 //! The items that each known mistake fails with every seed: `fails.toml` in the folder of the
-//! mistakes. The file is generated because people cannot tell which items only fail by luck of the
+//! mistakes. The file is generated because it isn't obvious which items only fail by luck of the
 //! seed.
 
 use std::collections::BTreeMap;
@@ -37,7 +37,7 @@ impl FailedItems {
         read_toml(&path).map_err(|error| anyhow!("{error}; run `cargo author mistakes`"))
     }
 
-    /// Returns the items that a mistake fails, or none if the mistake is not in the file.
+    /// Returns the items that a mistake fails, or none if the mistake isn't in the file.
     pub fn of_mistake(&self, id: &str) -> &[String] {
         self.fails.get(id).map_or(&[], Vec::as_slice)
     }

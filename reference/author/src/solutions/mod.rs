@@ -79,7 +79,7 @@ impl Solutions {
         self.mistakes.iter().find(|mistake| mistake.id == id)
     }
 
-    /// Returns whether two mistakes, given by their ids, have the same hint.
+    /// Returns whether two mistakes, given by their ids, share a hint.
     pub fn have_same_hint(&self, one: &str, other: &str) -> bool {
         let hint = |id: &str| {
             let mut mistakes = self.catalogue.iter();

@@ -50,7 +50,7 @@ impl Sources {
         self
     }
 
-    /// Writes the files to a folder, which is created if it does not exist.
+    /// Writes the files to a folder, which is created if it doesn't exist.
     pub fn write(&self, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         let mut files = self.files.iter();

@@ -37,7 +37,7 @@ pub struct Workbench {
     builder: Builder,
 }
 
-/// A solution does not compile.
+/// A solution doesn't compile.
 #[derive(Debug, thiserror::Error)]
 #[error("{id} does not compile:\n{message}")]
 pub struct NotCompiledError {
@@ -71,7 +71,7 @@ impl Workbench {
         self.authoring
     }
 
-    /// Returns the assignment as it is handed out.
+    /// Returns the assignment as handed out to students.
     pub fn handed_out(&self) -> &'static HandedOut {
         self.authoring.handed_out
     }
@@ -86,7 +86,7 @@ impl Workbench {
         self.workspace.output_folder()
     }
 
-    /// Builds a solution. Returns an error if any of its files does not compile.
+    /// Builds a solution. Returns an error if any of its files doesn't compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution> {
         let builder = match sources.crates() {
             [] => Cow::Borrowed(&self.builder),

@@ -96,7 +96,7 @@ fn corners_around(shapes: &[Shape]) -> (Vec3, Vec3) {
     (min, max)
 }
 
-/// Rounds a corner of a box to single precision, outward if it is not exact. The corners of flat
+/// Rounds a corner of a box to single precision, outward if it isn't exact. The corners of flat
 /// triangles are exact, so flat boxes stay flat. The extents of a sphere may be inexact.
 fn round_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
     let component = |axis: usize| {

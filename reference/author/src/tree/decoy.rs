@@ -165,7 +165,7 @@ pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
 
 /// Returns whether every decoy that would change the answer for this ray is out of reach.
 fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
-    /// The minimum distance at which a decoy behind the hit cannot be mistaken for it, in sizes of
+    /// The minimum distance for a decoy behind the hit that cannot be mistaken for it, in sizes of
     /// the decoy.
     const BEHIND: f64 = 0.03;
     let hit = tree.expected_hit(ray64);
@@ -190,7 +190,7 @@ fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
         .all(|rule| Traversal::correct(tree, ray64, rule).closest == expected)
 }
 
-/// Returns whether the expected hit does not depend on rounding: all ordinary primitives up to the
+/// Returns whether the expected hit doesn't depend on rounding: all ordinary primitives up to the
 /// closest hit are clearly hit or clearly missed, and no two are hit at the same distance.
 fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
     /// The minimum distance from the hit to a shape behind it, in sizes of the shape.

@@ -25,7 +25,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Returns the text of a file of the workspace.
+/// Returns the text of a workspace file.
 pub fn text(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }

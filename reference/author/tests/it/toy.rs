@@ -35,7 +35,7 @@ mod assignment;
 
 use assignment::TOY;
 
-/// Returns the text of a file of the toy.
+/// Returns the text of one of the toy's files.
 fn text(path: &str) -> String {
     harness::text(&format!("reference/author/tests/toy/{path}"))
 }

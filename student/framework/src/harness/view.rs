@@ -28,8 +28,8 @@ const RELATIVE_TOLERANCE: f32 = 1e-4;
 const MAX_STEPS: usize = 4096;
 
 /// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
-/// is not finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate in
-/// the scene.
+/// isn't finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate
+/// in the scene.
 pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32) -> Vec<Vec3> {
     let each = |colour: &dyn Fn(&Trace) -> Vec3| {
         let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);

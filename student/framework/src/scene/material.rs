@@ -80,7 +80,7 @@ impl Material {
         })
     }
 
-    /// Returns the radiance that the surface emits, or `None` if it is not an emitter.
+    /// Returns the radiance that the surface emits, or `None` if it isn't an emitter.
     pub fn emitted(&self) -> Option<Vec3> {
         match *self {
             Material::Emitter { radiance } => Some(radiance),

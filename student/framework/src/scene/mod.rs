@@ -58,7 +58,7 @@ impl Scene {
     /// Parses a scene from the text of a scene file that uses no other files.
     ///
     /// # Errors
-    /// Fails if the text is not a valid scene, or if the scene uses a mesh.
+    /// Fails if the text isn't a valid scene, or if the scene uses a mesh.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
         let message = "meshes are separate files, so only a scene that is read from a file can use \
                        one";
@@ -103,7 +103,7 @@ impl Scene {
         }
     }
 
-    /// Returns the material of the shape with this index, or `None` if there is no such shape.
+    /// Returns the material of the shape with this index, or `None` if the index is out of range.
     pub fn material_of(&self, shape: u32) -> Option<&Material> {
         let material = *self.shape_materials.get(shape as usize)?;
         self.materials.get(material as usize)

@@ -15,7 +15,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
     })
 }
 
-/// Reads a text file that may contain bytes that are not UTF-8. Drops the byte order mark that some
+/// Reads a text file that may contain bytes that aren't UTF-8. Drops the byte order mark that some
 /// editors put at its start.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
     let bytes = std::fs::read(path).map_err(|error| {

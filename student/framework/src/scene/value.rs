@@ -61,7 +61,7 @@ impl<'a> Value<'a> {
         self.error(format!("`{}`: expected {expected}, got {got}", self.key))
     }
 
-    /// Creates an error about this name, which is not one of the known names.
+    /// Creates an error about this name, which isn't one of the known names.
     pub(super) fn unknown(
         &self,
         problem: &str,
@@ -190,7 +190,7 @@ impl<'a> Value<'a> {
     }
 
     /// Returns the elements of a list, or the keys and values of an object, one after another.
-    /// Returns `None` if the value does not begin with the bracket `open`.
+    /// Returns `None` if the value doesn't begin with the bracket `open`.
     fn items(&self, open: char) -> Option<Vec<Value<'a>>> {
         let mut rest = self.text[self.start..].strip_prefix(open)?;
         let mut items = Vec::new();
@@ -248,7 +248,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// Returns the offset of the first character that is not white space.
+/// Returns the offset of the first character that isn't white space.
 fn skip_space(text: &str, start: usize) -> usize {
     text.len() - text[start..].trim_start().len()
 }

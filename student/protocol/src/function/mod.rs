@@ -1,7 +1,7 @@
 //! Functions: the methods of a submission that an exam calls in tables, once per row.
 //!
 //! Each function is declared in its own file. This file contains the two lists of all functions:
-//! `Question`, which also has a few variants that are not tables, and the methods of `Submission`.
+//! `Question`, which also has a few variants that aren't tables, and the methods of `Submission`.
 
 mod bbox_hit;
 mod hit;

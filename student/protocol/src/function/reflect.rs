@@ -8,7 +8,7 @@ use super::{Function, Input, Output, Question, Submission, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Fields, Record, fields};
 
-/// Calls `reflect` for directions. The function has no subject.
+/// Calls `reflect` for directions. The function isn't called on a subject.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reflect;
 

@@ -65,7 +65,7 @@ impl<I: Input> Rows<I> {
         }
     }
 
-    /// Returns the row at `index`, or `None` if there is none.
+    /// Returns the row at `index`, or `None` if it is out of range.
     pub fn get(&self, index: usize) -> Option<I> {
         if index >= self.count() {
             return None;
@@ -88,7 +88,7 @@ impl<I: Input> Rows<I> {
     ///
     /// # Panics
     ///
-    /// If there are fewer rows.
+    /// If the range is out of bounds.
     pub fn subset(&self, rows: Range<usize>) -> Self {
         let row = |index| self.get(index).expect("the row exists");
         Rows::List(rows.map(row).collect())

@@ -49,7 +49,7 @@ pub trait AnyTable {
     /// Returns the number of rows.
     fn count(&self) -> usize;
 
-    /// Returns the arguments in a row, or `None` if there is no such row.
+    /// Returns the arguments in a row, or `None` if the row is out of range.
     fn input(&self, row: usize) -> Option<Box<dyn Record>>;
 
     /// Returns the number of pixels, across and up, if the rows are those of a picture.
@@ -72,7 +72,7 @@ pub trait AnyTable {
     ///
     /// # Panics
     ///
-    /// If there are fewer rows.
+    /// If the range is out of bounds.
     fn subset(&self, rows: Range<usize>) -> Question;
 
     /// Returns the question with every field of the subject and the rows replaced by `change`.

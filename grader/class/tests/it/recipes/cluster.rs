@@ -156,8 +156,8 @@ impl Cluster {
             .concat()
     }
 
-    /// Returns the process ids of the daemons and the jobs they started. All of them have the path
-    /// of this cluster's folder in their environment.
+    /// Returns the process ids of the daemons and the jobs they started. Their environments contain
+    /// the path of this cluster's folder.
     fn processes(&self) -> Vec<String> {
         let path = self.folder.path().as_os_str().as_bytes();
         let is_own = |id: &String| {

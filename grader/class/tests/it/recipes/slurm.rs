@@ -124,7 +124,7 @@ fn a_killed_part_is_graded_again_and_the_results_equal_one_run() {
     let retried = slurm.class.path_beside("retried");
     let output = slurm.recipe(&cluster, &retried, "2").output().unwrap();
     let (array, merge) = submitted(&output);
-    // The same class, but a shard that dies is not retried.
+    // The same class, but a shard that dies isn't retried.
     let failed = slurm.class.path_beside("failed");
     let output = slurm.recipe(&cluster, &failed, "0").output().unwrap();
     let (_, failed_merge) = submitted(&output);

@@ -10,7 +10,7 @@ use protocol::TreeNode;
 /// A defect of a tree.
 #[derive(Clone, Debug)]
 pub enum TreeDefect {
-    /// The question has primitives, but the tree has no nodes.
+    /// The question contains primitives, but the tree is empty.
     NoNodes {
         /// The number of primitives in the question.
         primitives: usize,
@@ -36,7 +36,7 @@ pub enum TreeDefect {
         /// The number of primitives in the question.
         primitives: usize,
     },
-    /// A leaf lists primitives that do not exist.
+    /// A leaf lists primitives that don't exist.
     UnknownPrimitives {
         /// The index of the leaf.
         leaf: u32,
@@ -56,7 +56,7 @@ pub enum TreeDefect {
         /// The number of leaves that contain it.
         leaves: usize,
     },
-    /// A box does not contain everything below its node.
+    /// A box doesn't contain everything below its node.
     BoxTooSmall(NodeBox),
     /// A box is larger than necessary.
     BoxTooLarge(NodeBox),

@@ -22,11 +22,10 @@ use reached_nodes::{ReachedNode, reached_nodes};
 pub const FULL_MARKS_RATIO: f64 = 1.12;
 /// Maximum cost for half marks, relative to the cost of the exact sweep's tree.
 const HALF_MARKS_RATIO: f64 = 1.25;
-/// Maximum distance by which a box may extend beyond its contents, relative to the diagonal of the
-/// contents.
+/// The farthest a box may extend beyond its contents, relative to the diagonal of the contents.
 pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
-/// Maximum distance by which a primitive may extend beyond its box, relative to the diagonal of the
-/// contents. This allows for rounding only.
+/// The farthest a primitive may extend beyond its box, relative to the diagonal of the contents.
+/// This allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
 /// A tree and the checks on it.

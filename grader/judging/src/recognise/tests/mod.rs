@@ -1,4 +1,4 @@
-//! Tests of recognition with small exams, in which each element of an item has one number.
+//! Tests of recognition with small exams. Each element of an item is observed as one number.
 //!
 //! Exams and answers are written as text: items are separated by `|`, and their elements by spaces.
 //! `7` is a number far from the others, `7*3` stands for `7 7 7`, `miss` for a ray that hits

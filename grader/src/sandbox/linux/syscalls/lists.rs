@@ -163,10 +163,10 @@ pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_utime,
 ];
 
-/// This architecture has no such calls.
+/// These calls don't exist on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const COMMON_X86: &[c_long] = &[];
 
-/// This architecture has no such calls.
+/// These calls don't exist on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const COMPILER_X86: &[c_long] = &[];

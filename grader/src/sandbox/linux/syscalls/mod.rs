@@ -77,7 +77,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     );
     // A program may only signal itself, since its user may have other processes, and only with
     // SIGABRT, for `abort`. With other signals, it could choose how it seems to end: SIGKILL looks
-    // as if memory had run out, which is not considered the program's fault, so the grader would
+    // as if memory had run out, which isn't considered the program's fault, so the grader would
     // have to be run again.
     let own = u64::from(std::process::id());
     let abort = libc::SIGABRT as u64;
@@ -88,7 +88,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_tgkill,
         vec![SeccompRule::new(vec![equal(0, own)?, equal(2, abort)?])?],
     );
-    // `F_SETOWN` and similar commands are not allowed: with them, a program can have the kernel
+    // `F_SETOWN` and similar commands aren't allowed: with them, a program can have the kernel
     // signal any process when data arrives.
     let harmless = [
         libc::F_DUPFD,

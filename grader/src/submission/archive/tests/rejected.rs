@@ -103,7 +103,7 @@ fn limits_how_much_an_archive_bomb_inflates() {
         assert_eq!(*text(&submission, "bvh.rs"), Err(TaskFileError::TooLong));
         assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
     }
-    // Members of a tar are inflated even if they are not requested. A gzip file may consist of
+    // Members of a tar are inflated even if they aren't requested. A gzip file may consist of
     // several streams, so repeat one compressed member without the end of the tar.
     let header = 512;
     let part = gzip(&tar(&[("film.mp4", &zeros)])[..header + zeros.len()]);

@@ -26,7 +26,7 @@ const WITHOUT_POINTS: [Verdict; 7] = [
     Verdict::Protocol,
 ];
 
-/// Returns the number of results, without hints, that students can tell apart at a level.
+/// Returns the number of results, without hints, that students can distinguish at a level.
 fn distinct_results(score: &Score, item: &Item, level: &str) -> usize {
     let partial = (1..item.points).map(|points| (Verdict::Partial, points));
     let failed = WITHOUT_POINTS.map(|verdict| (verdict, 0));

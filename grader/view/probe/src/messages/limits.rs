@@ -108,8 +108,8 @@ fn has_possible_numbers(drawn: &Drawn) -> bool {
         && drawn.rays.max(drawn.invalid_paths) <= u32::MAX.into()
 }
 
-/// Deserialises a list of at most `N` elements. A value can take a single byte on the wire and 56 in
-/// memory, so a limit in bytes is not enough.
+/// Deserialises a list of at most `N` elements. A value can take a single byte on the wire and 56
+/// in memory, so a limit in bytes isn't enough.
 pub(super) fn at_most<'de, T, D, const N: usize>(from: D) -> Result<Vec<T>, D::Error>
 where
     T: Deserialize<'de>,

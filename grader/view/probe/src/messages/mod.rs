@@ -237,7 +237,7 @@ impl Values {
         }
     }
 
-    /// Returns whether there are no pixels.
+    /// Returns whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

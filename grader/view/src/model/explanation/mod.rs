@@ -20,7 +20,7 @@ pub struct Context<'a> {
     pub tree: &'a TreeModel,
     /// All shapes.
     pub shapes: &'a [Shape],
-    /// Whether the shapes are tested as a list, because the question is not about a tree.
+    /// Whether the shapes are tested as a list, because the question isn't about a tree.
     pub is_list: bool,
     /// The addresses of the nodes in memory, if known.
     pub addresses: Option<NodeAddresses>,

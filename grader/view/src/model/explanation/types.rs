@@ -35,9 +35,9 @@ pub struct ExplainedRay {
     pub hit: Option<ExplainedHit>,
     /// The tests, in order.
     pub rows: Vec<ExplainedTest>,
-    /// The number of box tests, including those that are not listed.
+    /// The number of box tests, including those that aren't listed.
     pub boxes: u32,
-    /// The number of primitive tests, including those that are not listed.
+    /// The number of primitive tests, including those that aren't listed.
     pub primitives: u32,
     /// Remarks about all tests together.
     pub notes: Vec<String>,
@@ -100,6 +100,6 @@ pub enum Outcome {
     Closest,
     /// The primitive is hit, but isn't the closest.
     Farther,
-    /// The primitive is not hit.
+    /// The primitive isn't hit.
     NoHit,
 }

@@ -1,6 +1,6 @@
 //! Rules that every correct traversal follows, checked without knowing a correct answer. They use
 //! the submission's own `BBox::hit` and the exam's margins: anything within 1 % of a box's diagonal
-//! is not judged.
+//! isn't judged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -31,7 +31,7 @@ pub struct Row {
     /// The node entered with this test, unless it was entered before: the parent of the tested box,
     /// or the primitive's leaf.
     pub enters: Option<u32>,
-    /// Nodes that may have been entered with this test, i.e. the parents if several nodes have the
+    /// Nodes that may have been entered with this test, i.e. the parents if several nodes share the
     /// tested box.
     pub may_enter: Vec<u32>,
 }
@@ -40,9 +40,9 @@ pub struct Row {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
-    /// A node whose box the ray misses is not entered.
+    /// A node whose box the ray misses isn't entered.
     MissedBox,
-    /// A node whose box begins beyond the closest hit so far is not entered.
+    /// A node whose box begins beyond the closest hit so far isn't entered.
     BeyondClosestHit,
     /// If the ray hits the boxes of both children, the one it enters first is visited first.
     FartherChildFirst,

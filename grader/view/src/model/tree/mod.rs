@@ -22,9 +22,9 @@ const MAX_LEAVES: usize = 64;
 pub struct TreeModel {
     /// The tree.
     pub tree: Tree,
-    /// The parent of each node. `None` for the root and for nodes that are not reached from it.
+    /// The parent of each node. `None` for the root and for nodes that aren't reached from it.
     parents: Vec<Option<u32>>,
-    /// The level of each node, 0 for the root. `None` for nodes that are not reached from it.
+    /// The level of each node, 0 for the root. `None` for nodes that aren't reached from it.
     levels: Vec<Option<u32>>,
     /// The number of primitives in the leaves below each node.
     counts: Vec<u32>,
@@ -35,7 +35,7 @@ pub struct TreeModel {
     /// The leaf that contains each primitive, by the primitive's number: the first one in
     /// depth-first order.
     leaves: HashMap<u32, u32>,
-    /// The nodes in the order of the bits of their boxes.
+    /// The nodes, sorted by the bits of their boxes.
     by_box: Vec<u32>,
 }
 
@@ -132,7 +132,7 @@ impl TreeModel {
         }
     }
 
-    /// Returns whether there is a node.
+    /// Returns whether the tree contains any nodes.
     pub fn has_nodes(&self) -> bool {
         !self.order.is_empty()
     }

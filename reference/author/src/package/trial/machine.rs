@@ -24,7 +24,7 @@ const SYSTEM_PATH: &str = "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin";
 /// The arguments of `unshare` for the machine's own namespaces.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
 const NO_CARGO: &str = "CARGO is not set: run `cargo author package … --check`";
-/// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
+/// The exit code of [`LIMIT_SCRIPT`] if control groups cannot be used.
 const NO_LIMITS_CODE: i32 = 125;
 
 /// The result of a command.
@@ -45,7 +45,7 @@ pub struct JobResult {
 pub struct ResourceUsage {
     /// The CPU time.
     pub cpu: Duration,
-    /// The peak memory, in bytes. `None` if the system does not report it.
+    /// The peak memory, in bytes. `None` if the system doesn't report it.
     pub peak_memory: Option<u64>,
 }
 

@@ -13,7 +13,7 @@ use crate::bundle::{Bundle, archive, crates};
 use crate::package::Platform;
 use crate::package::trial::machine::{JobResult, Machine};
 
-/// The metadata file that Gradescope provides with a submission. It does not affect the score.
+/// The metadata file that Gradescope provides with a submission. It doesn't affect the score.
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [
 {"email": "alice@example.edu", "id": 7, "name": "Alice"}], "assignment": {"id": 3, "course_id": 2,
 "title": "Path Tracer", "due_date": "2026-11-21T00:00:00.000000-08:00", "late_due_date": null,

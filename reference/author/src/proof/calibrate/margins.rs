@@ -43,14 +43,14 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// Returns the factor by which the threshold could be made stricter before a correct answer is
+    /// Returns how many times stricter the threshold could be made before a correct answer is
     /// judged wrong.
     pub fn correct_margin(&self) -> f64 {
         let worst = self.worst_correct.as_ref();
         worst.map_or(f64::INFINITY, |worst| 1.0 / worst.deviation.value)
     }
 
-    /// Returns the factor by which the threshold could be made more lenient before an item stops
+    /// Returns how many times more lenient the threshold could be made before an item stops
     /// catching a mistake.
     pub fn mistake_margin(&self) -> f64 {
         let mildest = self.mildest_mistake.as_ref();
@@ -134,7 +134,7 @@ impl Margins {
         }
     }
 
-    /// Returns the margins of the union of both sets of samples.
+    /// Returns the margins for both sets of samples combined.
     pub fn merge(mut self, other: Margins) -> Margins {
         for (kept_for, sample) in other.nearest {
             self.keep_nearest(kept_for, sample);

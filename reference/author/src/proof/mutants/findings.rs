@@ -7,13 +7,13 @@ use crate::solutions::mutants::equivalent::{self, EquivalentMutant};
 /// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MutantOutcome {
-    /// The mutant does not compile.
+    /// The mutant doesn't compile.
     NotCompiled,
     /// The mutant loses points.
     Caught,
     /// The mutant gets full marks.
     Survived,
-    /// The mutant is not in the sample, so it was not graded.
+    /// The mutant isn't in the sample, so it was not graded.
     Skipped,
 }
 
@@ -70,7 +70,7 @@ impl Findings {
         survive.chain(wrongly_listed).collect()
     }
 
-    /// Returns the survivors that are not listed as equivalent.
+    /// Returns the survivors that aren't listed as equivalent.
     fn unexpected_survivors(&self) -> impl Iterator<Item = &String> {
         let survive = self
             .outcomes

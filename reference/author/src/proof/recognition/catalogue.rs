@@ -1,4 +1,4 @@
-//! Mistakes that the exam does not know in this form: known mistakes in variants, and unknown
+//! Mistakes that the exam doesn't know in this form: known mistakes in variants, and unknown
 //! mistakes.
 
 use std::collections::BTreeSet;

@@ -183,7 +183,7 @@ pub fn recognise_pairs(
     })
 }
 
-/// Returns the reference with two mistakes, or `None` if there is no code that has both.
+/// Returns the reference with two mistakes, or `None` if the two cannot be combined.
 fn both_mistakes(solutions: &Solutions, one: &Mistake, other: &Mistake) -> Option<Solution> {
     let mut both = one.solution(solutions.recorder.reference()).ok()?;
     both.sources = other.apply(&both.sources).ok()?;

@@ -15,7 +15,7 @@ use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
 
 /// Returns all mutants, sorted by name. A name consists of the file, the family, the change and the
-/// function; identical names are numbered.
+/// function. Identical names are numbered.
 pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     let mut found = Vec::new();
     let assignment = reference.handed_out().assignment;

@@ -53,7 +53,7 @@ const OPERATORS: [(&str, &[&str]); 16] = [
 ];
 
 impl<'ast> Visit<'ast> for Visitor<'_> {
-    /// Tests are not part of a solution.
+    /// Tests aren't part of a solution.
     fn visit_item_mod(&mut self, _: &'ast ItemMod) {}
 
     fn visit_attribute(&mut self, _: &'ast Attribute) {}

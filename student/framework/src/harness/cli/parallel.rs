@@ -49,7 +49,7 @@ impl RenderPool {
     }
 
     /// Adds samples to each pixel of the canvas: first one, then as many as it already has. A
-    /// pixel's samples are added in order, so the picture does not depend on the passes.
+    /// pixel's samples are added in order, so the picture doesn't depend on the passes.
     pub(super) fn accumulate(
         &self,
         progress: &Progress,
@@ -74,7 +74,7 @@ impl RenderPool {
         Ok(())
     }
 
-    /// Calls `row` for each row. Threads take one row at a time, and the result does not depend on
+    /// Calls `row` for each row. Threads take one row at a time, and the result doesn't depend on
     /// which thread takes which row.
     fn rows<R: Send>(
         &self,

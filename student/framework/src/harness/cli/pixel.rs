@@ -84,7 +84,7 @@ fn shape_name(scene: &Scene, number: u32) -> String {
     format!("{name}, number {} of {}", number + 1, scene.shapes.len())
 }
 
-/// Returns the name and the kind of the material of the shape with this number.
+/// Returns the name and the kind of this shape's material.
 fn material_name(scene: &Scene, names: &[String], shape: u32) -> String {
     let index = scene.shape_materials.get(shape as usize);
     let name = index.and_then(|&index| names.get(index as usize));

@@ -75,7 +75,7 @@ pub(super) fn build(
     })
 }
 
-/// Calls each method that rendering will call, with one ray. Errors are not reported here, because
+/// Calls each method that rendering will call, with one ray. Errors aren't reported here, because
 /// not every picture calls every method.
 pub(super) fn try_methods(
     submission: &dyn Submission,

@@ -108,7 +108,7 @@ impl Integrator<'_> {
             return Ok(Vec3::ZERO);
         };
         let cosine = sample.direction.dot(surface.normal);
-        // The ray ends just before the light, so that the light does not block itself.
+        // The ray ends just before the light, so that the light doesn't block itself.
         let light = &self.scene.shapes[sample.shape as usize];
         let on_light = surface.position + sample.distance * sample.direction;
         let end = offset::along_ray(light, surface.position, on_light, sample.direction);

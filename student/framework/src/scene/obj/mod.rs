@@ -159,9 +159,9 @@ fn check_face(
     })
 }
 
-/// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`, and returns which indices it
-/// contains. A negative index counts backward from the last element before the current line. Like
-/// other programs, ignores the indices of uvs and normals if the file has none.
+/// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. Returns which indices it contains. A
+/// negative index counts backward from the last element before the current line. Like other
+/// programs, ignores the indices of uvs and normals if the file has none.
 fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bool; 3], String> {
     let mut form = [false; 3];
     for (i, text) in word.split('/').enumerate() {

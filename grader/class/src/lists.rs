@@ -105,8 +105,8 @@ fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     roster::fill_in(rows, &mut people.collect::<Vec<_>>());
 }
 
-/// Returns whether somebody in the entry is on a list, or there is no list. Canvas's test student
-/// is never on a list.
+/// Returns whether somebody in the entry is on a list, or no lists were given. Canvas's test
+/// student is never on a list.
 fn is_listed(rows: &[Member], info: &EntryInfo) -> bool {
     let mut people = info.people.iter();
     rows.is_empty()

@@ -1,6 +1,6 @@
-//! Input for similarity checkers such as JPlag, Dolos and MOSS. For each task file, there is a
-//! folder with a numbered file per submission that only contains its students' own lines. This
-//! isn't a detector: it only compares entire submissions for equality.
+//! Input for similarity checkers such as JPlag, Dolos and MOSS. Each task file has a folder with a
+//! numbered file per submission that only contains its students' own lines. This isn't a detector:
+//! it only compares entire submissions for equality.
 //!
 //! The folder can be uploaded to a service, since it doesn't contain names. The key to the numbers
 //! and the list of identical submissions are written next to it.

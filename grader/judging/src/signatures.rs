@@ -127,7 +127,8 @@ impl ObservedAnswer {
         PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
     }
 
-    /// Returns whether the answer only says that there is no result, and nothing about the cause.
+    /// Returns whether the answer only says that the result is missing, and nothing about the
+    /// cause.
     pub fn is_uninformative(&self) -> bool {
         match self {
             ObservedAnswer::Panicked

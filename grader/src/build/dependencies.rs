@@ -79,7 +79,7 @@ impl Dependencies {
     }
 
     /// Returns the dependencies together with a crate of this workspace, whose package is in
-    /// `folder`. Everything is built in one cargo call, so that there is only one `framework`.
+    /// `folder`. Everything is built in one cargo call, so that they share one `framework`.
     pub fn with_package(
         name: &str,
         folder: &Path,

@@ -88,7 +88,8 @@ impl Rustc {
         self.dependencies.folder.as_os_str().as_encoded_bytes()
     }
 
-    /// Returns the program with this hash from the cache. If there is none, compiles and stores it.
+    /// Returns the program with this hash from the cache. If it isn't cached, compiles and stores
+    /// it.
     pub fn compile_cached(
         &self,
         content: &ContentHash,
@@ -132,7 +133,7 @@ impl Rustc {
     /// If a submission's compiler fails without an error that explains why, the crate is compiled
     /// again while this process runs nothing else. If the system kills the compiler again but the
     /// control program compiles, the crate is the reason. For all other unexplained failures, the
-    /// starter is compiled for comparison once there is nothing else left to try.
+    /// starter is compiled for comparison once nothing else is left to try.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let attempt = match self.budget {
             Some(_) => decide(

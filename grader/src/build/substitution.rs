@@ -30,8 +30,8 @@ const PROBE: &str = "probe.rs";
 /// The compiled parts, and the sources that connect a submission to them.
 ///
 /// The sources of the two crates around a submission's file are kept with the reference instead of
-/// being embedded in this program. Students have the grader's sources, and the code that replaces
-/// functions of the file must stay hidden from them.
+/// being embedded in this program. Students can read the grader's sources, and the code that
+/// replaces functions of the file must stay hidden from them.
 #[derive(Clone, Debug)]
 pub struct ReferenceParts {
     spec: &'static SubstitutedFile,

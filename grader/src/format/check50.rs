@@ -61,7 +61,7 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
     })
 }
 
-/// Returns a check that explains the grade. The format has no other place for it.
+/// Returns a check that explains the grade. The format doesn't provide another place for it.
 fn counted_result(text: String) -> Value {
     json!({
         "name": "counted",

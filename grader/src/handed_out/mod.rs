@@ -190,7 +190,7 @@ impl HandedOut {
 pub struct ChangedMethod {
     /// The method's name.
     pub name: &'static str,
-    /// Whether there is no longer a method with this name.
+    /// Whether the method no longer exists.
     pub is_missing: bool,
 }
 

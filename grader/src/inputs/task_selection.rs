@@ -38,7 +38,7 @@ impl TaskSelection {
         }
     }
 
-    /// Returns whether all tasks are selected, so that there is a score.
+    /// Returns whether all tasks are selected, which is required for a score.
     pub fn is_all(&self) -> bool {
         *self == TaskSelection::All
     }

@@ -74,7 +74,7 @@ pub enum SubmissionError {
         /// Two of the folders or files. The empty path is the top level.
         copies: Vec<String>,
     },
-    /// Task files are unmodified, but there are changed copies of them.
+    /// Task files are unmodified, but changed copies of them exist.
     #[error(
         "{path} has the starter's {}, and changed copies in {}: keep the file that counts, under the task file's name",
         listed(starters),

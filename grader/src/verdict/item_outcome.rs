@@ -14,7 +14,7 @@ pub enum ItemOutcome<'a> {
     NotCompiled(&'a NotCompiled),
     /// The item was not answered.
     Fault {
-        /// Why there is no answer.
+        /// The fault that prevented an answer.
         fault: Fault,
         /// Indices of the question and the element that cause the fault when run in isolation, if
         /// known.

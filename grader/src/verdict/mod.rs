@@ -150,7 +150,7 @@ pub fn file_line(why: &NotCompiled) -> Option<u32> {
     *line
 }
 
-/// Returns the compiler's error, or why there was nothing to compile.
+/// Returns the compiler's error, or why nothing was compiled.
 pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.message(file),

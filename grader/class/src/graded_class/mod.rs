@@ -205,7 +205,7 @@ impl ClassRow {
         }
     }
 
-    /// Returns why there is no score or no final points, or an empty string if there are both.
+    /// Returns why the score or the final points are missing, or an empty string if neither is.
     pub fn why(&self, grade: &PersonGrade) -> String {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => String::new(),

@@ -14,8 +14,8 @@ pub struct Model {
     pub observed: Observed,
     /// The cache keys seen so far in this course.
     pub keys: Keys,
-    /// Each entry's last stamped score and its round. It must not be lost before there is a new
-    /// score.
+    /// Each entry's last stamped score and its round. It must not be lost before a new score
+    /// exists.
     kept: BTreeMap<String, (u64, ScoreId)>,
     /// The regrades that were never finished before the next one started. Their scores are
     /// discarded, but their stamps stay until the entry is graded again.

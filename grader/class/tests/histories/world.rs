@@ -135,7 +135,7 @@ impl World {
         self.submissions.insert(student, version);
     }
 
-    /// Returns whether there is a class. A single folder is a class of one, even if it is empty.
+    /// Returns whether the class exists. A single folder is a class of one, even if it is empty.
     pub fn is_class(&self) -> bool {
         !self.submissions.is_empty()
     }

@@ -70,8 +70,7 @@ pub struct TaskClues {
     /// The clue for code whose rays never hit anything. `None` if the task has no rays that should
     /// hit something.
     pub if_nothing_is_hit: Option<&'static str>,
-    /// The clue for code that overflows the stack. `None` if the recursion could overflow for many
-    /// reasons.
+    /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,
 }
 

@@ -14,7 +14,7 @@ pub struct Mismatch {
     pub deviation: f64,
 }
 
-/// The deviations at one position of a picture, or `None` if there is no answer.
+/// The deviations at one position of a picture, or `None` if the answer is missing.
 pub(super) type Position = Option<ArrayVec<(Aspect, Deviation), 4>>;
 
 impl Mismatch {

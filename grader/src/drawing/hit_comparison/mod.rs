@@ -17,7 +17,7 @@ const UNKNOWN_SHAPE: u32 = u32::MAX;
 /// The submission's answer for one ray.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) enum HitAnswer {
-    /// The code panicked or gave no answer, so there is nothing to draw.
+    /// The code panicked or gave no answer, so nothing can be drawn.
     NoAnswer,
     Miss,
     Hit(Trace),

@@ -32,8 +32,8 @@ pub(super) struct RecordedTraversal<'a> {
     pub(super) steps: &'a [TraversalStep],
 }
 
-/// Draws the traversal. Returns `None` if it has no steps because the tree is empty, or if the
-/// nodes don't form a tree.
+/// Draws the traversal. Returns `None` if it doesn't contain any steps because the tree is empty,
+/// or if the nodes don't form a tree.
 pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Drawing> {
     if traversal.steps.is_empty() {
         return None;

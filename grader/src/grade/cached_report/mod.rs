@@ -47,7 +47,7 @@ pub struct CachedReport {
 }
 
 impl CachedReport {
-    /// Reads the cached report that is stored next to these files, if there is a valid one.
+    /// Reads the valid cached report stored next to these files, if any.
     pub fn read(files: &ReportFiles) -> Option<Self> {
         serde_json::from_slice(&read(files.folder.join(RECORD)).ok()?).ok()
     }

@@ -22,7 +22,7 @@ const HIGH_UID_BASE: u32 = 0x7000_0000;
 /// (`systemd.io/UIDS-GIDS`).
 const LOW_UIDS: (u32, u32) = (60_600, 500);
 
-/// Switches to the dedicated user, if there is one, and drops all capabilities for good.
+/// Switches to the dedicated user, if any, and drops all capabilities for good.
 pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
     if let Some(user) = user {
         let switch = || while_doing("switch to another user, for which root needs CAP_SETUID");

@@ -43,7 +43,8 @@ impl<T: Copy + Default> Layer<T> {
     }
 
     /// Returns the value and the number of samples of a pixel. A pixel that hasn't been drawn yet
-    /// shows the nearest drawn pixel below and to the left. Returns `None` if there is none.
+    /// shows the nearest drawn pixel below and to the left. Returns `None` if no such pixel has
+    /// been drawn.
     pub fn shown(&self, pixel: UVec2) -> Option<Shown<T>> {
         let counts = &self.tiles.counts;
         let coarser = [1, 2, 4].map(|stride| self.tiles.index(pixel / stride * stride));

@@ -115,7 +115,7 @@ impl Session {
         }
     }
 
-    /// Reports the tree, or why it could not be read. In that case, an empty tree is shown and
+    /// Reports the tree, or why it couldn't be read. In that case, an empty tree is shown and
     /// drawing continues.
     pub fn received_tree(&mut self, key: Key, tree: Result<TreeModel, String>) {
         if key.has_tree_of(&self.numbers) {

@@ -41,7 +41,7 @@ pub struct Attack {
 }
 
 impl Authoring {
-    /// Returns the assignment with this id, or a human-readable message if there is none.
+    /// Returns the assignment with this id, or a human-readable message if it doesn't exist.
     pub fn find(id: &str) -> Result<&'static Authoring, String> {
         let handed_out = HandedOut::find(id)?;
         let mut all = ASSIGNMENTS.into_iter();

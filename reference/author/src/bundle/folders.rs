@@ -92,7 +92,8 @@ pub(super) fn staff_pages(path: &str, bundle: &Bundle) -> Vec<String> {
         .collect()
 }
 
-/// Returns the offset of the first occurrence of `text`, or the length of `bytes` if there is none.
+/// Returns the offset of the first occurrence of `text`, or the length of `bytes` if it doesn't
+/// occur.
 fn offset_or_end(bytes: &[u8], text: &str) -> usize {
     let mut windows = bytes.windows(text.len());
     windows

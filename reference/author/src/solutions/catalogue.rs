@@ -69,7 +69,7 @@ pub struct Mistake {
     /// Additional known mistakes whose hints are true for an independent or unknown mistake.
     #[serde(default)]
     pub true_hints: Vec<String>,
-    /// The changes to the reference or the variant. There is nearly always only one.
+    /// The changes to the reference or the variant. Nearly always a single change.
     #[serde(rename = "change")]
     pub changes: Vec<Change>,
 }
@@ -87,7 +87,7 @@ pub struct Change {
 }
 
 /// Reads all known mistakes of an assignment in the workspace at `root`, ordered by task and then
-/// by file. There are no mistakes in a task without a folder.
+/// by file. A task without a folder doesn't have any mistakes.
 pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     let mut all: Vec<Mistake> = Vec::new();
     for task in handed_out.assignment.tasks() {

@@ -153,8 +153,8 @@ impl Tree {
         Some(closest)
     }
 
-    /// Returns the leaf that contains the primitive of the expected hit, or `None` if there is no
-    /// hit.
+    /// Returns the leaf that contains the primitive of the expected hit, or `None` if the ray hits
+    /// nothing.
     pub fn leaf_of_hit(&self, ray64: &Ray64) -> Option<usize> {
         let hit = self.expected_hit(ray64)?;
         let is_hit = |index: usize| self.shapes[index].number() == hit.shape;

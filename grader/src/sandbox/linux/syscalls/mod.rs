@@ -121,7 +121,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
 }
 
 /// Returns the calls that a compiler may make: it reads and writes files and starts programs, but
-/// has no network and cannot create namespaces.
+/// cannot use the network or create namespaces.
 fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[
         lists::COMMON,

@@ -69,7 +69,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 struct Events {
     sender: Sender<Event>,
     receiver: Receiver<Event>,
-    /// Whether there is an unfinished picture for Ctrl-C to keep.
+    /// Whether an unfinished picture exists for Ctrl-C to keep.
     has_picture: Arc<AtomicBool>,
 }
 

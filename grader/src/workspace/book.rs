@@ -6,8 +6,8 @@ use judging::section::{CHAPTERS, Section};
 
 use crate::workspace::Workspace;
 
-/// The folders where a book may be, relative to the workspace: as handed out, or as built by `cargo
-/// book`.
+/// The folders where a book may be, relative to the workspace: as handed out, or as built by
+/// `cargo book`.
 const FOLDERS: [&str; 3] = ["handout/book", "target/handout", "target/students-handout"];
 
 /// A folder with the pages of the built handout.

@@ -3,9 +3,9 @@
 //! processes don't start. After each step, the files must be allowed by a model, and successful
 //! runs must produce the same bytes as a run in a new folder.
 //!
-//! `cargo test -p class --test histories` runs 100 histories, or fewer if one fails. `-- --count
-//! 10000` runs that many, even if some fail, and `-- --seed 17` runs only the history with this
-//! seed. Nothing is compiled: the scores were recorded beforehand.
+//! `cargo test -p class --test histories` runs 100 histories, or fewer if one fails.
+//! `-- --count 10000` runs that many, even if some fail, and `-- --seed 17` runs only the history
+//! with this seed. Nothing is compiled: the scores were recorded beforehand.
 
 mod comparison;
 mod faulty_disk;

@@ -19,9 +19,9 @@ use crate::report::text::HintDetail;
 use crate::sandbox::Isolation;
 use crate::terminal::PrintOptions;
 
-/// The heading of the options that students do not need. Only `--help-staff` shows them.
+/// The heading for options that students don't need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
-/// The arguments that go with `--reset`. The others are about grading.
+/// The arguments that can be combined with `--reset`. The others are about grading.
 const WITH_RESET: [&str; 4] = ["submission", "reset", "assignment", "help_staff"];
 /// The last line of the help for students.
 const MORE_HELP: &str =
@@ -41,22 +41,22 @@ pub enum Command {
     },
     /// Run one question again.
     Replay(GradeOptions, QuestionRef),
-    /// Start tasks of a submission's folder afresh.
+    /// Reset tasks in a submission's folder.
     Reset {
         /// The assignment.
         handed_out: &'static HandedOut,
         /// The folder; `None` is the folder of students' own work.
         folder: Option<PathBuf>,
-        /// The tasks and files to start afresh.
+        /// The tasks and files to reset.
         names: Vec<NamedTasks>,
     },
-    /// Show what this machine offers and lacks.
+    /// Show the tools and isolation levels available on this machine.
     Diagnose,
     /// Print the JSON schema of the score file.
     PrintSchema,
     /// Print the default policy.
     PrintDefaultPolicy,
-    /// Print the help with all options, which is given here.
+    /// Print the help with all options (its text is included here).
     PrintHelp(StyledStr),
 }
 
@@ -181,7 +181,7 @@ impl Arguments {
         arguments.unwrap_or_else(|error| exit_with(&error))
     }
 
-    /// Returns the definition of the command line, with help that shows students' options only.
+    /// Returns the definition of the command line, with help that only shows students' options.
     fn for_students() -> clap::Command {
         let is_staff = |arg: &clap::Arg| arg.get_help_heading() == Some(STAFF_OPTIONS);
         let command = Self::command().mut_args(|arg| {
@@ -196,8 +196,8 @@ impl Arguments {
         command.after_help(MORE_HELP)
     }
 
-    /// Returns the command that these arguments select. Fails if the assignment has no task with a name
-    /// that they contain.
+    /// Returns the command that these arguments select. Fails if the arguments name a task that the
+    /// assignment doesn't have.
     pub fn resolve(self) -> Result<Command, Error> {
         let exam = ExamSource::from_option(self.exam);
         let handed_out = exam.assignment(self.assignment);
@@ -264,7 +264,7 @@ impl Arguments {
 
 fn format_help() -> String {
     let known = FORMATS.map(|format| format.id).join(", ");
-    // The list is the last paragraph, so that it can become longer without wrapping the rest anew.
+    // The list is the last paragraph, so that it can grow without rewrapping the rest.
     format!(
         "Also write these formats, which contain what the policy lets students see. Each is written \
          to =PATH if given, else where the platform expects it, else to the --out folder.\n\
@@ -272,8 +272,8 @@ fn format_help() -> String {
     )
 }
 
-/// Returns the error of a value that can only be checked once the assignment is known, in the words of
-/// clap.
+/// Returns the error for a value that can only be checked once the assignment is known, in clap's
+/// wording.
 fn invalid_value(option: &str, value: &str, why: &str) -> Error {
     Error::User(format!(
         "invalid value '{value}' for '{option}': {why}\n\nFor more information, try '--help'."

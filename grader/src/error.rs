@@ -4,17 +4,18 @@ use std::io;
 
 use crate::machine::files::PathError;
 
-/// An error that ends a command. An error that some caller treats in a way of its own has another
-/// type, which is converted to this one.
+/// An error that ends a command. Errors that some callers handle specially have their own types,
+/// which can be converted to this one.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The user can fix it: the command line, the submission, the exam or the policy is wrong.
+    /// The user can fix the problem: the command line, the submission, the exam or the policy is
+    /// wrong.
     #[error("{0}")]
     User(String),
     /// The grader or the machine is at fault.
     #[error("{0}")]
     Machine(String),
-    /// The required isolation is not available.
+    /// The required isolation isn't available.
     #[error("{0}")]
     Isolation(String),
 }
@@ -25,12 +26,13 @@ impl Error {
         Error::User(message.to_string())
     }
 
-    /// Returns an error of the grader or the machine.
+    /// Returns an error caused by the grader or the machine.
     pub fn machine(message: impl ToString) -> Self {
         Error::Machine(message.to_string())
     }
 
-    /// Returns 2 for errors that the user can fix, and 3 for errors of the grader or the machine.
+    /// Returns 2 for errors that the user can fix, and 3 for errors caused by the grader or the
+    /// machine.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::User(_) => 2,

@@ -1,10 +1,11 @@
 //! Grades a path-tracing submission: builds it, runs the exam, judges the answers and writes a
 //! score.
 //!
-//! Student code runs in a *probe*, a process that receives questions and never the expected
+//! Student code runs in a *probe*, a process that receives questions but never the expected
 //! answers. Points come only from comparing its answers here.
 //!
-//! Layers. A module imports only from modules that come after it in this table, which a test checks:
+//! The modules form layers. A module only imports from modules that come after it in this table,
+//! which a test checks:
 //!
 //! | layer | modules |
 //! |---|---|
@@ -17,10 +18,10 @@
 //! | inputs | [`policy`], [`submission`], `inputs`, [`workspace`], [`handed_out`] |
 //! | the machine | [`sandbox`], [`error`], [`png_file`], `machine` |
 //!
-//! Other packages find some modules of these folders at the top.
+//! Some modules in these folders are re-exported at the top level for other packages.
 //!
-//! The package [`judging`] is below all of them: exams, their keys, and the comparison of answers
-//! with keys.
+//! The package [`judging`] is below all of them. It contains exams, their keys and the comparison
+//! of answers with keys.
 
 pub mod build;
 pub mod cli;

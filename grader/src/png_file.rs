@@ -13,13 +13,13 @@ pub fn data_uri(film: UVec2, pixels: &[Colour]) -> String {
     format!("data:image/png;base64,{png}")
 }
 
-/// Encodes the bytes of an RGB picture, row by row from the top. Speed matters more than size: every
-/// run of the grader encodes pictures, few pages are ever opened, and the viewer sends its pictures
-/// mostly within one machine.
+/// Encodes the bytes of an RGB picture, row by row from the top. Speed matters more than size:
+/// every run of the grader encodes pictures, few pages are ever opened, and the viewer mostly sends
+/// its pictures within one machine.
 ///
 /// # Panics
 ///
-/// If the number of bytes does not match the size.
+/// If the number of bytes doesn't match the size.
 pub fn encode(film: UVec2, bytes: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, film.x, film.y);

@@ -1,5 +1,5 @@
-//! Runs a single question again, and shows the whole answer, whether it is right, and what the code
-//! prints.
+//! Runs a single question again and shows the complete answer, whether it is right, and the code's
+//! output.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
 use crate::verdict::clue;
 use crate::verdict::file_message;
 
-/// Maximum length of the printed text that is shown, in characters.
+/// Maximum length of the code's output to show, in characters.
 const MAX_PRINTED_CHARS: usize = 20_000;
 
 /// Runs the question and returns the text for the terminal.
@@ -44,7 +44,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let paths = prepared.source_paths();
     let needed = files_asked(&exam, item, options.handed_out);
     let mut missing = build.not_compiled.keys();
-    // In place of a file that does not compile, the program has the one that was handed out.
+    // If a file doesn't compile, the program contains the starter's file instead.
     let is_missing = missing.any(|file| needed.contains(*file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
@@ -69,8 +69,8 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     Ok(paths.in_text(&text).into_owned())
 }
 
-/// Returns the names of the files whose code answers an item: that of its task, and those of the tasks
-/// that it depends on.
+/// Returns the names of the files whose code answers an item: its task's file and those of the
+/// tasks it depends on.
 fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'static str> {
     let needed = item
         .needs
@@ -87,8 +87,8 @@ fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
     item.ok_or_else(|| Error::User(unknown_item(exam, id)))
 }
 
-/// Returns a message that names the items that may be meant: those of all tasks with this name, or those
-/// of the task.
+/// Returns a message that lists the items the user may have meant: those with this name in any
+/// task, or those of the task.
 fn unknown_item(exam: &Exam, id: &str) -> String {
     let ids = || exam.items.iter().map(|item| item.id.as_str());
     let parts = || ids().filter_map(|known| Some((known, known.split_once('.')?)));
@@ -122,11 +122,11 @@ fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     })
 }
 
-/// The answers to all questions of an item, which are sent together as in an exam.
+/// The answers to all questions of an item, sent together as in an exam.
 struct ExamRun {
     answers: Result<Vec<Answer>, Fault>,
-    /// The question that crashes or hangs the program, and the element in it, if there are no answers
-    /// because of one alone.
+    /// The question that crashes or hangs the program and the element in it, if a single element is
+    /// the reason that there are no answers.
     culprit: Option<(usize, usize)>,
 }
 
@@ -142,8 +142,8 @@ impl ExamRun {
         Ok(ExamRun { answers, culprit })
     }
 
-    /// Returns the indices of the first question that is answered wrongly and of the element in it,
-    /// or of those that crash or hang the program.
+    /// Returns the indices of the first wrong question and its wrong element, or of the question
+    /// and element that crash or hang the program.
     fn first_wrong(&self, item: &Item) -> Option<(usize, usize)> {
         let Ok(answers) = &self.answers else {
             return Some(self.culprit.unwrap_or((0, 0)));
@@ -155,7 +155,7 @@ impl ExamRun {
         failures.next()
     }
 
-    /// Returns the verdict about an element that is right when it is asked alone.
+    /// Returns the verdict on an element that is right when run in isolation.
     fn verdict(&self, item: &Item, (question, element): (usize, usize)) -> String {
         let answers = match (&self.answers, self.culprit) {
             (Ok(answers), _) => answers,
@@ -186,12 +186,12 @@ impl ExamRun {
     }
 }
 
-/// One question that was run again by itself.
+/// A question that was rerun in isolation.
 struct Replayed {
     position: (usize, usize),
     answer: Result<Answer, Fault>,
     printed: String,
-    /// The fewest primitives on which the build still overflows the stack, if it does.
+    /// A minimal set of primitives that still overflows the stack, if the build does.
     smallest: Option<Vec<Shape>>,
 }
 
@@ -268,7 +268,7 @@ impl Replayed {
         }
     }
 
-    /// Returns whether the answer is right, or what is wrong with it.
+    /// Describes whether the answer is right or how it is wrong.
     fn verdict(&self, item: &Item, exam_run: &ExamRun) -> String {
         let (question, element) = self.position;
         let single = item.questions[question].single(element);
@@ -284,7 +284,7 @@ impl Replayed {
 }
 
 /// Returns the expected answer as text, with alternatives on separate lines. A path-traced picture
-/// is not printed.
+/// isn't printed.
 fn expected_text(question: &ExamQuestion, element: usize) -> String {
     if let Question::Radiance { .. } = question.question {
         return "the reference's picture".to_owned();

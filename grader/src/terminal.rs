@@ -1,4 +1,4 @@
-//! Grades a submission on behalf of a user at a terminal or in a CI job, and prints the report.
+//! Grades a submission for a user at a terminal or in a CI job and prints the report.
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
@@ -18,11 +18,11 @@ use crate::report::text::report;
 use crate::workspace::book::Book;
 use crate::workspace::{Workspace, display_path};
 
-/// Notice that is printed below a cached report.
+/// The notice printed below a cached report.
 const UNCHANGED_NOTICE: &str =
     "  Nothing has changed since this was graded; use `--fresh` to grade it again.\n\n";
 
-/// Options for printing a report, and for what follows.
+/// Options for printing a report and for the steps that follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PrintOptions {
     /// Whether to grade again even if nothing has changed.
@@ -36,7 +36,7 @@ pub struct PrintOptions {
 }
 
 /// Prints the report of a submission, cached or new. Returns exit code 1 if the points are below
-/// the required ones.
+/// the required number.
 pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<ExitCode, Error> {
     let most = options.handed_out.assignment.points();
     if print.require > most {
@@ -69,7 +69,7 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
     })
 }
 
-/// Returns the cached report and its files, if the submission was graded before and nothing has
+/// Returns the cached report and its files if the submission was graded before and nothing has
 /// changed since.
 fn find_cached_report(
     prepared: &mut Prepared,
@@ -80,8 +80,8 @@ fn find_cached_report(
     }
     let folder = default_folder(&prepared.workspace, &prepared.submission);
     let files = ReportFiles::new(&folder, Reload::Never);
-    // The submission is compared first because it changes most often: after an edit, the slower
-    // steps below are skipped.
+    // Compare the submission first, because it changes most often. After an edit, this skips the
+    // slower steps below.
     let cached = CachedReport::read(&files).filter(|cached| cached.is_for(&prepared.submission));
     let Some(cached) = cached else {
         return Ok(None);
@@ -93,7 +93,7 @@ fn find_cached_report(
     Ok(is_unchanged.then_some((cached, files)))
 }
 
-/// Grades a submission, prints its report, and stores the report for the next run.
+/// Grades a submission, prints its report and stores it for the next run.
 fn grade_and_store(
     prepared: &mut Prepared,
     print: PrintOptions,
@@ -112,15 +112,15 @@ fn grade_and_store(
     Ok((graded.score.points, graded.files))
 }
 
-/// Prints what this machine offers and lacks, with the exit code of the diagnosis.
+/// Prints the diagnosis of this machine. Returns its exit code.
 pub fn diagnose_and_print() -> Result<ExitCode, Error> {
     let diagnosis = diagnose()?;
     print(&diagnosis);
     Ok(ExitCode::from(diagnosis.exit_code()))
 }
 
-/// Returns the report for the terminal. If formats are requested, it appears in a log that students
-/// read, so it contains only what they may see.
+/// Returns the report for the terminal. If formats are requested, the report appears in a log that
+/// students read, so it only contains what they may see.
 fn terminal_report(graded: &GradedSubmission, options: &GradeOptions) -> String {
     let score = if options.formats.is_empty() {
         &graded.score
@@ -145,15 +145,16 @@ fn file_list(files: &ReportFiles) -> String {
     paths.map(|file| format!("  {file}\n")).collect()
 }
 
-/// Prints the text, with the paths of the task files.
+/// Prints the text with the full paths of the task files.
 fn print_text(prepared: &Prepared, text: &str) {
-    // A cached report gets the paths only here, since the folder may have moved.
+    // A cached report only gets the paths here, since the folder may have moved.
     let text = &*prepared.source_paths().in_text(text);
     print_line(with_links_on_a_terminal(text, &prepared.workspace));
 }
 
-/// Returns the text with links to the built handout, if there is one and the reader can click them.
-/// A cached report is linked only here, since it may be printed elsewhere the next time.
+/// Returns the text with links to the built handout, if there is one and the reader can click
+/// links. A cached report only gets the links here, since it may be printed elsewhere the next
+/// time.
 fn with_links_on_a_terminal<'a>(text: &'a str, workspace: &Workspace) -> Cow<'a, str> {
     let book = || Book::find(workspace);
     match io::stdout().is_terminal().then(book).flatten() {

@@ -1,6 +1,6 @@
-//! A program that runs in the sandbox in place of a submission. It attempts what no submission may
-//! do, and prints a line for each attempt that succeeds. Its standard input is the path of a file
-//! that every user may read.
+//! A program that runs in the sandbox in place of a submission. It attempts everything submissions
+//! must not do and prints a line for each attempt that succeeds. Its standard input is the path of
+//! a file that every user may read.
 
 use std::collections::HashMap;
 use std::fs;
@@ -15,7 +15,7 @@ fn main() {
     let path = path.trim_end();
     let beside = format!("{path}.written");
 
-    // What correct submissions do must work, or the attempts below prove nothing.
+    // Things that correct submissions do must work, or the attempts below prove nothing.
     let counted = thread::spawn(|| HashMap::from([("threads", 1)])).join();
     assert_eq!(counted.expect("threads run")["threads"], 1);
 

@@ -1,7 +1,7 @@
-//! An honest program. If the system kills a submission's program, and then runs this one, the
-//! machine is not the reason.
+//! The control program. If the system kills a submission's program but then runs this one, the
+//! machine isn't the reason.
 
-/// As much memory as a program may use and still count as a small one.
+/// The most memory a program may use and still be considered small.
 const BYTES: usize = 256 << 20;
 const PAGE: usize = 4096;
 

@@ -21,14 +21,14 @@ use test_support::WatchProcess;
 
 const ROUNDS: usize = 15;
 
-/// The measured quantities, in the order in which each round measures them, and the baseline with
-/// which each is compared.
+/// The measured quantities, in the order of measurement in each round, and the baseline that each
+/// is compared with.
 const ROWS: [Row; 7] = [
     Row::new("bare rustc of the task files (F)", "F", TimeKind::Cpu),
     Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),
     Row::new("changed submission to probe", "F", TimeKind::Cpu),
     Row::new("changed submission to score.json", "F", TimeKind::Cpu),
-    // CPU time is not known while a process is still running.
+    // The CPU time is unknown while a process is still running.
     Row::new("time to the first compile error", "T", TimeKind::Wall),
     Row::new("--watch: save to complete score", "F", TimeKind::Wall),
     Row::new("unchanged: cached report", "F", TimeKind::Cpu),
@@ -41,7 +41,7 @@ struct Row {
     time: TimeKind,
 }
 
-/// The kind of time that is compared.
+/// The kind of time to compare.
 #[derive(Clone, Copy)]
 enum TimeKind {
     Cpu,
@@ -144,7 +144,7 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
     }
 }
 
-/// Measures the time until the first error of a file that does not compile is printed. The other
+/// Measures the time until the first error in a file that doesn't compile is printed. The other
 /// files are graded after that.
 fn first_error(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
@@ -177,7 +177,7 @@ fn break_file(file: &Path) {
         .expect("the file can be written");
 }
 
-/// Grades a submission in its default folder, and measures grading it again without a change.
+/// Grades a submission in its default folder and then measures grading it again without a change.
 fn regrade_unchanged(folder: &Path) -> Cost {
     let grader = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));

@@ -1,4 +1,4 @@
-//! Measures the cost of the pipe: questions with 100,000 rays are sent to a probe, and the same
+//! Measures the cost of the pipe. Questions with 100,000 rays are sent to a probe, and the same
 //! code answers the same questions in one process. The two measurements alternate.
 
 use std::fs;
@@ -13,7 +13,7 @@ use protocol::{Geometry, Question, Ray, Shape, Vertex, wire};
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
-/// The number of additional repetitions in one process. Their time does not include reading the
+/// The number of additional repetitions in one process. Their time doesn't include reading the
 /// questions.
 const REPETITIONS: u32 = 20;
 const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(60));
@@ -80,7 +80,7 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
         let mut probe = launcher.start(LIMITS.cpu).expect("the probe starts");
         let answers = probe.ask(questions, LIMITS).expect("the probe answers");
         assert_eq!(answers.len(), questions.len());
-        // The CPU time of a child is known once it has ended.
+        // The CPU time of a child is only known once it has ended.
         probe.finish();
     });
     [more.saturating_sub(once) / REPETITIONS, over_pipe.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())

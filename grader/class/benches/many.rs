@@ -2,7 +2,7 @@
 //! machine supports, and compares it with the baseline F: one bare `rustc` call for the same task
 //! files (`grader/benches/README.md`).
 //!
-//! All submissions change in each round, so that nothing cached in an earlier round can be reused.
+//! All submissions change in each round, so that no cached results can be reused.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -14,11 +14,11 @@ use tempfile::TempDir;
 
 const ROUNDS: usize = 5;
 const STUDENTS: usize = 60;
-/// The number of submissions in the short form.
+/// The number of submissions in a short run.
 const FEW_STUDENTS: usize = 4;
 
 /// The number of baseline measurements before the class is graded, and again afterwards. Several
-/// are needed because a call takes only a third of a second, and the speed of a shared machine
+/// are needed because a call only takes a third of a second and the speed of a shared machine
 /// varies.
 const BASELINE_CALLS: usize = 5;
 
@@ -34,7 +34,7 @@ fn main() {
         fs::create_dir(student).expect("a temporary folder can be created");
         copy(&root, student);
     }
-    // Compiles the shared dependencies before anything is measured.
+    // Compile the shared dependencies before measuring anything.
     grade(class.path());
     let workspace = Workspace::find().expect("the benchmark runs in the workspace");
     let bare = BareRustc::prepare(&workspace.cache_folder().join("dependencies"));
@@ -74,7 +74,7 @@ fn main() {
     println!("median {of_baseline:26.2} {of_most:28.2}");
 }
 
-/// Grades the class into a new folder, and returns the cost.
+/// Grades the class into a new folder. Returns the cost.
 fn grade(class: &Path) -> Cost {
     let out = TempDir::new().expect("a temporary folder can be created");
     let mut command = Command::new(env!("CARGO_BIN_EXE_class"));

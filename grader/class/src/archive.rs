@@ -9,7 +9,7 @@ use zip::{DateTime, ZipWriter};
 /// An archive that is being written in memory.
 pub struct ArchiveWriter {
     writer: ZipWriter<Cursor<Vec<u8>>>,
-    /// The names in the archive, in lower case.
+    /// The names used in the archive, in lower case.
     used: BTreeSet<String>,
 }
 
@@ -24,8 +24,8 @@ impl Default for ArchiveWriter {
 }
 
 impl ArchiveWriter {
-    /// Adds a file, with a number in its name if there is already one of that name. It has no time, so
-    /// that the archive depends only on the files.
+    /// Adds a file. If the name is taken, a number is added to it. The file gets no modification
+    /// time, so that the archive depends only on the files' contents.
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
         let numbered = (2..).map(|number| format!("{stem}-{number}.{end}"));

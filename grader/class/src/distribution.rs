@@ -32,7 +32,8 @@ impl Distribution {
         points.sort_unstable();
         let (&least, &most) = (points.first()?, points.last()?);
         let count = points.len();
-        // The nearest-rank method: every quartile is a number of points that some submission got.
+        // Use the nearest-rank method, so that every quartile is a number of points that some
+        // submission got.
         let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
         let mut bins = [0; BINS];
         for &points in &points {

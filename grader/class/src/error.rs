@@ -12,13 +12,13 @@ pub struct Error {
 }
 
 impl Error {
-    /// Returns an error that the user can fix: the command line, the input or a list is wrong.
+    /// Returns an error that the user can fix, i.e. the command line, the input or a list is wrong.
     pub fn user(error: impl ToString) -> Self {
         let text = error.to_string();
         Error { text, exit_code: 2 }
     }
 
-    /// Returns an error of the machine: the output folder cannot be used, for example.
+    /// Returns an error caused by the machine, e.g. an unusable output folder.
     pub fn machine(error: impl ToString) -> Self {
         let text = error.to_string();
         Error { text, exit_code: 3 }

@@ -1,22 +1,22 @@
-//! `--estimate`: how long a class takes, from the first submissions that are graded.
+//! `--estimate`: how long a class will take, estimated from the first graded submissions.
 
 use std::time::Duration;
 
 use grader::printing::counted;
 
-/// The numbers of machines for which the time is given.
+/// The numbers of machines to show times for.
 const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
-/// The number of submissions whose cost is given, apart from the class.
+/// The number of submissions to show the cost of, in addition to the class.
 const MANY: f64 = 1e6;
 
-/// The times of some submissions, from which the rest is estimated.
+/// The measured times of some submissions, used to estimate the rest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Estimate {
-    /// The time that each submission of the sample occupied a core.
+    /// The time each submission in the sample occupied a core.
     pub times: Vec<Duration>,
     /// The number of submissions that are still to be graded.
     pub remaining: usize,
-    /// The number of submissions that are graded at a time.
+    /// The number of submissions graded at a time.
     pub slots: usize,
 }
 
@@ -27,8 +27,8 @@ impl Estimate {
         self.times.iter().sum::<Duration>().checked_div(count)
     }
 
-    /// Returns the time that some machines like this one take for the rest. Each submission is
-    /// graded by one core of one of them.
+    /// Returns the time that this many machines like this one take for the rest. Each submission is
+    /// graded on one core of one machine.
     fn remaining_time(&self, mean: Duration, machines: usize) -> Duration {
         let rounds = self.remaining.div_ceil(machines * self.slots);
         mean * u32::try_from(rounds).unwrap_or(u32::MAX)
@@ -60,7 +60,7 @@ impl Estimate {
     }
 }
 
-/// Formats a duration with its two largest units.
+/// Formats a duration in its two largest units.
 fn format_duration(duration: Duration) -> String {
     let seconds = duration.as_secs_f64().ceil() as u64;
     match (seconds / 3600, seconds / 60 % 60, seconds % 60) {

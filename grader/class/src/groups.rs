@@ -8,8 +8,8 @@ use crate::list_kind::ListKind;
 use crate::names::are_equal;
 use crate::roster::Member;
 
-/// Gives an entry that is named after a group, and matches nobody, to the members of the group: those
-/// in the roster or, if it does not have the group, in another list. Returns whether there are any.
+/// Assigns entries that are named after a group and match nobody to the group's members, according
+/// to the roster or, if the group isn't in it, another list. Returns whether any were found.
 pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let mut has_teams = false;
     for info in entries {
@@ -35,7 +35,7 @@ pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     has_teams
 }
 
-/// Joins the records of people who are listed twice.
+/// Merges the records of people who are listed twice.
 pub fn remove_repetitions(people: &mut Vec<Person>) {
     let mut distinct: Vec<Person> = Vec::new();
     for person in people.drain(..) {
@@ -53,8 +53,8 @@ pub fn remove_repetitions(people: &mut Vec<Person>) {
     *people = distinct;
 }
 
-/// Adds the other members of a group to the entry of the member who submitted, except those who
-/// made a submission of their own. Returns whether there are any.
+/// Adds the other members of a group to the entry of the member who submitted, except those with a
+/// submission of their own. Returns whether any were found.
 pub fn add_group_members(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let members = rows.iter().filter(|row| row.list == ListKind::Roster);
     let people = entries.iter().flat_map(|info| info.people.clone());
@@ -114,10 +114,10 @@ mod tests {
             ["Bob", "Bob"]
         );
         // Two members of Bob's group submitted, so Bob is in both entries. The preview reports
-        // that.
+        // this.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
         assert!(!add_group_members(&rows, &mut entries));
-        // It is enough that one of those who submitted together is in the list.
+        // It is enough if one of the people who submitted together is in the list.
         let mut pair = submitted_by("ann");
         pair.people.extend(submitted_by("guest").people);
         assert!(add_group_members(&rows, &mut [&mut pair]));

@@ -1,5 +1,5 @@
-//! One archive with the pages to hand back. Its files are named as Canvas and Moodle expect them
-//! when they are uploaded again; for other platforms, after the people.
+//! One archive with the pages to hand back. Its files have the names that Canvas and Moodle expect
+//! for an upload. For other platforms, they are named after the people.
 //!
 //! Canvas takes the first two numbers between underscores for the user and the attachment, and
 //! shows the page under the attachment's name, so an attachment that is a zip is answered with a
@@ -19,26 +19,26 @@ use crate::store::Store;
 
 /// The name of the archive in the output folder.
 pub const ARCHIVE: &str = "hand-back.zip";
-/// The end of a page's name, after the person's.
+/// The suffix of a page's file name, after the person's name.
 const PAGE: &str = "feedback.html";
 
-/// The reason for leaving out a page in Moodle: with the number of a group, a stranger would get it.
+/// The reason for leaving out a page in Moodle. If the number is a group's, the wrong person would
+/// get the page.
 const NO_NUMBER: &str = "the number in the file name can be a person's or a group's, and no list tells \
     which: pass Moodle's worksheet with --moodle";
 
-/// An archive to hand back.
+/// An archive to hand back to students.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HandBack {
     /// The bytes of the archive.
     pub archive: Vec<u8>,
-    /// The number of pages in it.
+    /// The number of pages in the archive.
     pub pages: usize,
-    /// The people whose pages are not in it, with the reasons.
+    /// The people whose pages aren't in the archive, with the reasons.
     pub left_out: Vec<String>,
 }
 
-/// Makes the archive. Pages of people whose points do not count, or are not clear yet, are left
-/// out.
+/// Makes the archive. Pages of people without final points are left out.
 pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> {
     let mut archive = ArchiveWriter::default();
     let mut left_out = Vec::new();
@@ -57,7 +57,7 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         let page = store.read_feedback(&row.result.id)?;
         let name = row.result.info.hand_back_as.as_deref();
         if let Some(name) = name.filter(|name| !name.contains(NUMBER)) {
-            // The platform passes the page on to the members of a group.
+            // The platform forwards the page to the members of a group.
             let names = ready.iter().map(|(person, _)| person.display_name());
             let names = safe_folder_name(&names.collect::<Vec<_>>().join(" + "));
             add_as(&mut archive, name, &names, &page).map_err(cannot_write)?;
@@ -87,19 +87,19 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
     })
 }
 
-/// Returns the error of an archive that would be too large, for example.
+/// Returns the error for an archive that cannot be written, e.g. because it is too large.
 fn cannot_write(error: io::Error) -> Error {
     Error::machine(format!("cannot write {ARCHIVE}: {error}"))
 }
 
-/// Returns the sentences on a person's own page, which do not mention the rest of the group.
+/// Returns the sentences on a person's own page, which don't mention the rest of the group.
 fn own_texts(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Vec<String> {
     let name = person.display_name();
     let name = (name != row.result.id).then(|| name.to_owned());
     name.into_iter().chain(grade.explanation()).collect()
 }
 
-/// Adds a page under the name that the platform expects. `who` is the names of the people, as part of a
+/// Adds a page under the name the platform expects. `who` lists the people's names, for use in a
 /// file name.
 fn add_as(archive: &mut ArchiveWriter, name: &str, who: &str, page: &str) -> io::Result<()> {
     let name = name.replace(WHO, &who.replace('_', " "));

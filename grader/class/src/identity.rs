@@ -1,15 +1,15 @@
-//! Which records are of the same person.
+//! Identifies records of the same person.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::Person;
 use crate::names::fold;
 
-/// One person's part of a submission: the index of the row, and of the person in it.
+/// One person's part of a submission: the index of the row and of the person in it.
 pub type Attempt = (usize, usize);
 
-/// Returns the attempts of each person. Only unique identifiers are compared, unless nothing but a
-/// name is known.
+/// Returns the attempts of each person. Only unique identifiers are compared, unless only a name is
+/// known.
 pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<Vec<Attempt>> {
     let (mut attempts, mut people) = (Vec::new(), Vec::new());
     for (row, own) in rows.enumerate() {
@@ -23,7 +23,8 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
     groups.into_values().collect()
 }
 
-/// Returns a number for each person in the list, which is equal for all records of one person.
+/// Returns a number for each person in the list. All records of the same person get the same
+/// number.
 pub fn person_ids(people: &[&Person]) -> Vec<usize> {
     let mut ids = Vec::new();
     let mut known: BTreeMap<(u8, String), usize> = BTreeMap::new();
@@ -33,7 +34,8 @@ pub fn person_ids(people: &[&Person]) -> Vec<usize> {
         let found: BTreeSet<usize> = found.collect();
         let id = found.first().copied().unwrap_or(index);
         if found.len() > 1 {
-            // This record shows that earlier ones, with different identifiers, are one person's.
+            // This record shows that earlier records with different identifiers belong to the same
+            // person.
             let all = ids.iter_mut().chain(known.values_mut());
             all.filter(|of| found.contains(of)).for_each(|of| *of = id);
         }
@@ -44,7 +46,7 @@ pub fn person_ids(people: &[&Person]) -> Vec<usize> {
 }
 
 fn keys(person: &Person) -> Vec<(u8, String)> {
-    // In a file name, somebody else may have the same number.
+    // Someone else's file name may contain the same number.
     let number = match person.number.as_str() {
         number if number.is_empty() || person.is_listed => number.to_owned(),
         number => format!("{number} {}", person.name),
@@ -76,7 +78,7 @@ mod tests {
             vec![person("A. Lee", "", "ann")],
             vec![person("Bob", "", ""), person("Ann", "", "other")],
             vec![person("Ann", "A@x.edu", "ANN")],
-            // Either identifier is enough from then on.
+            // From here on, either identifier is enough.
             vec![person("A. Lee", "", "ann"), person("Bob", "", "")],
         ];
         let groups = attempts_by_person(rows.iter().map(Vec::as_slice));
@@ -101,7 +103,7 @@ mod tests {
         let rows = [
             vec![person("Ann", "a@x.edu", "")],
             vec![enrolled],
-            // Joins the two above, and says nothing of the sid.
+            // Joins the two records above without mentioning the sid.
             vec![person("Ann", "a@x.edu", "ann")],
             vec![by_sid],
         ];

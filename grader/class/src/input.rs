@@ -17,7 +17,7 @@ use crate::listing::{Node, hidden_names, list_folder};
 use crate::roster::Member;
 use crate::unpack::{CLASS_FOLDER, unpack};
 
-/// The maximum length of a reason that has names, in characters.
+/// The maximum length of a reason that lists names, in characters.
 const MAX_CHARS: usize = 600;
 
 /// The submissions of a class, before their files are read. If they were unpacked from an archive,
@@ -33,7 +33,7 @@ pub struct Input {
 
 impl Input {
     /// Opens the folder or archive at `path`. An archive is unpacked into a temporary folder in
-    /// `parent`. Names that can be read in several ways are compared with `known`, the people on lists.
+    /// `parent`. Ambiguous names are compared with `known`, the people on lists.
     pub fn open(
         path: &Path,
         parent: &Path,
@@ -79,7 +79,7 @@ impl Input {
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {
-            // A few may be mistakes of students, who are told.
+            // A few may be students' mistakes, which are reported to them.
             let is_most = 2 * class.mixtures.len() > class.entries.len();
             class.mixtures.first().filter(|_| is_most).cloned()
         };
@@ -102,8 +102,8 @@ impl Input {
     }
 }
 
-/// Marks each entry with a file that could not be unpacked as an entry without files. Files of no entry
-/// are listed.
+/// Marks each entry with a file that could not be unpacked as an entry without files. Files that
+/// belong to no entry are listed.
 fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec<UnmatchedPath>) {
     for file in incomplete {
         let path = folder.join(&file.name);
@@ -124,12 +124,12 @@ fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec
     }
 }
 
-/// The reason why an entry has no submission that can be graded. It does not affect other entries.
+/// Why an entry contains no gradable submission. This doesn't affect other entries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCollected {
-    /// There is nothing to grade in it.
+    /// The entry contains nothing to grade.
     NothingToGrade(String),
-    /// The machine failed to read it, so that nothing is known about it.
+    /// The machine failed to read the entry, so nothing is known about it.
     MachineFault(String),
 }
 

@@ -1,8 +1,8 @@
-//! Grades a class from a learning platform's export, in one command. It can be killed at any time,
-//! and resumes when it is run again.
+//! Grades a class from a learning platform's export in one command. It can be killed at any time
+//! and resumes when run again.
 //!
-//! Each submission is graded in this process, as `cargo grade` would grade it; student code runs in
-//! separate processes. A submission that fails affects only its own result.
+//! Each submission is graded in this process, as `cargo grade` would grade it. Student code runs in
+//! separate processes. A failing submission only affects its own result.
 //!
 //! Layers, from top to bottom. A module imports only from layers below its own:
 //!

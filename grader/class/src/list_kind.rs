@@ -1,5 +1,5 @@
-//! The lists that staff give for a class: the policy, the roster, points by hand and gradebooks, and
-//! how an output folder records them.
+//! The lists that staff provide for a class (the policy, the roster, manual points and gradebooks),
+//! and how an output folder records them.
 
 use std::collections::BTreeMap;
 use std::ops::Not;
@@ -45,7 +45,7 @@ impl ListKind {
     }
 }
 
-/// A list that the output folder has a copy of.
+/// A list with a copy in the output folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptList {
     /// The hash of the file.
@@ -55,16 +55,16 @@ pub struct KeptList {
     /// The column to fill in, in a gradebook from Canvas.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
-    /// Whether it is from the parts that were merged, and was not given to the merge itself.
+    /// Whether the list comes from the merged shards rather than from the merge's command line.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub is_of_parts: bool,
 }
 
-/// The lists by their kinds, as `run.json` has them.
+/// The lists by kind, as stored in `run.json`.
 pub type KeptLists = BTreeMap<ListKind, KeptList>;
 
 impl KeptList {
-    /// Returns whether the other list says the same.
+    /// Returns whether the contents of both lists are the same.
     pub fn is_same(&self, other: &KeptList) -> bool {
         (&self.hash, &self.column) == (&other.hash, &other.column)
     }

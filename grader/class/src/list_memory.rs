@@ -1,6 +1,6 @@
-//! The lists that the results in an output folder depend on. The folder has a copy of each, so that
-//! a later run without one of them uses the copy, instead of taking back the points, extensions and
-//! names in it.
+//! Remembers the lists that the results in an output folder depend on. The folder contains a copy
+//! of each. If a list isn't given to a later run, the run uses the copy, so that the points,
+//! extensions and names in it aren't lost.
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -19,28 +19,28 @@ use crate::list_kind::{KeptList, KeptLists, ListKind};
 use crate::run::Run;
 use crate::store::Store;
 
-/// The folder of the copies, in the output folder.
+/// The subfolder for the copies.
 const FOLDER: &str = "lists";
 
-/// The lists that a command uses: those on its command line and the copies of others.
+/// The lists that a command uses: those on its command line, and copies of the others.
 #[derive(Debug, Default)]
 pub struct UsedLists {
     /// The lists, which may be copies.
     pub lists: Lists,
-    /// The lists to keep.
+    /// The lists to record in `run.json`.
     pub kept: KeptLists,
     /// Sentences for staff.
     notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
 }
 
-/// An output folder and the lists that it has copies of.
+/// An output folder and the lists it contains copies of.
 pub type KeptIn<'a> = (&'a Path, &'a KeptLists);
 
 impl UsedLists {
-    /// Chooses each list: the one on the command line or else, unless it is dropped, the one that
-    /// the output folder `out` has, or else the one that all merged parts were graded with. Prints
-    /// where lists come from, and which have changed.
+    /// Chooses each list: the one on the command line or else, unless it is dropped, the copy in
+    /// the output folder `out`, or else the one that all merged shards were graded with. Prints
+    /// where the lists come from and which ones changed.
     pub fn choose(given: Lists, out: Option<&Path>, parts: &[KeptIn]) -> Result<Self, Error> {
         let mut used = UsedLists {
             lists: given,
@@ -119,8 +119,9 @@ impl UsedLists {
         Ok(())
     }
 
-    /// Writes the copies and `run.json` into an output folder, and removes copies that it does not
-    /// name. The names have the hash, so that those of the last run stay until `run.json` is written.
+    /// Writes the copies and `run.json` into an output folder, and removes copies that it doesn't
+    /// name. File names contain the hash, so that the copies of the last run are kept until
+    /// `run.json` is written.
     pub fn save(&self, store: &Store, run: &Run) -> Result<(), Error> {
         let mut paths = Vec::new();
         for (kind, list) in &self.kept {
@@ -141,7 +142,7 @@ impl UsedLists {
     }
 }
 
-/// Returns the list that all parts were graded with, and the folder of one of them.
+/// Returns the list that all shards were graded with, and the folder of one of them.
 fn one_of_parts<'a>(
     kind: ListKind,
     parts: &[KeptIn<'a>],
@@ -176,7 +177,7 @@ fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
         .join(format!("{}-{hash}.{extension}", kind.name()))
 }
 
-/// Reads a copy, which must be unchanged since it was written.
+/// Reads a copy, which must not have changed since it was written.
 fn read_copy(kind: ListKind, path: &Path, list: &KeptList) -> Result<Vec<u8>, Error> {
     match files::read(path) {
         Ok(bytes) if file_hash(&bytes) == list.hash => Ok(bytes),

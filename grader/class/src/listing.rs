@@ -1,4 +1,4 @@
-//! Lists the contents of folders, only as deep as the layouts need them.
+//! Lists the contents of folders, only as deep as the layouts need.
 
 use std::fs;
 use std::io;
@@ -8,21 +8,22 @@ use grader::disk::{self, Operation};
 use grader::files::{self, AtPath, PathError};
 use grader::submission::{is_archive_name, is_skipped_name};
 
-/// The number of levels of subfolders that are listed: enough for a student's project in a folder for
-/// each student, in one for each tutorial.
+/// The number of subfolder levels to list. It is enough for a project in a student's folder in a
+/// tutorial's folder.
 const MAX_DEPTH: usize = 5;
 
 /// A file, a folder, or a link to a file or folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
-    /// The name, which is the last component of the path.
+    /// The name, i.e. the last component of the path.
     pub name: String,
     /// The path of the file, folder or link.
     pub path: PathBuf,
-    /// The contents of a folder, sorted by name; `None` for a file. A link to a folder has no
-    /// contents.
+    /// The contents of a folder, sorted by name. `None` for a file, and empty for a link to a
+    /// folder.
     pub children: Option<Vec<Node>>,
-    /// Whether this is a link. Links are not followed: they may lead to another student's files.
+    /// Whether this is a link. Links aren't followed, because they may lead to another student's
+    /// files.
     pub is_link: bool,
 }
 
@@ -43,7 +44,7 @@ impl Node {
         children.find(|node| node.name == name && !node.is_link)
     }
 
-    /// Returns whether this file has the name of an archive, even if the format is not supported.
+    /// Returns whether this file has the name of an archive, even if the format isn't supported.
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }
@@ -82,13 +83,13 @@ fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
         }
         let kind = entry.file_type()?;
         let inside = if kind.is_symlink() {
-            // A link to a folder is listed as an empty folder, so that it becomes an entry, which
-            // is then rejected because of the link.
+            // List a link to a folder as an empty folder, so that it becomes an entry and is then
+            // rejected for being a link.
             entry.path().is_dir().then(Vec::new)
         } else if kind.is_dir() {
             Some(match depth {
                 0 => Vec::new(),
-                // Reading the submission reports the error, for this student only.
+                // Reading the submission will report the error, for this student only.
                 _ => list_children(&entry.path(), depth - 1).unwrap_or_default(),
             })
         } else if kind.is_file() {

@@ -15,12 +15,12 @@ use crate::roster::{self, Member};
 /// The maximum length of a name in a message, in characters.
 const MAX_CHARS: usize = 200;
 
-/// The facts that the lists contain about a class.
+/// The facts about a class found in the lists.
 #[derive(Debug, Default)]
 pub struct ListFindings {
     /// The people on the lists who belong to no entry.
     pub missing: Vec<Person>,
-    /// Sentences about entries whose people cannot be told for certain.
+    /// Sentences about entries whose people could not be identified with certainty.
     pub warnings: Vec<String>,
     /// The points by hand.
     pub manual: ManualPointsList,
@@ -28,13 +28,13 @@ pub struct ListFindings {
     people: Vec<Person>,
     /// The number of entries.
     entries: usize,
-    /// The names of the entries whose people are on no list; empty if there are no lists.
+    /// The names of the entries whose people are on no list. Empty if there are no lists.
     unlisted: Vec<String>,
 }
 
-/// Fills in what the lists know about the entries: first unknown identifiers, then the members of
-/// groups, and last the times of submission, since the time of any member counts. Reads the points
-/// by hand, which must be for these people.
+/// Completes the entries from the lists: first unknown identifiers, then group members, and finally
+/// submission times, since any member's time may be used. Reads the manual points, which must be
+/// for these people.
 pub fn complete_entries(
     lists: &Lists,
     handed_out: &HandedOut,
@@ -42,7 +42,7 @@ pub fn complete_entries(
 ) -> Result<ListFindings, Error> {
     let rows = roster::read_lists(lists)?;
     if lists.moodle.is_some() {
-        // Only this worksheet's status counts, not that of an earlier one.
+        // Use only this worksheet's status, not one from an earlier worksheet.
         let people = entries.iter_mut().flat_map(|info| &mut info.people);
         people.for_each(|person| person.status.clear());
     }
@@ -75,14 +75,14 @@ pub fn complete_entries(
 }
 
 impl ListFindings {
-    /// Prints a warning for each extension in the policy that does not belong to one person.
+    /// Prints a warning for each extension in the policy that doesn't belong to one person.
     pub fn warn_about_extensions(&self, policy: &Policy) {
         let people = self.people.iter().chain(&self.missing);
         warn_about_extensions(policy, &people.collect::<Vec<_>>());
     }
 
-    /// Rejects a class if more than half of its entries match nobody on the lists: they may be another
-    /// class's, or the names may have been misread.
+    /// Rejects a class if more than half of its entries match nobody on the lists. The lists may be
+    /// another class's, or the names may have been misread.
     pub fn check(&self, lists: &Lists) -> Result<(), Error> {
         let all = self.entries;
         match self.unlisted.first() {
@@ -105,8 +105,8 @@ fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     roster::fill_in(rows, &mut people.collect::<Vec<_>>());
 }
 
-/// Returns whether somebody of the entry is on a list, or there is no list. The test student of
-/// Canvas is on none.
+/// Returns whether somebody in the entry is on a list, or no lists were given. Canvas's test
+/// student is never on a list.
 fn is_listed(rows: &[Member], info: &EntryInfo) -> bool {
     let mut people = info.people.iter();
     rows.is_empty()
@@ -114,7 +114,7 @@ fn is_listed(rows: &[Member], info: &EntryInfo) -> bool {
             .any(|person| person.is_test_student() || rows.iter().any(|row| row.matches(person)))
 }
 
-/// Returns a sentence about a person whose number has another name in a list.
+/// Returns a sentence about a person whose number belongs to a different name in a list.
 fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
     let mut people = info.people.iter();
     people.find_map(|person| {
@@ -142,7 +142,7 @@ mod tests {
     use crate::graded_class::tests::{lists, person};
     use crate::list_kind::ListKind::{self, Canvas, Gradescope, Roster};
 
-    /// Returns the people on these lists who are not in the entries, and fills in the entries.
+    /// Completes the entries. Returns the people on these lists who aren't in any entry.
     fn missing(texts: &[(ListKind, &str)], entries: &mut [&mut EntryInfo]) -> Vec<Person> {
         let (_folder, lists) = lists(texts);
         complete_entries(&lists, &RAYS, entries).unwrap().missing
@@ -159,8 +159,8 @@ mod tests {
         }
     }
 
-    /// Her address is in the last list, which has the student id of the second, which has the account
-    /// of the first, which has her extension.
+    /// Her address is in the last list, which shares the student id with the second list, which
+    /// shares the account with the first list, which contains her extension.
     #[test]
     fn a_list_may_be_found_by_what_a_later_one_says() {
         let canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(missing.len(), 1, "{missing:?}");
     }
 
-    /// Bob is in Ann's group, and each of them has a time.
+    /// Bob is in Ann's group, and both of them have a submission time.
     #[test]
     fn the_last_time_counts_unless_one_cannot_be_read() {
         let submitted = |times: [&str; 2], by_platform: Option<&str>| {
@@ -196,7 +196,7 @@ mod tests {
         assert_eq!(submitted([early, late], None), late);
         assert_eq!(submitted([late, early], None), late);
         assert_eq!(submitted(["", early], None), early);
-        // Which one is last is unknown, and a person decides.
+        // It is unknown which time is the last, so a person must decide.
         assert_eq!(submitted([late, "yesterday"], None), "yesterday");
         assert_eq!(submitted(["yesterday", late], None), "yesterday");
         assert_eq!(submitted([late, late], Some(early)), early);
@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(entries.map(|info| info.is_late()), [true, true, false]);
     }
 
-    /// Ann's submission is found, and the roster knows only when her partner handed it in.
+    /// The submission is Ann's, but the roster only contains her partner's submission time.
     #[test]
     fn the_time_of_any_member_of_the_group_counts() {
         let rows = "name,username,sid,group,datetime\n\

@@ -11,7 +11,7 @@ const KNOWN: [&str; 14] = [
     "Submission changes not allowed",
     "Graded",
     "Not graded",
-    // It follows `Graded - `.
+    // This follows `Graded - `.
     "follow up submission received",
     "Not marked",
     "In marking",
@@ -21,13 +21,13 @@ const KNOWN: [&str; 14] = [
     "Released",
     "No attempt",
 ];
-/// Sentences about files that the student has not submitted.
+/// Sentences about files that the student hasn't submitted.
 const UNSUBMITTED: [&str; 2] = ["Draft (not submitted)", "Reopened"];
 const EXTENSION: &str = "Extension granted until:";
 const LATE: &str = " late";
 const OVERDUE: &str = "Assignment is overdue by:";
 
-/// The meaning of a status for a submission.
+/// The meaning of a submission's status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MoodleStatus<'a> {
     /// Whether the submission is late.
@@ -36,7 +36,7 @@ pub struct MoodleStatus<'a> {
     pub unsubmitted: Option<&'a str>,
     /// The end of an extension, in Moodle's format.
     pub extension: Option<&'a str>,
-    /// A sentence that is unknown.
+    /// A sentence that isn't recognised.
     pub unknown: Option<&'a str>,
 }
 

@@ -4,8 +4,8 @@ use judging::sanitize::without_invisible;
 use unicode_normalization::UnicodeNormalization;
 use unicode_normalization::char::is_combining_mark;
 
-/// Returns the form of a text in which equal texts are equal: in lower case, with accents as one
-/// character (macOS writes two), without invisible characters and without white space at its ends.
+/// Normalises a text for comparisons: converts it to lower case, composes accents (macOS decomposes
+/// them), and removes invisible characters and surrounding white space.
 pub fn fold(text: &str) -> String {
     let visible = without_invisible(text);
     let lower = visible.trim().nfc().collect::<String>().to_lowercase();
@@ -21,9 +21,9 @@ pub fn are_equal(one: &str, other: &str) -> bool {
     }
 }
 
-/// Returns whether two names can be of one person who also has one number: the letters are the same,
-/// in whatever order, since platforms write `doejane`, `Doe, Jane` and `Jane Doe`. The name in a file
-/// may have the group in front, as in older versions of Moodle: `Team A-Jane Doe`.
+/// Returns whether two names with the same number can belong to the same person. The letters must
+/// be the same, in any order, since platforms write `doejane`, `Doe, Jane` and `Jane Doe`. A file
+/// name may begin with the group, as in older versions of Moodle: `Team A-Jane Doe`.
 pub fn are_alike(file: &str, listed: &str) -> bool {
     let wanted = letters(listed);
     let mut rest = Some(file);
@@ -46,7 +46,7 @@ pub fn number_at_end(text: &str) -> &str {
     &text[rest.len()..]
 }
 
-/// Returns the letters and digits in order, without accents, which some platforms leave out.
+/// Returns the sorted letters and digits. Accents are removed, because some platforms drop them.
 fn letters(name: &str) -> Vec<char> {
     let name = without_invisible(name).to_lowercase();
     let plain = name.nfkd().filter(|c| !is_combining_mark(*c));

@@ -1,4 +1,4 @@
-//! The results of entries, in memory and as they are stored.
+//! The results of entries, in memory and in storage.
 
 use serde::de::Error;
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ pub struct EntryResult {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "state", content = "why", rename_all = "snake_case")]
 pub enum EntryOutcome {
-    /// The entry was graded. A stamp is stored without the score, which is in `score.json`.
+    /// The entry was graded. A stored stamp doesn't include the score, which is in `score.json`.
     Graded(#[serde(with = "without_score")] Box<ScoreSummary>),
     /// There was nothing to grade, for this reason. The teacher decides how many points the
     /// submission gets.
@@ -71,7 +71,7 @@ pub struct ScoreSummary {
 /// The parts of a score's build report that the class's files need.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct FileNotes {
-    /// Notes about files that look like task files or archives, and were not graded.
+    /// Notes about files that look like task files or archives but were not graded.
     #[serde(default)]
     pub ignored_copies: Vec<String>,
 }
@@ -81,9 +81,9 @@ pub struct FileNotes {
 pub struct TaskScore {
     /// The task's id, such as `sphere`.
     pub id: String,
-    /// The task's title, as it is shown to people.
+    /// The task's human-readable title.
     pub title: String,
-    /// The sum of the points of its items.
+    /// The sum of its items' points.
     pub points: u32,
     /// The maximum number of points.
     pub max_points: u32,
@@ -106,7 +106,7 @@ pub struct ItemScore {
     pub verdict: String,
     /// The explanation of the verdict, in a sentence.
     pub message: String,
-    /// The known mistakes that give the same answers, the most likely first.
+    /// The known mistakes with the same answers, the most likely first.
     pub hints: Vec<Hint>,
 }
 
@@ -117,16 +117,15 @@ pub struct Hint {
     pub hint: String,
 }
 
-/// The contents of `entry.json`. The file is written last, so its presence means that the entry is
-/// complete.
+/// The contents of `entry.json`. The file is written last, so if it exists, the entry is complete.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stamp {
-    /// The cache key: a hash of the submission and everything else that its score depends on. Empty
-    /// if there is no score.
+    /// The cache key: a hash of the submission and everything else its score depends on. Empty if
+    /// there is no score.
     pub key: String,
-    /// The round of the run in which the entry was graded.
+    /// The round when the entry was graded.
     pub round: u32,
-    /// The result, without its id (the folder's name) and its score (in a file of its own).
+    /// The result, without its id (the folder's name) and its score (stored in a separate file).
     #[serde(flatten)]
     pub result: EntryResult,
 }
@@ -139,11 +138,11 @@ impl Stamp {
 }
 
 impl ScoreSummary {
-    /// Parses a score file. The file may come from another machine, so it is an error if it has
-    /// more points than an exam can have.
+    /// Parses a score file. The file may come from another machine, so more points than an exam can
+    /// have are an error.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
-        /// The maximum number of points in a score file: more than any exam has, and small enough
-        /// that the sum over a class does not overflow.
+        /// The maximum number of points in a score file. No exam has more, and the sum over a class
+        /// doesn't overflow.
         const MAX_POINTS: u32 = 100_000;
         let score: ScoreSummary = serde_json::from_str(text)?;
         match score.all_points().max() {
@@ -168,13 +167,13 @@ impl ScoreSummary {
 }
 
 impl EntryResult {
-    /// Returns the notes about files that look like task files or archives, and were not graded.
+    /// Returns the notes about files that look like task files or archives but were not graded.
     pub fn ignored_copies(&self) -> &[String] {
         self.score()
             .map_or(&[], |score| &score.build.ignored_copies)
     }
 
-    /// Returns the score, if there is one.
+    /// Returns the score, if any.
     pub fn score(&self) -> Option<&ScoreSummary> {
         match &self.outcome {
             EntryOutcome::Graded(score) => Some(score),
@@ -183,7 +182,7 @@ impl EntryResult {
     }
 }
 
-/// Returns the id of an entry and, if they are others, the names of its people.
+/// Returns an entry's id and, if they differ from it, the names of its people.
 pub fn id_and_names(id: &str, names: &str) -> String {
     if names == id {
         id.to_owned()
@@ -196,7 +195,7 @@ pub fn id_and_names(id: &str, names: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Returns a score file in which one number is this one, and the others are small.
+    /// Parses a score file where one number has this value and all others are small.
     fn parse(place: usize, number: u64) -> Result<ScoreSummary, serde_json::Error> {
         let mut numbers = [1; 6];
         numbers[place] = number;

@@ -1,4 +1,4 @@
-//! Writes the files of a graded class, and prints the summary.
+//! Writes the files of a graded class and prints the summary.
 
 use grader::policy::Policy;
 use grader::printing::{print, print_line};
@@ -28,23 +28,23 @@ pub enum Completion {
     Incomplete,
 }
 
-/// The inputs of a class's files, apart from the results of its submissions.
+/// The inputs for a class's files, other than the results of its submissions.
 pub struct ClassContext<'a> {
     /// The output folder.
     pub store: &'a Store,
-    /// The run, or what the runs of all parts have in common.
+    /// The run, or the common settings of all merged shards.
     pub run: &'a Run,
     /// The lists.
     pub lists: &'a Lists,
     /// The course's policy.
     pub policy: &'a Policy,
-    /// The facts in the lists.
+    /// The facts found in the lists.
     pub findings: ListFindings,
 }
 
 impl ClassContext<'_> {
-    /// Counts the points, writes the files of the class and prints a summary. `removed` has sentences
-    /// about the entries that are no longer in the input.
+    /// Computes the final points, writes the class's files and prints a summary. `removed` contains
+    /// sentences about entries that are no longer in the input.
     pub fn finish(
         self,
         results: Vec<EntryResult>,
@@ -64,7 +64,8 @@ impl ClassContext<'_> {
             rows,
             missing: self.findings.missing,
         };
-        // Written first: a run that is killed later is repeated, and lists the same changes again.
+        // Read this first, so that a run that is killed later can be repeated and lists the same
+        // changes again.
         let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
         store.write(final_grades::FILE, json(&history))?;
         let changes = Changes {
@@ -112,7 +113,7 @@ fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Resul
     Ok(())
 }
 
-/// Writes the copies of gradebooks, and the archive to hand back.
+/// Writes the copies of gradebooks and the archive to hand back.
 fn write_for_platforms(class: &GradedClass, store: &Store, lists: &Lists) -> Result<(), Error> {
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.
@@ -121,12 +122,12 @@ fn write_for_platforms(class: &GradedClass, store: &Store, lists: &Lists) -> Res
         print_path(store, name);
     }
     for kind in &lists.drop_list {
-        // The copy of a gradebook that is dropped would have outdated points.
+        // The copy of a dropped gradebook would contain outdated points.
         if let ListKind::Canvas | ListKind::Moodle | ListKind::Gradescope = kind {
             store.remove(&format!("{}.csv", kind.name()))?;
         }
     }
-    // An archive that an earlier run was asked for would be outdated.
+    // An archive from an earlier run would be outdated.
     if lists.hand_back || store.folder().join(ARCHIVE).exists() {
         let hand_back = hand_back(class, store)?;
         store.write(ARCHIVE, &hand_back.archive)?;
@@ -140,7 +141,7 @@ fn print_path(store: &Store, name: &str) {
     print_line(format_args!("  {}", store.folder().join(name).display()));
 }
 
-/// Checks that the gradebooks can be filled in, before the class is graded.
+/// Checks, before the class is graded, that the gradebooks can be filled in.
 pub fn check_lists(lists: &Lists) -> Result<(), Error> {
     fill_gradebooks(&GradedClass::default(), lists).map(drop)
 }

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-/// Returns whether `inner` is the folder `outer`, or is in it.
+/// Returns whether `inner` is the folder `outer` or inside it.
 pub fn contains(outer: &Path, inner: &Path) -> bool {
     real_path(inner).starts_with(real_path(outer))
 }
 
-/// Returns the path without links.
+/// Returns the path with its links resolved.
 fn real_path(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut existing = absolute.ancestors();

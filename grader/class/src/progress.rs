@@ -1,5 +1,5 @@
-//! The progress display, on standard error. On a terminal, it shows a bar, and a line for each
-//! submission that is being graded. Otherwise, it prints a line for each submission that is done.
+//! The progress display, on standard error. On a terminal, it shows a bar, plus a line for each
+//! submission that is being graded. Otherwise, it prints a line for each finished submission.
 
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,12 +23,12 @@ pub struct Progress {
 struct Bars {
     all: ProgressBar,
     slots: Vec<ProgressBar>,
-    // The bars are drawn until this is dropped.
+    // Keeps the bars on screen until this is dropped.
     _drawing: MultiProgress,
 }
 
 impl Progress {
-    /// Creates the display for `count` entries, of which at most `slots` are graded at a time.
+    /// Creates the display for `count` entries. At most `slots` of them are graded at a time.
     pub fn new(count: usize, slots: usize) -> Self {
         Progress {
             count,
@@ -45,7 +45,7 @@ impl Progress {
         }
     }
 
-    /// Shows the result of an entry. `is_new` is false if the result is from an earlier run.
+    /// Shows the result of an entry. `is_new` is false if the result comes from an earlier run.
     pub fn finish_entry(&self, slot: usize, result: &EntryResult, is_new: bool) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         let is_failed = result.score().is_none();

@@ -1,17 +1,17 @@
-//! Runs a queue of jobs on a few threads. A thread takes the next job as soon as it has finished
-//! one.
+//! Runs a queue of jobs on a few threads. A thread takes the next job as soon as it finishes one.
 //!
-//! This does not use `rayon`, because the progress display has a line for each thread, and entries
-//! are graded in the order of the list, so that a run that is stopped has graded the first ones.
-//! `rayon` splits the list into halves, and `par_bridge` does not keep the order of the results.
+//! This doesn't use `rayon`, because the progress display shows a line for each thread, and because
+//! entries should be graded in the order of the list, so that a stopped run has graded the first
+//! ones. `rayon` splits the list into halves, and `par_bridge` doesn't preserve the order of the
+//! results.
 
 use std::iter;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// Runs `work` for each job, and returns the results in the order of the jobs. The first argument
-/// of `work` is the index of the thread, from 0 to `slots` - 1.
+/// Runs `work` for each job. Returns the results in the order of the jobs. The first argument of
+/// `work` is the index of the thread, from 0 to `slots` - 1.
 pub fn run<J: Sync, R: Send>(
     jobs: &[J],
     slots: usize,

@@ -1,5 +1,5 @@
-//! Compares the scores of a regrade with the earlier ones: whose points changed, in which items,
-//! and why.
+//! Compares the scores of a regrade with the earlier ones: whose points changed, for what items and
+//! why.
 
 use std::collections::BTreeSet;
 
@@ -14,17 +14,17 @@ use crate::store::Store;
 /// The differences from earlier runs.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
-    /// The changes of a regrade; `None` in a folder's first round.
+    /// The changes made by a regrade. `None` in a folder's first round.
     pub regrade: Option<RegradeChanges>,
-    /// The scores that changed because the submission did.
+    /// The scores that changed because the submission changed.
     pub resubmitted: Vec<Drift>,
     /// Sentences about the entries that are no longer in the input.
     pub removed: Vec<String>,
-    /// The final grades that changed; `None` if there are none to compare with.
+    /// The final grades that changed. `None` if there are none to compare with.
     pub grades: Option<GradeChanges>,
 }
 
-/// The changes of a regrade.
+/// The changes made by a regrade.
 #[derive(Clone, Debug)]
 pub struct RegradeChanges {
     /// The scores that changed.
@@ -33,7 +33,7 @@ pub struct RegradeChanges {
     pub causes: Vec<&'static str>,
 }
 
-/// Returns the scores that changed because their submission did.
+/// Returns the scores that changed because their submission changed.
 pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, Error> {
     find_drifts(results, |id| store.replaced_score(id))
 }
@@ -53,7 +53,7 @@ pub fn find_regrade_changes(
     }))
 }
 
-/// Compares each result with the score that was kept for its entry.
+/// Compares each result with the previous score saved for its entry.
 fn find_drifts(
     results: &[EntryResult],
     kept_score: impl Fn(&str) -> Result<Option<ScoreSummary>, Error>,
@@ -66,8 +66,8 @@ fn find_drifts(
     Ok(drifts)
 }
 
-/// Returns sentences about the entries in the stores that are not among `ids`, each with its people and
-/// points. An entry that is in several stores is named once.
+/// Returns sentences about the entries in the stores that aren't among `ids`, each with its people
+/// and points. An entry in several stores is only named once.
 pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Error> {
     let mut known: BTreeSet<String> = ids.iter().map(|id| (*id).to_owned()).collect();
     let mut removed = Vec::new();
@@ -90,21 +90,22 @@ pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Erro
     Ok(removed)
 }
 
-/// A score that a regrade changed.
+/// A score that changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Drift {
     /// The entry's id.
     pub id: String,
     /// The points before the regrade.
     pub was: u32,
-    /// The points after the regrade; `None` if the entry no longer has a score.
+    /// The points after the regrade. `None` if the entry no longer has a score.
     pub now: Option<u32>,
     /// The items whose points changed.
     pub items: Vec<ItemChange>,
 }
 
 impl Drift {
-    /// Returns whether the total points changed, and not only the items that they are for.
+    /// Returns whether the total points changed, rather than only their distribution among the
+    /// items.
     pub fn changes_points(&self) -> bool {
         self.now != Some(self.was)
     }
@@ -115,16 +116,16 @@ impl Drift {
 pub struct ItemChange {
     /// The item's id.
     pub item: String,
-    /// The points before the regrade; `None` if the item was not in the exam.
+    /// The points before the regrade. `None` if the item was not in the exam.
     pub was: Option<u32>,
-    /// The points after the regrade; `None` if the item is no longer in the exam.
+    /// The points after the regrade. `None` if the item is no longer in the exam.
     pub now: Option<u32>,
     /// The reason: the verdict and message after the regrade and, if points were gained, also those
     /// before it.
     pub why: String,
 }
 
-/// Compares the scores of an entry; returns `None` if nothing changed.
+/// Compares the scores of an entry. Returns `None` if nothing changed.
 fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
     let items = match now {
         Some(now) => item_changes(was, now),
@@ -158,7 +159,7 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
         message => format!("{}: {message}", item.verdict),
     };
     let why = match (was, now) {
-        // The new message does not say why the points were lost before.
+        // The new message alone doesn't say why the points were lost before.
         (Some(was), Some(now)) if now.points > was.points => {
             format!("{}; it was {}", explain(now), explain(was))
         }

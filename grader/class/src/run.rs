@@ -1,4 +1,4 @@
-//! The settings that all scores in an output folder depend on. They are stored with the scores, so
+//! The settings that all scores in an output folder depend on. They are stored with the scores so
 //! that scores from different settings are never mixed.
 
 use std::collections::BTreeMap;
@@ -13,24 +13,24 @@ use crate::shard::Shard;
 pub struct Run {
     /// The format version of `run.json`.
     pub schema: u32,
-    /// The round, counted from 1; `--regrade` starts the next one.
+    /// The round, counted from 1. `--regrade` starts the next round.
     pub round: u32,
     /// How far the round has come.
     pub state: RoundState,
-    /// The part of the class that is graded; `None` for the whole class.
+    /// The shard that is graded. `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
-    /// The policy, the roster and the other lists. The folder has copies of them.
+    /// The policy, the roster and the other lists. The folder contains copies of them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lists: KeptLists,
     /// The maximum points of each task of the exam.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub tasks: BTreeMap<String, u32>,
-    /// The ids of the entries. The folder may have others, of students who are no longer in the
-    /// input.
+    /// The ids of the entries. The folder may also contain entries of students who are no longer in
+    /// the input.
     pub entries: Vec<String>,
-    /// The hash of the ids of all entries of the class, also of those in other shards. Merging shards
-    /// of different classes could leave somebody out.
+    /// The hash of the ids of all entries of the class, including those in other shards. It
+    /// prevents merging shards of different classes, which could leave somebody out.
     pub class: String,
     /// The settings that the scores depend on.
     pub settings: Settings,
@@ -43,17 +43,17 @@ pub struct Run {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RoundState {
-    /// The scores from before a regrade must still be saved. Until then, nothing is graded.
+    /// The scores from before a regrade have yet to be saved. Until then, nothing is graded.
     SavesPrevious,
-    /// Some entries may not be done.
+    /// Some entries may not be graded yet.
     Started,
-    /// Every entry is done.
+    /// Every entry is graded.
     Finished,
-    /// Every entry was done once, and a later run of the round has started.
+    /// Every entry was graded once, and a later run of the round has started.
     Resumed,
 }
 
-/// Everything that scores depend on, apart from the submissions.
+/// Everything that scores depend on, other than the submissions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// The exam's name.
@@ -64,7 +64,7 @@ pub struct Settings {
     pub grader: String,
     /// The hash of the compiler, the dependencies and the reference.
     pub built_with: String,
-    /// The isolation level at which the submissions are graded.
+    /// The isolation level used to grade the submissions.
     pub isolation: String,
     /// The command-line options that affect scores.
     pub options: String,
@@ -90,9 +90,9 @@ impl Run {
         }
     }
 
-    /// Returns the next round, with nothing graded yet. It will be compared with the last round
-    /// that was finished. An abandoned regrade has already replaced some scores, so the scores that
-    /// were saved before it are kept for the comparison.
+    /// Returns the next round, with nothing graded yet. It will be compared with the last finished
+    /// round. An abandoned regrade has already replaced some scores, so the scores saved before it
+    /// are kept for the comparison.
     pub fn next_round(&self, settings: Settings) -> Self {
         let (before, state) = if self.is_unfinished_regrade() {
             (self.before.clone(), self.state)
@@ -107,7 +107,7 @@ impl Run {
         }
     }
 
-    /// Returns the run when it is started again.
+    /// Returns the state of the run after it is restarted.
     #[must_use]
     pub fn resume(self) -> Self {
         let state = if self.was_finished() {
@@ -169,7 +169,7 @@ mod tests {
         assert!(second.is_unfinished_regrade());
         assert!(second.entries.is_empty());
 
-        // It is stopped, after the scores were saved: those scores stay.
+        // If the regrade is stopped after the scores were saved, the saved scores are kept.
         let saved = Run {
             state: RoundState::Started,
             ..second.clone()
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!((third.round, third.state), (3, RoundState::Started));
         assert_eq!(third.before, Some(first.settings.clone()));
 
-        // It is finished, so that the next regrade is compared with it.
+        // Once it is finished, the next regrade is compared with it.
         let finished = Run {
             state: RoundState::Resumed,
             ..saved
@@ -195,7 +195,7 @@ mod tests {
         assert_eq!(own.differences(&own), Vec::<&str>::new());
         assert_eq!(own.differences(&other_settings()), ["the exam"]);
         let other = Settings {
-            // The name of the exam says nothing about its questions.
+            // The exam's name says nothing about its questions.
             exam: "x".to_owned(),
             grader: "x".to_owned(),
             built_with: "x".to_owned(),

@@ -24,7 +24,7 @@ impl Shard {
         all.into_iter().enumerate().filter_map(own).collect()
     }
 
-    /// Returns the parts of the class that are not among `these`.
+    /// Returns the parts of the class that aren't among `these`.
     pub fn missing(these: &[Shard]) -> Vec<Shard> {
         let of = these.iter().map(|shard| shard.of).max().unwrap_or(0);
         let parts = (1..=of).map(|part| Shard { part, of });

@@ -1,9 +1,9 @@
-//! Input for similarity checkers such as JPlag, Dolos and MOSS: for each task file a folder, with a
-//! numbered file for each submission, which has only what its students wrote. This is not a
-//! detector: it compares nothing but whole submissions, for equality.
+//! Input for similarity checkers such as JPlag, Dolos and MOSS. Each task file has a folder with a
+//! numbered file per submission that only contains its students' own lines. This isn't a detector:
+//! it only compares entire submissions for equality.
 //!
-//! The folder can be given to a service, since it has no names. The key to the numbers and the list
-//! of identical submissions are written beside it.
+//! The folder can be uploaded to a service, since it doesn't contain names. The key to the numbers
+//! and the list of identical submissions are written next to it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -20,11 +20,11 @@ use crate::paths::contains;
 use crate::report::text::one_line;
 use crate::table::{Table, safe_cell};
 
-/// A submission, and the lines that its students wrote in each file.
+/// A submission and the lines its students wrote in each file.
 struct OwnWork<'a> {
     number: usize,
     entry: &'a Entry,
-    /// The lines, by the name of the file. Files without any are left out.
+    /// The lines, keyed by file name. Files without such lines are left out.
     files: BTreeMap<&'static str, String>,
 }
 
@@ -41,7 +41,7 @@ impl OwnWork<'_> {
     }
 }
 
-/// Checks that the folder is empty, and apart from the input and the output.
+/// Checks that the folder is empty and doesn't overlap with the input or the output.
 pub fn check_folder(folder: &Path, others: &[&Path]) -> Result<(), Error> {
     if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Error::user(format!(
@@ -87,8 +87,7 @@ pub fn write_input(
             });
         }
     }
-    // In the order of the entries, the numbers would give away names to those who have a list of the
-    // class.
+    // Numbers in entry order would reveal names to anyone with a list of the class.
     let mut order: Vec<&mut OwnWork> = all.iter_mut().collect();
     order.sort_by_cached_key(|work| work.content_hash());
     for (number, work) in (1..).zip(order) {
@@ -109,7 +108,7 @@ pub fn write_input(
     Ok(render(folder, &key, &list, all.len(), &identical))
 }
 
-/// Returns the path of a file beside a folder, whose name begins with the folder's.
+/// Returns the path of a file next to a folder. Its name begins with the folder's name.
 fn beside(folder: &Path, end: &str) -> PathBuf {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     folder.with_file_name(format!("{name}-{end}"))
@@ -127,7 +126,7 @@ fn key_table(all: &[OwnWork]) -> Table {
     table
 }
 
-/// Returns the groups of submissions in which students wrote the same.
+/// Returns the groups of submissions whose students wrote the same lines.
 fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
     let mut same: BTreeMap<Vec<(&str, String)>, Vec<&OwnWork>> = BTreeMap::new();
     for work in all {
@@ -159,7 +158,8 @@ fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
     table
 }
 
-/// Returns whether the roster has all of these people in the same group, who may hand in the same.
+/// Returns whether the roster lists all of these people in the same group. They may then hand in
+/// the same code.
 fn is_one_group(works: &[&OwnWork]) -> bool {
     let group = |info: &EntryInfo| info.people.first().map(|person| person.group.clone());
     let first = group(&works[0].entry.info).filter(|group| !group.is_empty());

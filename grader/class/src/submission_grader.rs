@@ -1,5 +1,5 @@
-//! The seam between a class and the processes that grade a submission. A class needs nothing else of
-//! the grader than this trait, so that its handling of results can be tested without compiling.
+//! The interface between a class and the processes that grade a submission. A class uses the grader
+//! only through this trait, so that its handling of results can be tested without compiling.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -20,7 +20,7 @@ use judging::content_hash::file_hash;
 use crate::run::Settings;
 use crate::store::SUBMISSION;
 
-/// Grades submissions, each with the same exam and the same options.
+/// Grades submissions, all with the same exam and the same options.
 pub trait SubmissionGrader: Sync {
     /// Returns the assignment.
     fn handed_out(&self) -> &'static HandedOut;
@@ -28,14 +28,14 @@ pub trait SubmissionGrader: Sync {
     /// Returns the course's policy.
     fn policy(&self) -> &Policy;
 
-    /// Returns everything that scores depend on, apart from the submissions.
+    /// Returns everything that scores depend on, other than the submissions.
     fn settings(&self) -> Result<Settings, Error>;
 
     /// Returns the maximum points of each task of the exam, by its id.
     fn task_points(&self) -> BTreeMap<String, u32>;
 
-    /// Grades a submission, and writes its score and its page for staff. `show_status` is called with
-    /// the progress. Returns the score, and the page that the student may see.
+    /// Grades a submission and writes its score and its page for staff. Calls `show_status` with
+    /// the progress. Returns the score and the page that the student may see.
     fn grade(
         &self,
         submission: &Submission,
@@ -55,8 +55,8 @@ impl SubmissionGrader for Grader<'_> {
 
     fn settings(&self) -> Result<Settings, Error> {
         let exam = self.exam_name();
-        // The executable itself is hashed: any change to it, such as a build with another compiler,
-        // may change a score.
+        // Hash the executable itself, because any change to it, such as a build with another
+        // compiler, may change a score.
         let program = env::current_exe()?;
         Ok(Settings {
             exam: exam.id.clone(),
@@ -106,10 +106,10 @@ impl SubmissionGrader for Grader<'_> {
     }
 }
 
-/// Returns the options that scores depend on, as text. Those with a setting of their own, and those
-/// that `cargo class` does not have, are left out.
+/// Returns the options that scores depend on, as text. Options stored as separate settings and
+/// options that `cargo class` doesn't have are left out.
 fn options_of_scores(options: &GradeOptions) -> String {
-    // Without `..`, so that a new option does not compile until this function handles it.
+    // Don't use `..` here, so that a new option doesn't compile until this function handles it.
     let GradeOptions {
         dependents,
         budget,

@@ -1,4 +1,4 @@
-//! The summary of a class in numbers, which is written to `class.json`.
+//! The summary of a class in numbers, written to `class.json`.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use crate::outcome::{EntryOutcome, ScoreSummary, id_and_names};
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
-/// The maximum number of failed items and of mistakes that are listed.
+/// The maximum number of failed items, and of mistakes, to list.
 const MAX_ENTRIES: usize = 10;
 
 /// The contents of `class.json`.
@@ -25,7 +25,7 @@ pub struct ClassSummary {
     pub exam_hash: String,
     /// The isolation level of the submissions.
     pub isolation: String,
-    /// The number of submissions that were graded.
+    /// The number of graded submissions.
     pub graded: usize,
     /// The number of submissions with nothing to grade.
     pub nothing_to_grade: usize,
@@ -33,15 +33,15 @@ pub struct ClassSummary {
     pub not_graded: usize,
     /// The number of people on the rosters who submitted nothing.
     pub missing: usize,
-    /// The number of submissions that count as on time because their time is unknown.
+    /// The number of submissions treated as on time because their time is unknown.
     pub undated: usize,
     /// The number of submissions without final points because their submission time is unclear.
     pub unclear_times: usize,
-    /// The number of submissions that do not count because another one of the same person does.
+    /// The number of submissions that aren't used because another submission by the same person is.
     pub superseded: usize,
-    /// The number of submissions of which nobody has chosen whether they count.
+    /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
-    /// The distribution of the total points; `None` if there are no scores.
+    /// The distribution of the total points. `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
@@ -58,21 +58,21 @@ pub struct ClassSummary {
 pub struct TaskDistribution {
     /// The task's id, such as `sphere`.
     pub id: String,
-    /// The task's title, as it is shown to people.
+    /// The task's human-readable title.
     pub title: String,
     /// The distribution of the points.
     #[serde(flatten)]
     pub points: Distribution,
 }
 
-/// An item that some submissions failed, which means that they did not get its full points.
+/// An item that some submissions failed, which means that they didn't get its full points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailedItem {
     /// The item's id, such as `sphere.from_inside`.
     pub item: String,
     /// The item's title: a sentence that describes the correct behaviour.
     pub title: String,
-    /// The number of submissions that did not get full points for this item.
+    /// The number of submissions that didn't get full points for this item.
     pub count: usize,
 }
 
@@ -92,15 +92,15 @@ pub struct Outlier {
     pub id: String,
     /// The names of its people.
     pub names: String,
-    /// The reason why the submission needs attention.
+    /// Why the submission needs attention.
     pub why: String,
-    /// Whether there is a report on it.
+    /// Whether the submission has a report.
     #[serde(skip)]
     pub has_report: bool,
 }
 
 impl Outlier {
-    /// Returns the id and, if they are others, the names of the people.
+    /// Returns the id and, if they differ from it, the names of the people.
     pub fn title(&self) -> String {
         id_and_names(&self.id, &self.names)
     }
@@ -163,8 +163,7 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
 }
 
 fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
-    // The items are collected in the order of the exam, which the stable sort below keeps for equal
-    // counts.
+    // Collect the items in exam order. The stable sort below preserves it for equal counts.
     let mut failed: Vec<FailedItem> = Vec::new();
     for item in scores.iter().flat_map(|score| score.items()) {
         let count = usize::from(item.points < item.max_points);
@@ -186,7 +185,7 @@ fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
 fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for score in scores {
-        // Only the most likely hint of each item counts, and each hint counts once per submission.
+        // Count only the most likely hint of each item, and each hint only once per submission.
         let hints = score.items().filter_map(|item| item.hints.first());
         let mut hints: Vec<&str> = hints.map(|hint| hint.hint.as_str()).collect();
         hints.sort_unstable();
@@ -205,8 +204,8 @@ fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
     mistakes
 }
 
-/// Returns the submissions without a score, without points, far below the others (Tukey's fence), or
-/// with files that look like task files and were not graded.
+/// Returns the submissions without a score, without points, far below the others (Tukey's fence),
+/// or with files that look like task files but were not graded.
 fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let (lower, upper) = (points.lower_quartile.into(), points.upper_quartile.into());

@@ -8,20 +8,20 @@ use judging::sanitize::sanitize_line;
 
 use crate::error::Error;
 
-/// A CSV table. Cells are kept as text: numbers and dates are not parsed.
+/// A CSV table. Cells are kept as text: numbers and dates aren't parsed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
     /// The cells of the first row, which name the columns.
     pub header: Vec<String>,
     /// The other rows.
     pub rows: Vec<Vec<String>>,
-    /// The numbers of the rows that were read, as spreadsheets show them: blank lines count too.
+    /// The row numbers as in spreadsheets, which also count blank lines.
     row_numbers: Vec<usize>,
     delimiter: u8,
     has_byte_order_mark: bool,
 }
 
-/// The delimiters that spreadsheets write. If several are as frequent, the first counts.
+/// The delimiters that spreadsheets write. If several are equally frequent, the first one is used.
 const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
@@ -99,8 +99,8 @@ impl Table {
         self.header.iter().position(same)
     }
 
-    /// Returns the index of the column with this name. If there is no such column, the error says what
-    /// to do. `path` is that of the table.
+    /// Returns the index of the column with this name. If there is no such column, the error says
+    /// what to do. `path` is the table's path.
     pub fn require_column(&self, path: &Path, name: &str, remedy: &str) -> Result<usize, Error> {
         let column = self.column(name);
         column.ok_or_else(|| missing_column(path, name, remedy))
@@ -125,12 +125,12 @@ impl Table {
         }
     }
 
-    /// Returns the rows that were read, each with its number, as spreadsheets show it.
+    /// Returns the rows, each with its row number as in spreadsheets.
     pub fn numbered_rows(&self) -> impl Iterator<Item = (usize, &Vec<String>)> {
         self.row_numbers.iter().copied().zip(&self.rows)
     }
 
-    /// Returns the table as CSV, with the delimiter and the byte order mark that it was read with.
+    /// Returns the table as CSV, with its original delimiter and byte order mark.
     pub fn to_csv(&self) -> String {
         let mut writer = csv::WriterBuilder::new()
             .delimiter(self.delimiter)
@@ -157,14 +157,14 @@ pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
     Error::user(format!("{path} has no column {column}: {remedy}"))
 }
 
-/// Returns the number of blank lines after a row, which the reader skips. `read` is the number of bytes
-/// up to the row's end.
+/// Returns the number of blank lines that the reader skips after a row. `read` is the number of
+/// bytes up to the row's end.
 fn blank_lines(bytes: &[u8], read: usize) -> usize {
     let (row, rest) = bytes.split_at(read);
     let is_end = |byte: &&u8| [b'\r', b'\n'].contains(*byte);
     let ends = &rest[..rest.iter().take_while(is_end).count()];
     let end_of_row = match row {
-        // The reader stops between the two characters.
+        // The reader stops between the two characters of a line end.
         [.., b'\r'] => ends.strip_prefix(b"\n"),
         _ => None,
     };
@@ -173,18 +173,20 @@ fn blank_lines(bytes: &[u8], read: usize) -> usize {
     ends.len() - pairs
 }
 
-/// Characters with which spreadsheets begin a formula, also in their wide and small forms.
+/// Characters that begin a formula in spreadsheets, including their wide and small forms.
 const FORMULA_SIGNS: &str = "=+-@|＝＋－＠｜﹦﹢﹣﹫−";
-/// Characters at which spreadsheets of some languages split lines, whatever the table's delimiter.
+/// Characters where spreadsheets in some languages split lines, regardless of the table's
+/// delimiter.
 const SPLITTING_SIGNS: [char; 2] = [';', '|'];
 
-/// Returns untrusted text as a cell: without control characters, and so that no spreadsheet takes it
-/// for a formula. Otherwise, a student's name could run a formula on the teacher's machine (OWASP,
-/// "CSV Injection").
+/// Returns untrusted text as a cell, without control characters and with formulas defused.
+/// Otherwise, a student's name could run a formula on the teacher's machine (OWASP, "CSV
+/// Injection").
 pub fn safe_cell(text: &str) -> String {
     let text = sanitize_line(text, usize::MAX);
     let escape = |part: &str| {
-        // A formula may begin after spaces and quotation marks, and a tab has become spaces.
+        // A formula may begin after spaces and quotation marks. Tabs have already been replaced by
+        // spaces.
         let is_before = |sign: char| sign.is_whitespace() || sign == '"';
         let begins = part
             .trim_start_matches(is_before)
@@ -252,7 +254,7 @@ mod tests {
         for sign in FORMULA_SIGNS.chars() {
             assert_eq!(safe_cell(&format!("{sign}A1")), format!("'{sign}A1"));
         }
-        // Where the comma is a decimal separator, spreadsheets split lines at semicolons.
+        // If the comma is the decimal separator, spreadsheets split lines at semicolons.
         assert_eq!(safe_cell("Ann;=1+1; \"@A1"), "Ann;'=1+1;' \"@A1");
         assert_eq!(safe_cell("Ann|=1+1"), "Ann|'=1+1");
         assert_eq!(safe_cell("Ann; Bob-Lee, a=b"), "Ann; Bob-Lee, a=b");

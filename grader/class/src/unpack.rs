@@ -1,6 +1,6 @@
-//! Unpacks an export's archive into a temporary folder. Files that are not needed later are created
-//! empty, so that they do not fill the disk. A file that cannot be unpacked is reported, and does
-//! not affect the others.
+//! Unpacks an export's archive into a temporary folder. Files that aren't needed later are created
+//! empty, so that they don't fill the disk. A file that cannot be unpacked is reported without
+//! affecting the others.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -19,27 +19,27 @@ use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
 
 /// The maximum size of a student's archive or a platform's list, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// The maximum size of a source file, in bytes. Of a longer file, one byte more is unpacked, so
-/// that the file is recognised as too long.
+/// The maximum size of a source file, in bytes. For a longer file, one more byte is unpacked, so
+/// that it is recognised as too long.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
 /// The maximum total size of the unpacked files, in bytes, before [`MAX_EXPANSION`] times the size
-/// of the archive is added. The sum is enough, since students' archives are already compressed and
+/// of the archive is added. This is enough, since students' archives are already compressed and
 /// their source files are short.
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
 /// The number of bytes that each byte of the archive adds to [`MAX_TOTAL_BYTES`].
 const MAX_EXPANSION: u64 = 4;
 
-/// The name of the folder for the unpacked files. It is in the temporary folder, which also
+/// The name of the folder for the unpacked files. It is inside the temporary folder, which also
 /// contains a lock file.
 pub const CLASS_FOLDER: &str = "class";
 
 /// The unpacked files of an archive.
 pub struct Unpacked {
-    /// The temporary folder, which has the files in [`CLASS_FOLDER`].
+    /// The temporary folder, with the files in [`CLASS_FOLDER`].
     pub build_dir: BuildDir,
-    /// The members that were not unpacked, and cannot be.
+    /// The members that cannot be unpacked.
     pub problems: Vec<UnmatchedPath>,
-    /// The files that are needed and could not be unpacked: they are empty. Each has its path in the
+    /// The needed files that could not be unpacked and are empty instead, by their paths in the
     /// folder.
     pub incomplete: Vec<UnmatchedPath>,
 }
@@ -122,12 +122,12 @@ fn unpack_files(
     })
 }
 
-/// The members of an archive that are read, with the maximum number of bytes, and those that become empty
-/// files, with the reason if they are needed.
+/// The members of an archive to read, each with its maximum number of bytes, and the members to
+/// create as empty files, each with the reason if it is needed.
 type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
-/// Selects the members whose contents are needed, the smallest first, so that those that do not fit
-/// are the largest, whosever they are. No member can have more bytes than it claims.
+/// Selects the members whose contents are needed. The smallest come first, so that only the largest
+/// are dropped if not all fit. No member can have more bytes than it claims.
 fn select<'a>(
     members: impl Iterator<Item = &'a Member>,
     max_total: u64,
@@ -166,7 +166,7 @@ fn is_wanted(path: &str) -> bool {
     !path.split('/').any(is_skipped_name)
 }
 
-/// Returns the maximum number of bytes of a file that are needed later. For most files, it is 0,
+/// Returns the maximum number of a file's bytes that are needed later. This is 0 for most files,
 /// since only their names matter.
 fn max_bytes(path: &str, handed_out: &HandedOut) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
@@ -191,8 +191,7 @@ fn extract_to(
     }
     match put(&folder.join(path)) {
         Ok(()) => Ok(None),
-        // The archive is at fault if, for example, a name is too long, or a path is both a file and
-        // a folder.
+        // The archive is at fault, e.g. a name is too long, or a path is both a file and a folder.
         Err(error) if !is_machine_fault(error.source.kind()) => {
             Ok(Some(format!("{path} in it: {}", error.reason())))
         }
@@ -200,8 +199,7 @@ fn extract_to(
     }
 }
 
-/// Returns whether the machine is at fault, in which case any other file would cause the same
-/// error.
+/// Returns whether the machine is at fault. If so, any other file would cause the same error.
 fn is_machine_fault(kind: ErrorKind) -> bool {
     matches!(
         kind,

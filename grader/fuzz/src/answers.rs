@@ -1,4 +1,4 @@
-//! Well-formed answers with any values: they are judged, compared with known mistakes, scored, and
+//! Well-formed answers with any values, which are judged, compared with known mistakes, scored and
 //! written to all three reports.
 
 use std::sync::LazyLock;

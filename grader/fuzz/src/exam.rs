@@ -1,4 +1,4 @@
-//! Exam files, which may come from another version of the grader or have been edited by hand.
+//! Exam files, which may come from a different version of the grader or have been edited by hand.
 
 use std::path::Path;
 

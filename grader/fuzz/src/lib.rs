@@ -1,8 +1,8 @@
 //! Fuzz targets for all parsers of untrusted input. No input may make a parser panic, hang, or use
-//! memory out of proportion to the size of the input.
+//! memory out of proportion to its size.
 //!
-//! Each target is a function of bytes. `cargo test -p fuzz` runs it on the corpus, on changes to
-//! the corpus and on noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as
+//! Each target is a function that takes bytes. `cargo test -p fuzz` runs it on the corpus, changes
+//! to the corpus and noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as
 //! needed.
 
 mod answers;
@@ -66,8 +66,8 @@ impl Target {
         TARGETS.into_iter().find(|target| target.name == name)
     }
 
-    /// Runs the target on these bytes, and panics if it uses too much memory. Allocations that
-    /// other threads make during that time are also counted.
+    /// Runs the target on these bytes. Panics if it uses too much memory. Allocations made by other
+    /// threads in the meantime are also counted.
     pub fn run(&self, bytes: &[u8]) {
         let before = MEMORY.current_usage();
         MEMORY.reset_peak_usage();

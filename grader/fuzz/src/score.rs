@@ -1,4 +1,4 @@
-//! Score files that `cargo class` reads back, from other machines or from a run that was killed.
+//! Score files that `cargo class` reads back, from other machines or from a killed run.
 
 use class::entry::EntryInfo;
 use class::graded_class::{ClassRow, GradedClass};
@@ -9,8 +9,8 @@ use class::run::Run;
 use class::summary::ClassSummary;
 use grader::policy::Policy;
 
-/// Reads the bytes as a score, and also as the other files of an entry and a run. If the score is
-/// valid, all files of a class can be written from it.
+/// Reads the bytes as a score and as the other files of an entry and a run. If the score is valid,
+/// it must be possible to write all files of a class from it.
 pub fn read(bytes: &[u8]) {
     let json = String::from_utf8_lossy(bytes);
     let stamp: Result<Stamp, _> = serde_json::from_str(&json);

@@ -3,7 +3,7 @@
 use grader::handed_out::RAYS;
 use judging::sanitize::sanitize;
 
-/// Compares the bytes with the starter's files, and makes them safe to print.
+/// Compares the bytes with the starter's files and makes them safe to print.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     for file in RAYS.files {

@@ -15,8 +15,8 @@ pub fn read(bytes: &[u8]) {
             Err(WireError::EndOfStream | WireError::TooLong { .. }) => return,
             Err(error) => panic!("reading from memory cannot fail: {error}"),
         };
-        // A decoded value can be encoded again. The encodings are compared, and not the values,
-        // because NaN is not equal to itself.
+        // A decoded value can be encoded again. Compare the encodings rather than the values,
+        // because NaN isn't equal to itself.
         if let Ok(answer) = frame.decode::<Answer>() {
             assert_round_trip(&answer);
         }

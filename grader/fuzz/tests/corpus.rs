@@ -1,4 +1,4 @@
-//! Runs the fuzz targets as ordinary tests: on the corpus, on changes to it, and on noise.
+//! Runs the fuzz targets as ordinary tests, on the corpus, changes to it and noise.
 
 use std::fs::File;
 use std::io::Read as _;
@@ -10,8 +10,8 @@ use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use tar::{Archive, Entry};
 
-/// The number of random inputs per target, about half of them changes to the corpus and half noise.
-/// `cargo fuzz` runs millions.
+/// The number of random inputs per target, roughly half of them changes to the corpus and half
+/// noise. `cargo fuzz` runs millions.
 const CASES: u32 = 300;
 /// The maximum length of a noise input, in bytes.
 const MAX_NOISE_BYTES: usize = 300;

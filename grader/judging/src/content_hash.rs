@@ -1,14 +1,14 @@
-//! Hashes of what a result depends on: the only hashes of the grader and of the tools around it.
+//! Hashes of a result's inputs. These are the only hashes in the grader and the tools around it.
 
 /// The number of hexadecimal digits of a hash: 128 bits.
 const DIGITS: usize = 32;
 
-/// A hash of several parts, which is a key for what was made from them.
+/// A hash of several parts, used as a cache key for a result made from them.
 #[derive(Clone, Debug, Default)]
 pub struct ContentHash(blake2b_simd::State);
 
 impl ContentHash {
-    /// Adds a part. Its length is hashed as well, so that no two lists of parts run together.
+    /// Adds a part. Its length is hashed too, so that `ab`, `c` and `a`, `bc` differ.
     pub fn add(&mut self, part: &[u8]) {
         self.0.update(&(part.len() as u64).to_le_bytes());
         self.0.update(part);
@@ -26,8 +26,7 @@ impl ContentHash {
     }
 }
 
-/// Returns the hash of a single file, as published in score files: the beginning of what `b2sum`
-/// prints.
+/// Returns the hash of a single file, as published in score files: a prefix of `b2sum`'s output.
 pub fn file_hash(bytes: &[u8]) -> String {
     blake2b_simd::blake2b(bytes).to_hex()[..DIGITS].to_owned()
 }

@@ -1,8 +1,7 @@
-//! Data for drawings that explain the correct answer, such as the order in which a correct
-//! traversal visits the nodes.
+//! Data for drawings that explain the correct answer, such as a correct traversal's order of nodes.
 //!
-//! The data is stored in the exam file, because the grader contains no solution that could compute
-//! it. It is neither judged nor sent to the probe.
+//! The data is stored in the exam file because the grader contains no solution that could compute
+//! it. It isn't judged and not sent to the probe.
 
 use glam::Vec3;
 use protocol::{Geometry, Interval, Question, Rows, packed};
@@ -15,11 +14,11 @@ pub enum DrawingData {
     /// No data.
     #[default]
     None,
-    /// Data for tables of `BBox::hit`: for each query, the interval that the ray spends between the two
-    /// planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
-    /// parallel to the planes, the interval is unbounded or empty.
+    /// Data for tables of `BBox::hit`: for each query, the interval the ray spends between each
+    /// axis's two planes, ignoring the query's `times` and the ray's range. If the ray is parallel
+    /// to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
-    /// Data for tables of hits in a tree of the exam: one correct traversal per ray.
+    /// Data for tables of hits in a tree from the exam: one correct traversal per ray.
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
     /// Data for `Build` questions: the tree of the exact SAH sweep.
     Sweep(#[serde(with = "packed::text")] Sweep),
@@ -30,9 +29,9 @@ pub enum DrawingData {
 pub struct TraversalStep {
     /// Index of the node in the tree's nodes.
     pub node: u32,
-    /// Whether the node is entered, so that its children are visited or its primitives tested.
+    /// Whether the node is entered, i.e. its children are visited or its primitives tested.
     pub is_entered: bool,
-    /// Interval in which the ray is in the node's box, ignoring the ray's range.
+    /// Interval where the ray is inside the node's box, ignoring the ray's range.
     pub span: Option<Interval>,
 }
 
@@ -47,7 +46,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Number of levels that are stored, including the root's.
+    /// Number of stored levels, including the root's.
     pub const LEVELS: u32 = 6;
 }
 
@@ -67,11 +66,11 @@ pub struct LevelNode {
     pub cost: f32,
 }
 
-/// The problem of data for another kind of question.
+/// The problem if the data belongs to a different kind of question.
 const OTHER_KIND: &str = "the drawing data is of another kind than the question";
 
 impl DrawingData {
-    /// Returns whether there is no data.
+    /// Returns whether this is [`DrawingData::None`].
     pub fn is_none(&self) -> bool {
         match self {
             DrawingData::None => true,
@@ -79,7 +78,7 @@ impl DrawingData {
         }
     }
 
-    /// Returns the reason why the data does not fit `question`, or `None` if it fits.
+    /// Returns why the data doesn't fit `question`, or `None` if it fits.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {

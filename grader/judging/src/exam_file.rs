@@ -44,7 +44,7 @@ impl ExamFile {
     }
 }
 
-/// Reasons why an exam cannot be used.
+/// Reasons for rejecting an exam.
 #[derive(Debug, thiserror::Error)]
 pub enum ExamError {
     /// The file is not JSON, or not an exam.
@@ -69,15 +69,16 @@ pub enum ExamError {
     },
 }
 
-/// Parses and validates the bytes of an exam file for an assignment. `path` is used in error
-/// messages only.
+/// Parses and validates the bytes of an exam file for an assignment. `path` is only used in error
+/// messages.
 pub fn parse(path: &Path, bytes: &[u8], assignment: &Assignment) -> Result<ExamFile, ExamError> {
     let invalid = |problem| ExamError::Invalid {
         path: path.to_owned(),
         problem,
     };
     let exam: Exam = serde_json::from_slice(bytes).map_err(|source| {
-        // A file of another format may have other fields, so its number says more than they do.
+        // A file in another format may have other fields, so a mismatched version is a better
+        // message than the parser's error.
         let format: Option<Format> = serde_json::from_slice(bytes).ok();
         let other = format.and_then(|format| format_problem(format.schema));
         other.map_or_else(
@@ -97,7 +98,7 @@ pub fn parse(path: &Path, bytes: &[u8], assignment: &Assignment) -> Result<ExamF
     }
 }
 
-/// The version of an exam file's format, which every version of the format has.
+/// The version of an exam file's format. Every version of the format has this field.
 #[derive(Deserialize)]
 struct Format {
     schema: u32,
@@ -116,7 +117,7 @@ pub fn assignment_id(bytes: &[u8]) -> Option<String> {
     exam.map(|exam| exam.assignment)
 }
 
-/// Returns the problem if this is not the version of the format that this grader reads.
+/// Returns the problem if the file's format version is not the one this grader reads.
 fn format_problem(schema: u32) -> Option<String> {
     (schema != Exam::SCHEMA).then(|| {
         let known = Exam::SCHEMA;
@@ -124,7 +125,7 @@ fn format_problem(schema: u32) -> Option<String> {
     })
 }
 
-/// Returns the first problem found in an exam, if there is one.
+/// Returns the first problem found in an exam, if any.
 fn problem(exam: &Exam, assignment: &Assignment) -> Option<String> {
     if let Some(problem) = format_problem(exam.schema) {
         return Some(problem);
@@ -209,7 +210,7 @@ fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
     (1..).zip(&item.questions).find_map(question_problem)
 }
 
-/// Returns the reason why the item's signatures are invalid, or `None` if they are valid.
+/// Returns why the item's signatures are invalid, or `None` if they are valid.
 fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     let count: usize = item
         .questions

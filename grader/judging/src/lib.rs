@@ -1,8 +1,8 @@
 //! Exams, answer keys, and the comparison of answers with them.
 //!
-//! Everything here is pure: this crate knows nothing of files, processes, compilers or reports. It is
-//! a package of its own so that it can be compiled with optimisations, because grading spends most
-//! of its time here. The rest of the grader is built for fast compilation.
+//! Everything here is pure: this crate knows nothing about files, processes, compilers or reports.
+//! It is a separate package so that it can be compiled with optimisations, because grading spends
+//! most of its time here. The rest of the grader is built for fast compilation.
 //!
 //! Layers, from top to bottom. A module imports only from layers below its own:
 //!

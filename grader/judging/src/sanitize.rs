@@ -1,6 +1,6 @@
-//! Makes text from untrusted sources safe for terminals, tables and web pages. Everything that a
-//! submission, its name or a list of people contains goes through [`sanitize`] or [`sanitize_line`]
-//! before people read it.
+//! Makes text from untrusted sources safe for terminals, tables and web pages. All text from a
+//! submission, its name or a roster goes through [`sanitize`] or [`sanitize_line`] before people
+//! read it.
 
 /// Escapes all characters that could affect the text around them, except line breaks. Replaces tabs
 /// with spaces, and truncates the text after `longest` characters.
@@ -30,8 +30,8 @@ pub fn sanitize_line(text: &str, longest: usize) -> String {
 }
 
 /// Returns whether a character could affect the text around it: a control character, a mark that
-/// changes the direction in which text is shown, a line separator, or an invisible character that
-/// programs interpret, such as a tag.
+/// changes the text direction, a line separator, or an invisible character that programs interpret,
+/// such as a tag.
 pub fn affects_surroundings(c: char) -> bool {
     let is_direction_mark = matches!(
         c,
@@ -41,8 +41,9 @@ pub fn affects_surroundings(c: char) -> bool {
     c.is_control() || is_direction_mark || is_separator || is_invisible(c)
 }
 
-/// Returns whether a character has no width and no effect on the text around it: soft hyphens, zero
-/// width spaces, fillers, tags and selectors of variants. With it, two names that look the same differ.
+/// Returns whether a character is invisible and doesn't affect the text around it: soft hyphens,
+/// zero width spaces, fillers, tags and variation selectors. Such a character makes two names
+/// differ that look the same.
 fn is_invisible(c: char) -> bool {
     matches!(
         c,
@@ -55,17 +56,18 @@ fn is_invisible(c: char) -> bool {
 }
 
 /// Returns whether this is the zero width joiner or non-joiner. Persian, Indian and other scripts
-/// need them, and so do emoji.
+/// need them, as do emoji.
 fn is_joiner(c: char) -> bool {
     matches!(c, '\u{200c}' | '\u{200d}')
 }
 
-/// Returns whether a joiner may follow: not after Latin, Greek or Cyrillic, where it changes nothing.
+/// Returns whether a joiner may follow this character. After Latin, Greek or Cyrillic letters it
+/// has no effect, so it isn't allowed there.
 fn can_be_joined(c: char) -> bool {
     c >= '\u{590}' && !matches!(c, '\u{1e00}'..='\u{200f}')
 }
 
-/// Returns the text without characters that nobody sees, for comparing names.
+/// Returns the text without invisible characters, for comparing names.
 pub fn without_invisible(text: &str) -> String {
     let is_hidden = |c: char| is_joiner(c) || (affects_surroundings(c) && !c.is_whitespace());
     text.chars().filter(|c| !is_hidden(*c)).collect()
@@ -78,8 +80,8 @@ const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "com", "lpt"];
 
 /// Converts any text to a folder name that is valid on every system and in links. The name consists
 /// of letters and digits of any language, `-`, `_` and `.`. It never refers to another folder. It
-/// begins neither with a dot, which would hide the folder, nor with a dash, which programs would
-/// take for an option.
+/// doesn't begin with a dot, which would hide the folder, or with a dash, which programs would
+/// mistake for an option.
 pub fn safe_folder_name(text: &str) -> String {
     let safe = |c: char| match c {
         c if c.is_alphanumeric() || "-_.".contains(c) => c,
@@ -132,7 +134,7 @@ mod tests {
         );
         assert_eq!(sanitize("two\nlines", 99), "two\nlines");
         assert_eq!(sanitize_line("two\r\nlines", 99), "two\\r\\nlines");
-        // Names and formulas are not changed.
+        // Names and formulas stay unchanged.
         let harmless = "Zoë Müller, مريم, 张伟, नेहा, θ ≤ 2π, 👩\u{200d}🔬";
         assert_eq!(sanitize_line(harmless, 99), harmless);
         assert_eq!(sanitize_line("Zoë\u{200d}", 99), "Zoë\\u{200d}");

@@ -1,27 +1,27 @@
-//! The scene of a question: the things in space that it is about, found among the fields of its
-//! subject.
+//! The scene of a question: the geometry it is about, found among its subject's fields.
 
 use std::borrow::Cow;
 
 use glam::Vec3;
 use protocol::{Question, Ray, Shape, TreeNode, Value};
 
-/// The things in space that a question is about.
+/// The geometry a question is about.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuestionScene<'a> {
     /// The shapes.
     pub shapes: Cow<'a, [Shape]>,
-    /// The two corners of a box, if the question is about one.
+    /// The two corners of the question's box, if any.
     pub corners: Option<[Vec3; 2]>,
-    /// The nodes of a tree over the shapes, and the index of its root, if the exam contains the tree.
+    /// The nodes of a tree over the shapes and the index of its root, if the exam provides the
+    /// tree.
     pub tree: Option<(Cow<'a, [TreeNode]>, u32)>,
     /// The maximum number of shapes in a leaf, if the submission builds a tree over them.
     pub max_leaf_size: Option<u32>,
 }
 
 impl<'a> QuestionScene<'a> {
-    /// Returns the scene of a question, or `None` if it is about neither shapes nor a box, or is a
-    /// path-traced picture, which has a scene file.
+    /// Returns the scene of a question. Returns `None` for a path-traced picture, which has a scene
+    /// file, and for a question that isn't about shapes or a box.
     pub fn of(question: &'a Question) -> Option<Self> {
         if let Question::Build {
             shapes,
@@ -57,8 +57,8 @@ impl<'a> QuestionScene<'a> {
     }
 }
 
-/// Returns the ray in a row of a table, or `None` if it has none. If the row also has an interval, the
-/// ray has only this part.
+/// Returns the ray in a row of a table, if any. If the row also has an interval, the ray is limited
+/// to it.
 pub fn ray(question: &Question, row: usize) -> Option<Ray> {
     let input = question.table()?.input(row)?;
     let (mut origin, mut dir, mut range) = (None, None, None);
@@ -80,8 +80,8 @@ pub fn ray(question: &Question, row: usize) -> Option<Ray> {
     })
 }
 
-/// Returns whether a question has something in space to show: shapes, a box, or the scene of a
-/// path-traced picture.
+/// Returns whether a question has geometry to show: shapes, a box, or the scene of a path-traced
+/// picture.
 pub fn can_be_shown(question: &Question) -> bool {
     matches!(question, Question::Radiance { .. }) || QuestionScene::of(question).is_some()
 }

@@ -36,9 +36,9 @@ impl Section {
         self.0.split_once('#').map_or("", |(_, anchor)| anchor)
     }
 
-    /// Returns the heading's text, such as `Zero and minus zero`. Anchors do not preserve
-    /// punctuation and capitals, so this works only for headings that consist of plain words and
-    /// have one capital, the first letter. A test ensures that only such headings are referenced.
+    /// Returns the heading's text, such as `Zero and minus zero`. Anchors don't preserve
+    /// punctuation and capitals, so this only works for headings that consist of plain words and
+    /// capitalise only the first letter. A test ensures that only such headings are referenced.
     pub fn heading(&self) -> String {
         let mut heading = self.anchor().replace('-', " ");
         if let Some(first) = heading.get_mut(..1) {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::section::Section;
 
-/// A known mistake, with its texts for the report.
+/// A known mistake and its texts for the report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownMistake {
@@ -20,7 +20,7 @@ pub struct KnownMistake {
     pub section: Option<Section>,
 }
 
-/// The answers that a task's known mistakes give to some elements of one item.
+/// The answers to some elements of one item that a task's known mistakes produce.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeSignatures {
@@ -30,30 +30,30 @@ pub struct MistakeSignatures {
     /// The correct answers to these elements.
     #[serde(default, skip_serializing_if = "Vec::is_empty", with = "packed::text")]
     pub correct_answers: Vec<ObservedAnswer>,
-    /// The wrong answers. A mistake that is not listed answers all elements correctly.
+    /// The wrong answers. A mistake that isn't listed answers all elements correctly.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistake_answers: Vec<MistakeAnswers>,
 }
 
 impl MistakeSignatures {
-    /// Returns whether there are no signatures.
+    /// Returns whether the list of signatures is empty.
     pub fn is_empty(&self) -> bool {
         self.elements.is_empty()
     }
 }
 
-/// The answers to an item that one or more mistakes have in common.
+/// The answers to an item that one or more mistakes share.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeAnswers {
-    /// Indices in the exam's list of mistakes.
+    /// Indices into the exam's list of mistakes.
     pub mistakes: Vec<u32>,
     /// The wrong answers, each with its index in [`MistakeSignatures::elements`].
     #[serde(with = "packed::text")]
     pub answers: Vec<(u32, ObservedAnswer)>,
 }
 
-/// The part of an answer by which mistakes are distinguished.
+/// The part of an answer that distinguishes mistakes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ObservedAnswer {
     /// The numbers that are checked, in the order of the key's checks, each as a multiple of its
@@ -63,16 +63,16 @@ pub enum ObservedAnswer {
     NoHit,
     /// The defect of a tree and its amount, which may be 0. `None` for a correct tree.
     Tree(Option<(String, f32)>),
-    /// The code panicked with a message of no known kind.
+    /// The code panicked with an unclassified message.
     Panicked,
-    /// The whole item has no answer.
+    /// The entire item was not answered.
     NoAnswer(NoAnswerReason),
-    // After the others, so that exams from before it are still read.
+    // Last, so that exams from before this variant can still be read.
     /// The code panicked with an error of this kind.
     PanickedBy(PanicKind),
 }
 
-/// The reason why there is no answer.
+/// Why there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NoAnswerReason {
     /// The time limit was exceeded.
@@ -85,11 +85,11 @@ pub enum NoAnswerReason {
     Other,
 }
 
-/// The kind of error that a panic reports. Different code with the same mistake panics with different
-/// messages and numbers, but of the same kind.
+/// The kind of error that a panic reports. Code with the same mistake may panic with different
+/// messages and numbers, but the kind is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PanicKind {
-    /// An index or a range outside of a list.
+    /// An index or a range outside a list.
     Index,
     /// An overflow of integers, or a division of integers by zero.
     Arithmetic,
@@ -118,8 +118,8 @@ impl PanicKind {
 
 impl ObservedAnswer {
     /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
-    /// from the same mistake, relative or absolute below 1. It is larger because builders with the
-    /// same mistake produce somewhat different trees.
+    /// from the same mistake, relative or absolute below 1. It is larger than for other numbers
+    /// because builders with the same mistake produce slightly different trees.
     const COST: f32 = 0.08;
 
     /// Returns the observation of a panic with this message.
@@ -127,7 +127,8 @@ impl ObservedAnswer {
         PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
     }
 
-    /// Returns whether the answer says nothing about the cause, only that there is no result.
+    /// Returns whether the answer only says that the result is missing, and nothing about the
+    /// cause.
     pub fn is_uninformative(&self) -> bool {
         match self {
             ObservedAnswer::Panicked
@@ -137,14 +138,14 @@ impl ObservedAnswer {
         }
     }
 
-    /// Returns whether the answer is a panic of a kind that few mistakes lead to.
+    /// Returns whether the answer is a kind of panic that few mistakes cause.
     pub fn is_telling_panic(&self) -> bool {
         matches!(self, ObservedAnswer::PanickedBy(_))
     }
 
-    /// Returns whether the answer may come from a submission with several mistakes, given the correct
-    /// answer and those of the mistakes that change it. If several do, anything can come out, except
-    /// for numbers that at most one of them changes.
+    /// Returns whether the answer may come from a submission with several mistakes, given the
+    /// correct answer and the answers of the mistakes that change it. If several mistakes change a
+    /// number, it can be anything.
     pub fn is_made_of(&self, correct: &ObservedAnswer, wrong: &[&ObservedAnswer]) -> bool {
         if let [] | [_] = wrong {
             return self.matches(wrong.first().unwrap_or(&correct));
@@ -229,8 +230,8 @@ impl ObservedAnswer {
     }
 }
 
-/// Returns whether two numbers, as multiples of the tolerances with which they are judged, may come
-/// from the same mistake. Equivalent formulas round differently.
+/// Returns whether two numbers, as multiples of their tolerances, may come from the same mistake.
+/// They need not be equal, because equivalent formulas round differently.
 fn same_number(a: f32, b: f32) -> bool {
     const RELATIVE: f32 = 1e-3;
     const MULTIPLES: f32 = 2.0;
@@ -307,7 +308,7 @@ mod tests {
         assert!(is_made([7.0, 8.0]));
         assert!(!is_made([7.0, 9.0]));
         assert!(!is_made([1.0, 8.0]));
-        // Both change the first number, so it can be any other; neither changes the second.
+        // Both change the first number, so it can be anything. Neither changes the second.
         let also = numbers([8.0, 2.0]);
         let of_both = |own: [f32; 2]| numbers(own).is_made_of(&correct, &[&one, &also]);
         assert!(of_both([9.0, 2.0]));

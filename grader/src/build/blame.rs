@@ -6,7 +6,7 @@ use crate::build::diagnostics::Diagnostic;
 use crate::handed_out::{ChangedDeclaration, TaskFile, changed_declaration};
 use crate::submission::{Submission, TaskFileError};
 
-/// The reason why a file is not part of the program.
+/// Why a file isn't part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompiled {
     /// The file is missing or unreadable.
@@ -25,7 +25,7 @@ pub enum NotCompiled {
 }
 
 impl NotCompiled {
-    /// Returns the errors of a file as a reason, or `None` if there are none.
+    /// Returns a file's errors as a reason, if any.
     fn of_errors<'a>(file: &str, errors: impl Iterator<Item = &'a Diagnostic>) -> Option<Self> {
         let errors: Vec<&Diagnostic> = errors.collect();
         let first = errors.first()?;
@@ -45,7 +45,7 @@ impl NotCompiled {
     }
 }
 
-/// Returns the files that are rejected before compiling, because they cannot be read.
+/// Returns the files that are rejected before compiling because they cannot be read.
 pub(super) fn unreadable_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
     let files = submission.files.iter();
     let why = files.filter_map(|(file, text)| {
@@ -67,8 +67,8 @@ pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str
     submission.files.iter().filter_map(why).collect()
 }
 
-/// Replaces the reason for each of these files by the errors in it, such as a misspelt `struct`,
-/// which say more.
+/// Replaces the reason for each of these files with the errors in it, e.g. a misspelt `struct`,
+/// which are more helpful.
 pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, errors: &[Diagnostic]) {
     for (name, why) in incomplete {
         let in_file = errors.iter().filter(|error| error.originates_in(name));
@@ -78,8 +78,8 @@ pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, erro
     }
 }
 
-/// Records each file that the errors name, with all of them. Returns whether any of these files
-/// had not been recorded before.
+/// Records each file mentioned in the errors, with all errors in it. Returns whether any of these
+/// files had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
     submission: &Submission,

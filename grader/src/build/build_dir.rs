@@ -1,5 +1,5 @@
 //! Temporary directories for building a submission, or for unpacking a class from an archive. Each
-//! directory is newly created, so that it contains nothing from an earlier build, and is removed
+//! directory is newly created, so that it contains nothing from an earlier build. It is removed
 //! after use. If a grader is killed, the next grader removes its directory.
 
 use std::fs::{self, File, TryLockError};
@@ -18,7 +18,8 @@ const UNLOCKED_FILE: &str = "lock.new";
 /// A temporary directory, which is removed when this value is dropped.
 #[derive(Debug)]
 pub struct BuildDir {
-    // Dropped before the folder, since some systems cannot remove open files.
+    // Declared before the folder so that it is dropped first, since some systems cannot remove open
+    // files.
     _lock: File,
     folder: TempDir,
 }
@@ -47,7 +48,7 @@ impl BuildDir {
 /// Removes the directories of graders that were killed.
 pub fn remove_abandoned(all: &Path) {
     for entry in fs::read_dir(all).into_iter().flatten().flatten() {
-        // A directory that cannot be opened, locked or removed may belong to someone else, and does
+        // A directory that cannot be opened, locked or removed may belong to someone else. It does
         // no harm.
         let Ok(lock) = File::open(entry.path().join(LOCK_FILE)) else {
             continue;

@@ -32,8 +32,8 @@ pub fn compile(
     })
 }
 
-/// Compiles the starter, which shows whether the machine is the reason that a submission does not
-/// compile or start. Returns the program, or why there is none.
+/// Compiles the starter, which shows whether the machine is why a submission doesn't compile or
+/// start. Returns the program, or why there is none.
 pub(super) fn compile_starter(
     handed_out: &HandedOut,
     folder: &Path,

@@ -4,7 +4,7 @@ use std::ops::AddAssign;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time of the compiler and the linker.
+/// Time used by the compiler and the linker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct CompileTime {
     /// CPU time.
@@ -14,14 +14,14 @@ pub(super) struct CompileTime {
 }
 
 impl CompileTime {
-    /// The time for a submission. An honest one takes a second or two of CPU time for each call of
-    /// the compiler, and seldom needs more than three calls. The limit of wall time ends a compiler
+    /// The time for a submission. An ordinary submission takes a second or two of CPU time per
+    /// compiler call and rarely needs more than three calls. The wall time limit ends a compiler
     /// that waits.
     pub(super) const MOST: Self = CompileTime {
         cpu: Duration::from_secs(60),
         wall: Duration::from_secs(180),
     };
-    /// Time with which it makes no sense to start a compiler.
+    /// If less than this time remains, starting a compiler makes no sense.
     const LEAST: Duration = Duration::from_secs(1);
 }
 
@@ -32,12 +32,12 @@ impl AddAssign for CompileTime {
     }
 }
 
-/// The time that has been used for a submission: for all attempts, and for all of its programs.
+/// The time used for a submission, including all attempts and all of its programs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CompileBudget(Arc<Mutex<CompileTime>>);
 
 impl CompileBudget {
-    /// Returns the time that is left, or `None` if it is used up.
+    /// Returns the remaining time, or `None` if it is used up.
     pub(super) fn left(&self) -> Option<CompileTime> {
         let used = *self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let left = CompileTime {

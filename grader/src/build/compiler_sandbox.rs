@@ -1,4 +1,4 @@
-//! The compiler's access to files in a sandbox: its own files, the linker's, and those of one
+//! The compiler's access to files in a sandbox: its own files, the linker's files and those of one
 //! crate. It cannot read the workspace, other submissions or home directories.
 
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use crate::build::dependencies::Dependencies;
 use crate::build::source_crate::{Crate, CrateKind};
 use crate::sandbox::Profile;
 
-/// Paths at which systems keep C compilers, linkers and libraries. Unlike `/usr/local` and
+/// Paths where systems keep C compilers, linkers and libraries. Unlike `/usr/local` and
 /// `/usr/share`, they contain nothing that is specific to a machine.
 const SYSTEM_PATHS: [&str; 14] = [
     "/bin",
@@ -35,7 +35,7 @@ pub(super) fn arguments(sysroot: &Path, source: &Crate, command: &mut Command) {
         .arg("--sysroot")
         .arg(sysroot);
     match source.kind {
-        // Static linking, so that the program opens no libraries when it starts.
+        // Link statically, so that the program opens no libraries when it starts.
         CrateKind::Program => _ = command.arg("-Ctarget-feature=+crt-static"),
         CrateKind::Library => {}
     }

@@ -2,9 +2,9 @@
 //! probe's features. Cargo compiles them once per toolchain with locked versions, and they are
 //! copied to the grader's cache.
 //!
-//! Cargo uses the target folder in which it has compiled the grader, so most of the crates are
-//! already compiled. Submissions see only the copy, because the target folder also contains the
-//! reference and may change at any time.
+//! Cargo uses the target folder where it compiled the grader, so most of the crates are already
+//! compiled. Submissions only see the copy, because the target folder also contains the reference
+//! and may change at any time.
 
 use std::collections::BTreeMap;
 use std::env::consts::DLL_SUFFIX;
@@ -26,8 +26,8 @@ use crate::workspace::Workspace;
 
 /// The crates that a submission may import.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
-/// Cargo arguments for the package that depends on all of them, with the probe's features, and for
-/// the package with the features that crates have in the grader.
+/// Cargo arguments for the package that depends on all of these crates, with the probe's features,
+/// and for the package that enables the same features as the grader.
 const FRAMEWORK_PACKAGES: [&str; 5] = [
     "--package",
     "framework",
@@ -35,8 +35,7 @@ const FRAMEWORK_PACKAGES: [&str; 5] = [
     "workspace-hack",
     "--no-default-features",
 ];
-/// Version of the way in which the dependencies are compiled. Change it when the same sources are
-/// to be compiled differently.
+/// Version of the build recipe. Change it when the same sources should be compiled differently.
 const RECIPE_VERSION: &str = "6";
 
 /// Locations of the compiled dependencies.
@@ -44,12 +43,12 @@ const RECIPE_VERSION: &str = "6";
 pub struct Dependencies {
     /// The rlib of each crate that a submission may import.
     pub externs: BTreeMap<String, PathBuf>,
-    /// The folder with these crates and their dependencies.
+    /// The folder that contains these crates and their dependencies.
     pub folder: PathBuf,
 }
 
 impl Dependencies {
-    /// Returns the dependencies from the cache, or builds them.
+    /// Returns the dependencies from the cache, building them if necessary.
     pub fn prepare(workspace: &Workspace, toolchain: &Toolchain) -> Result<Self, Error> {
         let key = cache_key(workspace, toolchain)?;
         let cache = cache_folder(workspace).join(&key[..16]);
@@ -80,7 +79,7 @@ impl Dependencies {
     }
 
     /// Returns the dependencies together with a crate of this workspace, whose package is in
-    /// `folder`. All are built in one call of cargo, so that they share one `framework`.
+    /// `folder`. Everything is built in one cargo call, so that they share one `framework`.
     pub fn with_package(
         name: &str,
         folder: &Path,
@@ -105,9 +104,9 @@ fn cache_folder(workspace: &Workspace) -> PathBuf {
     workspace.cache_folder().join("dependencies")
 }
 
-/// Returns the dependencies in this folder, or builds them there. Existing files are never built
-/// again, because another process may be reading them. `externs` are the crates that a submission may
-/// import.
+/// Returns the dependencies in this folder, building them there if necessary. Existing files are
+/// never rebuilt, because another process may be reading them. `externs` are the crates that a
+/// submission may import.
 fn prepare_once(
     cache: &Path,
     externs: &[&str],
@@ -147,8 +146,8 @@ fn read(record: &Path) -> Option<Dependencies> {
         .then_some(ready)
 }
 
-/// Returns a hash of everything that the compiled dependencies depend on: the compiler, the lock
-/// file and the sources.
+/// Returns a hash of everything the compiled dependencies depend on: the compiler, the lock file
+/// and the sources.
 fn cache_key(workspace: &Workspace, toolchain: &Toolchain) -> Result<String, Error> {
     let mut hash = ContentHash::default()
         .with(RECIPE_VERSION.as_bytes())
@@ -179,7 +178,7 @@ fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Builds packages with cargo, and uses the network only if necessary. `package` holds the cargo
+/// Builds packages with cargo. Uses the network only if necessary. `package` contains the cargo
 /// arguments that select them. Returns the name and the library of each crate.
 fn build(
     package: &[&str],
@@ -203,9 +202,9 @@ fn build(
             } else {
                 Stdio::inherit()
             });
-        // Uses the same flags on every machine, regardless of the environment and cargo's
-        // configuration. They equal the profile in Cargo.toml: with others, cargo would compile again
-        // what it has compiled for the grader.
+        // Use the same flags on every machine, regardless of the environment and cargo's
+        // configuration. They match the profile in Cargo.toml. With other flags, cargo would
+        // recompile the crates it has compiled for the grader.
         cargo
             .env("CARGO_ENCODED_RUSTFLAGS", "")
             .env_remove("RUSTC_WRAPPER")
@@ -243,7 +242,7 @@ fn output(cargo: &mut Command) -> io::Result<Output> {
 }
 
 /// Finds each crate's library in cargo's messages, which are one JSON value per line. A procedural
-/// macro is a dynamic library: rustc needs it, even though nothing is linked with it.
+/// macro is a dynamic library, which rustc needs even though nothing is linked with it.
 fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
     messages
         .lines()

@@ -19,7 +19,7 @@ pub struct Diagnostic {
     rendered: Option<String>,
 }
 
-/// The code of an error, such as `E0308`. Syntax errors have none.
+/// The code of an error, such as `E0308`. Syntax errors don't have one.
 #[derive(Clone, Debug, Deserialize)]
 struct ErrorCode {
     code: String,
@@ -41,7 +41,7 @@ struct SourceLine {
     text: String,
 }
 
-/// Returns the errors among the compiler's messages. Warnings do not affect grading.
+/// Returns the errors among the compiler's messages. Warnings don't affect grading.
 pub fn errors(messages: &str) -> Vec<Diagnostic> {
     messages
         .lines()
@@ -51,9 +51,9 @@ pub fn errors(messages: &str) -> Vec<Diagnostic> {
 }
 
 impl Diagnostic {
-    /// Returns the task file that must be fixed, which is the file with the error. For an error in
-    /// a given file, it is the task file that the message refers to ("method not found for this
-    /// struct") or, if there is none, the one whose name appears first in the line of the error.
+    /// Returns the task file to fix, which is usually the file with the error. For an error in a
+    /// given file, it is the task file that the message refers to ("method not found for this
+    /// struct") or, failing that, the one whose name appears first in the error's line.
     pub fn blamed_file(&self, task_files: &[TaskFile]) -> Option<&'static str> {
         let mut spans = self.spans_in_order();
         let named =
@@ -64,28 +64,28 @@ impl Diagnostic {
         })
     }
 
-    /// Returns the places of the error.
+    /// Returns the spans of the error itself.
     fn primary(&self) -> impl Iterator<Item = &Span> {
         self.spans.iter().filter(|span| span.is_primary)
     }
 
-    /// Returns all places that the message refers to: those of the error first, and those that only
-    /// explain it last.
+    /// Returns all spans that the message refers to: first those of the error, then those that only
+    /// explain it.
     fn spans_in_order(&self) -> impl Iterator<Item = &Span> {
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
         let explaining = self.children.iter().flat_map(|child| &child.spans);
         self.primary().chain(secondary).chain(explaining)
     }
 
-    /// Returns the 1-based line number of the error if it is in this file, or else that of the first
-    /// line in this file that the message refers to.
+    /// Returns the 1-based line number of the error if it is in this file, or else the number of
+    /// the first line in this file that the message refers to.
     pub fn line_in(&self, file: &str) -> Option<u32> {
         let mut spans = self.spans_in_order();
         spans.find(|span| span.file_name == file)?.line_start
     }
 
-    /// Returns whether the error is in this file, and is not that something from another file is
-    /// missing.
+    /// Returns whether the error is in this file and isn't caused by something missing in another
+    /// file.
     pub fn originates_in(&self, file: &str) -> bool {
         /// Codes of unresolved imports and paths.
         const UNRESOLVED: [&str; 2] = ["E0432", "E0433"];
@@ -94,12 +94,12 @@ impl Diagnostic {
             && code.is_none_or(|code| !UNRESOLVED.contains(&code))
     }
 
-    /// Returns whether the message is about source code, and not about the linker or the machine.
+    /// Returns whether the message is about source code, rather than the linker or the machine.
     pub fn is_about_source(&self) -> bool {
         self.spans_in_order().next().is_some()
     }
 
-    /// Returns the whole message as the compiler prints it.
+    /// Returns the complete message as printed by the compiler.
     pub fn text(&self) -> &str {
         self.rendered.as_deref().unwrap_or(&self.message).trim_end()
     }

@@ -1,5 +1,5 @@
-//! Selects the linker. It is found on the PATH once and passed to the compiler as an absolute path,
-//! because source code can read the compiler's environment, which therefore has no PATH.
+//! Selects the linker. It is found on the PATH once and passed to the compiler as an absolute path.
+//! The compiler's environment contains no PATH, because source code can read it.
 
 use std::env;
 use std::ffi::{OsStr, OsString};
@@ -10,19 +10,19 @@ use std::process::Command;
 
 use crate::machine::system;
 
-/// Path of the linker that is bundled with the toolchain, relative to the sysroot, on the platform
-/// where this linker is the default.
+/// Path of the linker bundled with the toolchain, relative to the sysroot, on the platform where it
+/// is the default.
 const BUNDLED_LINKER: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
-/// The C compiler with which `rustc` links, and the linker that the C compiler looks for.
+/// The C compiler that `rustc` links with, and the linker that the C compiler looks for.
 const DRIVER: &str = "cc";
 const LINKER: &str = "ld";
-/// Programs that stand in for a C compiler, and would look for the real one on the PATH.
+/// Programs that stand in for a C compiler and would look for the real one on the PATH.
 const WRAPPERS: [&str; 4] = ["ccache", "sccache", "distcc", "icecc"];
 
 /// The system's linker.
 #[derive(Clone, Debug, Default)]
 pub struct SystemLinker {
-    /// The C compilers on the PATH, in its order. If there is none, `rustc` reports that.
+    /// The C compilers on the PATH, in its order. If there are none, `rustc` reports that.
     drivers: Vec<PathBuf>,
     /// The linkers on the PATH, which a C compiler calls.
     linkers: Vec<PathBuf>,
@@ -49,10 +49,10 @@ impl SystemLinker {
     /// Adds arguments that select the linker for a program in this folder.
     ///
     /// The toolchain's own linker is used if it exists. The wrapper that `rustc` calls is bypassed,
-    /// because it finds the linker with the help of `/proc`, which the sandbox hides. One thread is
-    /// enough for such small programs, and a second one costs more than it saves. `-O0` skips
-    /// merging strings, which is not worth the time for a program that is deleted soon after. The
-    /// system's linker may lack these options, and compiling would take a third longer with it.
+    /// because it finds the linker via `/proc`, which the sandbox hides. One thread is enough for
+    /// such small programs: a second thread costs more than it saves. `-O0` skips merging strings,
+    /// which isn't worth the time for a program that is deleted soon after. The system's linker may
+    /// lack these options, and compiling takes a third longer with it.
     ///
     /// `is_readable` says which programs the compiler can read.
     pub(super) fn arguments(
@@ -72,7 +72,7 @@ impl SystemLinker {
         let own = sysroot.join(BUNDLED_LINKER);
         if cfg!(all(target_os = "linux", target_arch = "x86_64")) && own.is_file() {
             let link = folder.join("ld.lld");
-            // An earlier attempt, which was killed, may have left it.
+            // An earlier attempt that was killed may have left it behind.
             fs::remove_file(&link).ok();
             system::symlink(&own, &link)?;
             command.args([
@@ -86,7 +86,7 @@ impl SystemLinker {
     }
 }
 
-/// Returns an option of the compiler that ends in a path.
+/// Returns a compiler option that ends in a path.
 pub(super) fn option_with_path(option: &str, path: &Path) -> OsString {
     let mut argument = OsString::from(option);
     argument.push(path);

@@ -1,4 +1,4 @@
-//! Failures of the machine during compilation, for which no submission may lose points.
+//! Failures of the machine during compilation. No submission may lose points for them.
 
 use std::fs;
 use std::io;
@@ -8,18 +8,18 @@ use crate::build::diagnostics::Diagnostic;
 use crate::machine::system;
 use crate::sandbox::ExitReason;
 
-/// Free disk space below which a failed compile is blamed on the disk, in bytes.
+/// Free disk space, in bytes, below which a failed compile is blamed on the disk.
 const MIN_FREE_BYTES: u64 = 64 << 20;
-/// Part of the compiler's message if the linker was killed with SIGKILL. Resource limits end it
-/// with other signals.
+/// Part of the compiler's message if the linker was killed with SIGKILL. Resource limits kill it
+/// with different signals.
 const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 
-/// The message about a compiler that was killed, most likely because the machine ran out of memory.
+/// The message for a compiler that was killed, most likely because the machine ran out of memory.
 pub(super) const KILLED: &str = "the system killed the compiler (signal 9), even for a small program: \
                                  give this machine more memory, or grade fewer submissions at once";
 
 /// Returns an error if the disk is full. `folder` is the build directory of a failed compile. It is
-/// removed first, so that source code that fills the disk by itself is not excused.
+/// removed first, so that source code that fills the disk itself isn't excused.
 pub(super) fn check_disk(folder: &Path) -> io::Result<()> {
     fs::remove_dir_all(folder).ok();
     let path = folder.parent().unwrap_or(folder);
@@ -34,10 +34,10 @@ pub(super) fn check_disk(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns whether the system killed the compiler, or the linker.
+/// Returns whether the system killed the compiler or the linker.
 pub(super) fn is_killed(exit_reason: ExitReason, errors: &[Diagnostic]) -> bool {
-    // Only the first line is checked, because the following lines may contain names chosen by
-    // the submission.
+    // Check only the first line, because the following lines may contain names chosen by the
+    // submission.
     let first_line = |error: &Diagnostic| error.text().lines().next().map(str::to_owned);
     let linker = |error| first_line(error).is_some_and(|line| line.contains(LINKER_KILLED));
     exit_reason.is_external_kill() || errors.iter().any(linker)

@@ -1,4 +1,4 @@
-//! Builds a probe from a submission's task files. A file that does not compile is replaced by the
+//! Builds a probe from a submission's task files. A file that doesn't compile is replaced by the
 //! starter's, so that only its own tasks fail.
 
 mod blame;
@@ -55,13 +55,14 @@ const MAX_ATTEMPTS: usize = 3;
 #[derive(Clone, Debug)]
 pub struct Builder {
     rustc: Rustc,
-    /// The reference's parts for each file that can be graded with them. Empty without a reference.
+    /// The reference's parts for each file that can be graded with them. Empty if there is no
+    /// reference.
     reference_parts: Vec<ReferenceParts>,
     folder: PathBuf,
 }
 
 impl Builder {
-    /// Finds the compiler, and builds the dependencies unless they are cached.
+    /// Finds the compiler and builds the dependencies unless they are cached.
     pub fn prepare(workspace: &Workspace) -> Result<Self, Error> {
         let toolchain = Toolchain::find()?;
         let dependencies = Dependencies::prepare(workspace, &toolchain)?;
@@ -98,8 +99,8 @@ impl Builder {
         })
     }
 
-    /// Returns a builder whose programs can import additional crates from the lock file. It is used
-    /// for the course's own solutions, and never for submissions.
+    /// Returns a builder whose programs can import additional crates from the lock file. Only for
+    /// the course's own solutions, never for submissions.
     pub fn with_crates(&self, names: &[String], workspace: &Workspace) -> Result<Self, Error> {
         let mut builder = self.clone();
         builder.rustc.dependencies =
@@ -107,8 +108,8 @@ impl Builder {
         Ok(builder)
     }
 
-    /// Finds the compiler, and builds the dependencies together with a crate of this workspace, which
-    /// programs can import. The package is in `folder`. Nothing is built for grading.
+    /// Finds the compiler and builds the dependencies together with a crate of this workspace,
+    /// which programs can import. The crate's package is in `folder`. Not for grading.
     pub fn prepare_with_package(
         name: &str,
         folder: &Path,
@@ -139,7 +140,7 @@ impl Builder {
         &self.rustc.dependencies.folder
     }
 
-    /// Returns the isolation level at which submissions will be compiled and run.
+    /// Returns the isolation level for compiling and running submissions.
     pub fn isolation(&self) -> Isolation {
         self.rustc.sandbox.level()
     }
@@ -157,13 +158,13 @@ impl Builder {
         Ok(self)
     }
 
-    /// Builds a submission. Each file that does not compile is replaced by the starter's.
+    /// Builds a submission. Each file that doesn't compile is replaced by the starter's.
     pub fn build(&self, submission: &Submission) -> Result<Build, Error> {
         self.build_with_progress(submission, |_| {})
     }
 
     /// Builds a submission like [`Builder::build`]. Calls `report_errors` whenever it finds more
-    /// files that do not compile, before it compiles the others, so that students see errors early.
+    /// files that don't compile, before compiling the others, so that students see errors early.
     pub fn build_with_progress(
         &self,
         submission: &Submission,
@@ -180,7 +181,7 @@ impl Builder {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join("as handed in");
             match compile(&files, handed_out, &folder, rustc).at("build in", &self.folder)? {
-                // The declaration is there, but written in an unusual way.
+                // The declaration exists, but is written in an unusual way.
                 CompileOutcome::Done(path) => {
                     probe = Some(path);
                     incomplete.clear();
@@ -213,7 +214,7 @@ impl Builder {
             }
         }
         if probe.is_none() {
-            // If the starter does not compile either, the cause is the machine (a full disk, a
+            // If the starter doesn't compile either, the cause is the machine (a full disk, a
             // broken linker or too little memory), not the submission.
             let folder = build_dir.path().join("starter");
             let starter = compile_starter(handed_out, &folder, &self.rustc);

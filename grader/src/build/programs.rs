@@ -27,12 +27,13 @@ pub struct Build {
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     /// How long the build took.
     pub took: Duration,
-    /// Ends the programs' answers early.
+    /// Stops the programs early.
     pub interrupt: Interrupt,
     pub(super) substitutions: Vec<Substitution>,
-    /// The programs that cannot be started, although the starter's can.
+    /// The programs that cannot be started although the starter's can.
     pub(super) unstartable: Mutex<BTreeSet<PathBuf>>,
-    /// The compiler, for programs that show whether the machine is the reason for a failure.
+    /// The compiler, for control programs that show whether the machine is the reason for a
+    /// failure.
     pub(super) rustc: Rustc,
     /// The directory that contains the programs. It is removed when this value is dropped.
     pub(super) build_dir: BuildDir,
@@ -43,15 +44,15 @@ pub struct Build {
 pub enum SubstitutedProgram<'a> {
     /// The program, by its path.
     Program(&'a Path),
-    /// The submission's file does not compile with these parts.
+    /// The submission's file doesn't compile with these parts.
     NotCompiled,
     /// There is no reference, there are no parts for this file, or the submission's file is missing
-    /// or does not compile.
+    /// or doesn't compile.
     NoReference,
 }
 
 impl Build {
-    /// Returns the isolation level at which the submission was compiled and will run.
+    /// Returns the isolation level that the submission was compiled with and will run with.
     pub fn isolation(&self) -> Isolation {
         self.rustc.sandbox.level()
     }
@@ -62,8 +63,8 @@ impl Build {
         why.all(NotCompiled::is_reproducible)
     }
 
-    /// Returns an error unless an honest program can be compiled and run: then the machine is not the
-    /// reason that another program was killed.
+    /// Returns an error unless the control program can be compiled and run. If it can, the machine
+    /// isn't why another program was killed.
     pub fn check_run(&self) -> io::Result<()> {
         trial::check_run(&self.rustc, &self.build_dir.path().join("control"))
     }
@@ -77,9 +78,9 @@ impl Build {
         }
     }
 
-    /// Returns an error unless the starter, compiled in the same way as this program, can be started:
-    /// then the machine is not the reason that the program cannot. `cpu` is the CPU time that it may
-    /// use.
+    /// Returns an error unless the starter, compiled in the same way as this program, can be
+    /// started. If it can, the machine isn't why the program can't. `cpu` is the starter's CPU time
+    /// limit.
     pub fn check_start(&self, program: &Path, cpu: Duration) -> io::Result<()> {
         let mut substitutions = self.substitutions.iter();
         let is_of = |substitution: &&Substitution| {
@@ -113,7 +114,7 @@ impl Build {
         known.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the program in which the reference's parts replace all files but this one. It is
+    /// Returns the program where the reference's parts replace all files except this one. It is
     /// compiled on the first call.
     pub fn substituted_program(&self, file: &str) -> io::Result<SubstitutedProgram<'_>> {
         let mut substitutions = self.substitutions.iter();

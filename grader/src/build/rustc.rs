@@ -1,5 +1,5 @@
 //! Calls `rustc` directly instead of Cargo, so that no manifest, build script or configuration in a
-//! submission is read, and the modification times of its files do not matter.
+//! submission is read, and the modification times of its files don't matter.
 
 use std::ffi::OsString;
 use std::fs;
@@ -32,12 +32,12 @@ const LIMITS: Limits = Limits {
     cpu: CompileTime::MOST.cpu,
     file: 256 << 20,
 };
-/// The memory that an honest submission may need, in bytes.
+/// The memory that a correct submission may need, in bytes.
 const NEEDED_MEMORY: u64 = 512 << 20;
 /// Maximum size of the compiler messages that are stored, in bytes.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
-/// The message about a crate whose compiler is killed even if it runs alone.
+/// The message for a crate whose compiler is killed even when nothing else runs.
 const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again when nothing else \
                             was running, but not when it compiled another program: this code makes \
                             it use too much memory";
@@ -45,33 +45,33 @@ const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again
 /// Result of an attempt to compile.
 #[derive(Debug)]
 enum CompileAttempt {
-    /// The outcome, for which the machine is not the reason.
+    /// The outcome. The machine isn't the cause.
     Certain(CompileOutcome),
-    /// The compiler failed, and no error says why.
+    /// The compiler failed without an error that says why.
     Unexplained(CompileOutcome),
     /// The system killed the compiler or the linker, and no error names a file of the submission.
     Killed,
 }
 
-/// The compiler, with everything that it needs to compile a submission.
+/// The compiler and everything it needs to compile a submission.
 #[derive(Clone, Debug)]
 pub struct Rustc {
     /// The toolchain, which contains the compiler.
     pub toolchain: Toolchain,
     /// The crates that everything is linked with.
     pub dependencies: Dependencies,
-    /// The folder of programs that were compiled before, by the hashes of their inputs, for tools that
-    /// build the same submissions repeatedly. Normal grading always compiles, and has none.
+    /// The cache of compiled programs, by the hashes of their inputs, for tools that build the same
+    /// submissions repeatedly. `None` for normal grading, which always compiles.
     pub cache: Option<PathBuf>,
-    /// The sandbox in which the compiler runs. Programs are linked so that they can run in it.
+    /// The sandbox that the compiler runs in. Programs are linked so that they can run in it.
     pub sandbox: Sandbox,
-    /// The time that is left for a submission. `None` for the course's own code, in which all
-    /// failures are the machine's.
+    /// The remaining time for a submission. `None` for the course's own code, where all failures
+    /// are the machine's.
     pub(super) budget: Option<CompileBudget>,
 }
 
 impl Rustc {
-    /// Returns a compiler for the course's own code, without a cache and a sandbox.
+    /// Returns a compiler for the course's own code, without a cache or a sandbox.
     pub(super) fn new(toolchain: Toolchain, dependencies: Dependencies) -> Self {
         Rustc {
             toolchain,
@@ -82,14 +82,14 @@ impl Rustc {
         }
     }
 
-    /// Returns bytes that identify everything that the compiler's output depends on besides the
-    /// sources.
+    /// Returns bytes that identify everything the compiler's output depends on besides the sources.
     pub fn identity(&self) -> &[u8] {
-        // The folder's name is a hash of the compiler and of the dependencies' sources.
+        // The folder's name is a hash of the compiler and the dependencies' sources.
         self.dependencies.folder.as_os_str().as_encoded_bytes()
     }
 
-    /// Returns the program with this hash from the cache, or else compiles and stores it.
+    /// Returns the program with this hash from the cache. If it isn't cached, compiles and stores
+    /// it.
     pub fn compile_cached(
         &self,
         content: &ContentHash,
@@ -106,8 +106,8 @@ impl Rustc {
         let CompileOutcome::Done(program) = compiled else {
             return Ok(compiled);
         };
-        // Moved instead of copied, so that the file is always complete and never executed while it
-        // is open for writing.
+        // Move the file instead of copying it, so that it is always complete and never executed
+        // while open for writing.
         fs::rename(program, &kept)?;
         Ok(CompileOutcome::Done(kept))
     }
@@ -128,12 +128,12 @@ impl Rustc {
         }
     }
 
-    /// Compiles one crate. A failure of the machine is returned as an error, and not as an outcome.
+    /// Compiles one crate. A failure of the machine is returned as an error rather than an outcome.
     ///
-    /// If a submission's compiler fails and no error explains why, the crate is compiled again while
-    /// nothing else of this process runs. If the system kills that, too, but an honest program
-    /// compiles, the crate is the reason. All other failures that no error explains are compared
-    /// with compiling the starter, once no program is left to try.
+    /// If a submission's compiler fails without an error that explains why, the crate is compiled
+    /// again while this process runs nothing else. If the system kills the compiler again but the
+    /// control program compiles, the crate is the reason. For all other unexplained failures, the
+    /// starter is compiled for comparison once nothing else is left to try.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let attempt = match self.budget {
             Some(_) => decide(
@@ -160,8 +160,8 @@ impl Rustc {
         }
     }
 
-    /// Compiles an honest program in a new folder beside `folder`, which shows whether the machine is
-    /// the reason that something fails. Returns the program, and the folder that keeps it.
+    /// Compiles the control program in a new folder next to `folder`. It shows whether the machine
+    /// is the reason for a failure. Returns the program and the guard of its folder.
     pub(super) fn compile_honest(&self, folder: &Path) -> io::Result<(TempDir, PathBuf)> {
         const NAME: &str = "control";
         const SOURCE: &str = include_str!("../../trial/control.rs");
@@ -236,7 +236,7 @@ impl Rustc {
         let deadline = started_at + time.wall;
         let mut cpu = None;
         let exit_reason = loop {
-            // The time that the compiler has used is available until its exit code has been read.
+            // The compiler's CPU time is only available until its exit code has been read.
             cpu = process.cpu_time_with_children().or(cpu);
             match process.exit_reason() {
                 Some(exit_reason) => break Some(exit_reason),
@@ -284,7 +284,7 @@ impl Rustc {
         }))
     }
 
-    /// Returns the time that is left for compiling, or `None` if it is used up.
+    /// Returns the remaining time for compiling, or `None` if it is used up.
     fn time_left(&self) -> Option<CompileTime> {
         match &self.budget {
             Some(budget) => budget.left(),
@@ -292,8 +292,8 @@ impl Rustc {
         }
     }
 
-    /// Returns the compiler's output. Its size has the same limit with a sandbox and without, so that
-    /// a submission gets the same result everywhere.
+    /// Returns the compiler's output. Its size limit is the same with and without a sandbox, so
+    /// that a submission gets the same result everywhere.
     fn output_file(&self, source: &Crate) -> io::Result<OutputFile> {
         let name = source.kind.file_name(source.name);
         if self.sandbox.confines() {
@@ -323,7 +323,7 @@ impl Rustc {
     }
 }
 
-/// Returns the result of a call for which no time is left.
+/// Returns the result of a call when no time is left.
 fn stopped() -> CompileAttempt {
     CompileAttempt::Certain(CompileOutcome::Failed(used_up_message()))
 }
@@ -353,7 +353,7 @@ const FLAGS: [&str; 10] = [
     "-Copt-level=2",
     "-Ccodegen-units=1",
     "-Cdebuginfo=0",
-    // The crates have no debug info, and copying the standard library's takes a third of the
+    // The crates have no debug info, and copying the standard library's would take a third of the
     // linking time.
     "-Cstrip=debuginfo",
     "-Coverflow-checks=on",

@@ -1,11 +1,11 @@
-//! Selects the isolation level for grading. If the requested level is not available, nothing is
+//! Selects the isolation level for grading. If the requested level isn't available, nothing is
 //! graded.
 
 use crate::build::{Builder, SelfTestError};
 use crate::error::Error;
 use crate::sandbox::{Isolation, Sandbox};
 
-/// The minimum level for other people's code, unless another level is requested.
+/// The minimum level for other people's code unless a different level is requested.
 pub const MIN_FOR_UNTRUSTED: Isolation = Isolation::NoNamespaces;
 
 /// The requested isolation of a submission's code.
@@ -14,7 +14,7 @@ pub enum IsolationRequest {
     /// No isolation, for grading your own work.
     #[default]
     OwnWork,
-    /// The best available level that is good enough for other people's code.
+    /// The best available level, which must be good enough for other people's code.
     Untrusted,
     /// This level.
     Level(Isolation),

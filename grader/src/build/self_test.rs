@@ -1,6 +1,6 @@
-//! Tests whether a sandbox works on this machine by attacking it from inside, with the profiles
-//! that submissions get, instead of querying the system's features. A sandbox that cannot be tested
-//! counts as unavailable.
+//! Tests whether a sandbox works on this machine by attacking it from inside, with the same
+//! profiles as for submissions, instead of querying the system's features. A sandbox that cannot be
+//! tested is considered unavailable.
 
 use tempfile::TempDir;
 
@@ -11,14 +11,14 @@ use crate::build::trial;
 use crate::machine::files;
 use crate::machine::system;
 
-/// Source of a program that attempts what no submission may do.
+/// Source of a program that attempts everything submissions must not do.
 const ATTACK_PROGRAM: &str = include_str!("../../trial/attempts.rs");
 /// The last line that the program prints.
 const END: &str = "end";
 /// Contents of a file that the sandbox must hide.
 const SECRET: &str = "a secret that no submission may read";
 
-/// The reason why an isolation level is not available.
+/// Why an isolation level isn't available.
 #[derive(Debug, thiserror::Error)]
 pub enum SelfTestError {
     /// A part of the sandbox cannot be set up, or a file of the test cannot be written.
@@ -27,7 +27,7 @@ pub enum SelfTestError {
     /// The compiler fails in the sandbox.
     #[error("cannot compile and statically link a program in the sandbox: {0}")]
     NotCompiled(String),
-    /// The compiler or a program can do what it must not do, or the test did not finish.
+    /// The compiler or a program can do something it must not do, or the test didn't finish.
     #[error("{0}")]
     Unsafe(String),
 }
@@ -39,10 +39,10 @@ impl SelfTestError {
 }
 
 impl Builder {
-    /// Tests the sandbox in which submissions are compiled and run.
+    /// Tests the sandbox that submissions are compiled and run in.
     pub fn test_sandbox(&self) -> Result<(), SelfTestError> {
         let work = BuildDir::new_in(&self.folder).map_err(SelfTestError::setup)?;
-        // This folder contains a file that every user of the machine can read without a sandbox.
+        // Without a sandbox, every user of the machine could read a file in this folder.
         let public_folder = TempDir::new().map_err(SelfTestError::setup)?;
         let key = public_folder.path().join("key");
         system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::setup)?;

@@ -1,4 +1,4 @@
-//! A crate that the compiler is called for, and what comes of it.
+//! A crate to compile, and the outcome of compiling it.
 
 use std::path::{Path, PathBuf};
 
@@ -15,16 +15,16 @@ pub struct Crate<'a> {
     pub folder: &'a Path,
     /// File of the root module, relative to the folder.
     pub root: &'a str,
-    /// Names and libraries of the crates that it may import, in addition to those that every
-    /// submission may import.
+    /// Names and libraries of the crates it may import, in addition to those that every submission
+    /// may import.
     pub links: &'a [(&'a str, &'a Path)],
-    /// Folder with the dependencies of `links`, if they have any besides the dependencies of every
+    /// Folder with the dependencies of `links`, if any, besides the dependencies of every
     /// submission.
     pub dependency_folder: Option<&'a Path>,
 }
 
 impl<'a> Crate<'a> {
-    /// Returns a crate of `kind` that imports only what every submission may import.
+    /// Returns a crate of `kind` that imports only the crates that every submission may import.
     pub fn new(name: &'a str, kind: CrateKind, folder: &'a Path, root: &'a str) -> Self {
         Crate {
             name,
@@ -37,12 +37,12 @@ impl<'a> Crate<'a> {
     }
 }
 
-/// The output that a crate is compiled to.
+/// The kind of output that a crate is compiled to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrateKind {
     /// An executable.
     Program,
-    /// An `rlib`, and its metadata, which is enough to compile other crates against it.
+    /// An `rlib` and its metadata, which is enough to compile other crates against it.
     Library,
 }
 
@@ -63,12 +63,12 @@ pub enum CompileOutcome {
     Done(PathBuf),
     /// The source code has errors.
     Errors(Vec<Diagnostic>),
-    /// The compiler did not finish, or it failed and no error could be parsed from its messages.
+    /// The compiler didn't finish, or it failed and no error could be parsed from its messages.
     Failed(String),
 }
 
 impl CompileOutcome {
-    /// Returns the program or library, or else why there is none.
+    /// Returns the program or library, or why there is none.
     pub fn into_result(self) -> Result<PathBuf, String> {
         match self {
             CompileOutcome::Done(path) => Ok(path),
@@ -77,7 +77,7 @@ impl CompileOutcome {
         }
     }
 
-    /// Returns whether the compiler failed, and no error is about the source code.
+    /// Returns whether the compiler failed without any error about the source code.
     pub(super) fn is_unexplained(&self) -> bool {
         match self {
             CompileOutcome::Done(_) => false,

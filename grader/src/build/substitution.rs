@@ -1,11 +1,11 @@
-//! Compiles a file of a submission with the reference's parts in place of the other files, so that a
-//! mistake in the box test does not also cost the points for traversing a tree.
+//! Compiles a file of a submission with the reference's parts in place of the other files, so that
+//! a mistake in the box test doesn't also cost the points for traversing a tree.
 //!
 //! The parts are some of the reference's files, compiled once. The submission's file is compiled
-//! against their metadata only, and linked with them in a step that reads none of its source. The
-//! reference's own version of the file is not used. The scaffold around the file may replace some of
-//! the file's functions: around `bvh.rs`, it replaces the submission's `build` by a plain one, so
-//! that a mistake in building does not cost the points for traversing either.
+//! only against their metadata, and linked with them in a step that reads none of its source. The
+//! reference's own version of the file isn't used. The scaffold around the file may replace some of
+//! the file's functions: around `bvh.rs`, it replaces the submission's `build` with a plain one, so
+//! that a mistake in building doesn't also cost the points for traversal.
 
 use std::fs;
 use std::io;
@@ -29,9 +29,9 @@ const PROBE: &str = "probe.rs";
 
 /// The compiled parts, and the sources that connect a submission to them.
 ///
-/// The sources of the two crates that are built around a submission's file are kept with the reference
-/// and not embedded in this program, because students have the grader's sources, and the code that
-/// replaces functions of the file must stay hidden.
+/// The sources of the two crates around a submission's file are kept with the reference instead of
+/// being embedded in this program. Students can read the grader's sources, and the code that
+/// replaces functions of the file must stay hidden from them.
 #[derive(Clone, Debug)]
 pub struct ReferenceParts {
     spec: &'static SubstitutedFile,
@@ -40,13 +40,13 @@ pub struct ReferenceParts {
     root: String,
     /// The root of the crate that answers questions, compiled separately from the submission.
     probe: String,
-    /// The module of that crate that wraps the submission's file and has its name.
+    /// The module of that crate that wraps the submission's file and shares its name.
     wrapper: String,
 }
 
 impl ReferenceParts {
-    /// Returns the parts from `cache`, or compiles them if the reference's files or the compiler
-    /// have changed.
+    /// Returns the parts from `cache`. Compiles them if the reference's files or the compiler have
+    /// changed.
     pub fn prepare(
         spec: &'static SubstitutedFile,
         handed_out: &HandedOut,
@@ -54,7 +54,8 @@ impl ReferenceParts {
         cache: &Path,
         rustc: &Rustc,
     ) -> Result<Self, Error> {
-        // The course's own code needs no sandbox, and one compile serves all isolation levels.
+        // The course's own code needs no sandbox, and the same compiled files serve all isolation
+        // levels.
         let rustc = &Rustc {
             sandbox: Sandbox::none(),
             ..rustc.clone()
@@ -86,7 +87,7 @@ impl ReferenceParts {
         Ok(parts_of_file)
     }
 
-    /// Returns a hash of everything that the parts and the scaffold depend on.
+    /// Returns a hash of everything the parts and the scaffold depend on.
     pub fn content_hash(&self) -> ContentHash {
         ContentHash::default()
             .with(self.folder.as_os_str().as_encoded_bytes())
@@ -121,7 +122,7 @@ fn parts_root(parts: impl Iterator<Item = &'static str>) -> String {
         .collect()
 }
 
-/// Returns a hash of everything that the parts depend on: their sources and the compiler.
+/// Returns a hash of everything the parts depend on: their sources and the compiler.
 fn cache_key(parts: &[(&str, String)], root: &str, rustc: &Rustc) -> String {
     let compiler_and_root = ContentHash::default()
         .with(rustc.identity())
@@ -170,15 +171,15 @@ pub struct Substitution {
     pub parts: ReferenceParts,
     /// The compiler, which compiles the program on the first request.
     pub rustc: Rustc,
-    /// The build folder, which does not exist yet.
+    /// The build folder, which doesn't exist yet.
     pub folder: PathBuf,
     /// The result of compiling the program, once it has been requested.
     pub program: OnceLock<Option<PathBuf>>,
 }
 
 impl Substitution {
-    /// Returns the program, or `None` if it does not compile, for example because the file uses
-    /// helpers in the submission's other files.
+    /// Returns the program, or `None` if it doesn't compile, e.g. because the file uses helpers in
+    /// the submission's other files.
     pub fn program(&self) -> io::Result<Option<&Path>> {
         if self.program.get().is_none() {
             let program = self.compile()?;
@@ -205,9 +206,9 @@ impl Substitution {
         Ok(None)
     }
 
-    /// Compiles the starter's file with the parts, if no error explains why the submission's file does
-    /// not compile, or if the program cannot be started. If the starter's does not compile either,
-    /// the machine is to blame.
+    /// Compiles the starter's file with the parts. Called if no error explains why the submission's
+    /// file doesn't compile, or if its program cannot be started. If the starter's file doesn't
+    /// compile either, the machine is to blame.
     pub(super) fn starter_program(&self) -> io::Result<PathBuf> {
         let starter = Substitution {
             file: self.file,
@@ -215,7 +216,8 @@ impl Substitution {
             handed_out: self.handed_out,
             parts: self.parts.clone(),
             rustc: self.rustc.for_own_code(),
-            // Not beside the submission's folder: their compiled files would have the same path.
+            // Not next to the submission's folder, because their compiled files would have the same
+            // path.
             folder: self.folder.join("starter").join(self.file.name),
             program: OnceLock::new(),
         };

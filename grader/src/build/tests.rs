@@ -7,7 +7,7 @@ use crate::build::linker::SystemLinker;
 use crate::handed_out::RAYS;
 
 impl Build {
-    /// Returns a build without programs, in this folder. These files did not compile.
+    /// Returns a build without programs, in this folder. These files didn't compile.
     pub fn without_programs(
         folder: &Path,
         not_compiled: BTreeMap<&'static str, NotCompiled>,

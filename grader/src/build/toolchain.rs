@@ -22,7 +22,7 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// Finds the toolchain whose cargo runs this program, or else the one on the PATH.
+    /// Finds the toolchain whose cargo runs this program or, failing that, the one on the PATH.
     pub fn find() -> Result<Self, Error> {
         if let Some(toolchain) =
             env::var_os("CARGO").and_then(|cargo| toolchain_beside(Path::new(&cargo)))
@@ -54,8 +54,8 @@ impl Toolchain {
     }
 }
 
-/// Returns text that changes when a file or the contents of a folder are replaced. It consists of
-/// the size and the modification time.
+/// Returns text that changes when a file or a folder's contents are replaced. It consists of the
+/// size and the modification time.
 pub fn file_fingerprint(path: &Path) -> String {
     let metadata = fs::metadata(path);
     let size = metadata.as_ref().map_or(0, fs::Metadata::len);

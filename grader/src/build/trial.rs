@@ -1,4 +1,4 @@
-//! Runs small programs of our own in the way in which submissions are run.
+//! Runs the grader's own small programs in the same way as submissions.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -23,11 +23,11 @@ const WALL_LIMIT: Duration = Duration::from_secs(30);
 /// Maximum length of a program's output, in bytes.
 const MAX_OUTPUT_BYTES: usize = 1 << 16;
 
-/// The output of the honest program that [`Rustc::compile_honest`] compiles.
+/// The output of the control program that [`Rustc::compile_honest`] compiles.
 const HONEST_OUTPUT: &str = "end\n";
 
-/// Returns an error unless an honest program gets to its end, compiled beside `folder`. It uses as much
-/// memory as a program may use without being considered out of memory.
+/// Returns an error unless the control program, compiled next to `folder`, runs to its end. It uses
+/// as much memory as a program may use without being considered out of memory.
 pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
     let (_folder, program) = rustc.compile_honest(folder)?;
     if run(&rustc.sandbox, &program, "")? == HONEST_OUTPUT {
@@ -40,8 +40,7 @@ pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
     ))
 }
 
-/// Runs a program, and returns what it prints to standard error or, if that is nothing, to standard
-/// output.
+/// Runs a program. Returns its standard error or, if that is empty, its standard output.
 pub(super) fn run(sandbox: &Sandbox, program: &Path, input: &str) -> io::Result<String> {
     let mut command = Command::new(program);
     system::clear_environment(&mut command);

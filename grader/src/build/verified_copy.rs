@@ -1,5 +1,5 @@
-//! Copies a file from the folder that a submission's compiler could write to. Nothing in that
-//! folder is trusted.
+//! Copies a file from the folder that a submission's compiler could write to and that therefore
+//! cannot be trusted.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::machine::system;
 
-/// Maximum size of a program, in bytes. The reference's program has about 6 MB.
+/// Maximum size of a program, in bytes. The reference's program is about 6 MB.
 pub(super) const MAX_BYTES: u64 = 64 << 20;
 
 /// First bytes of programs (ELF) and of libraries (`ar`).
@@ -18,13 +18,13 @@ const MAGIC_NUMBERS: [&[u8]; 2] = [b"\x7fELF", b"!<arch>\n"];
 pub(super) enum OutputFile {
     /// The path of a program or library.
     Verified(PathBuf),
-    /// A file of this many bytes, which is too large.
+    /// The file has this many bytes, which is too large.
     TooLarge(u64),
-    /// There is no such file, or it is not a regular file that begins like a program or library.
+    /// The file is missing, or it isn't a regular file that begins like a program or library.
     Missing,
 }
 
-/// Checks the size of a file, and leaves it in place.
+/// Checks a file's size and leaves it in place.
 pub(super) fn check_size(path: PathBuf) -> io::Result<OutputFile> {
     Ok(match fs::metadata(&path) {
         Ok(file) if !file.is_file() => OutputFile::Missing,
@@ -35,8 +35,8 @@ pub(super) fn check_size(path: PathBuf) -> io::Result<OutputFile> {
     })
 }
 
-/// Copies a file from `folder` to a folder that only the grader can write to, and returns the path
-/// of the copy.
+/// Copies a file from `folder` to a folder that only the grader can write to. Returns the path of
+/// the copy.
 pub(super) fn copy_verified(folder: &Path, name: &str) -> io::Result<OutputFile> {
     let Some(made) = open_regular(&folder.join(name))? else {
         return Ok(OutputFile::Missing);

@@ -11,12 +11,12 @@ use crate::inputs::exam_source::ExamSource;
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
 /// Maximum total size of both files that classroom50 accepts, in bytes.
 const MAX_FOLDER_BYTES: u64 = 10 << 20;
-/// The folders in classroom50's zip from which the grader is built.
+/// The folders in classroom50's zip that the grader is built from.
 const REQUIRED_FOLDERS: [&str; 2] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
 ];
-/// The file that is present in a folder if it is a template for GitHub.
+/// The file that identifies a folder as a template for GitHub.
 const WORKFLOW: &str = ".github/workflows/grade.yml";
 /// Paths that a template must have besides the task files.
 const TEMPLATE_PATHS: [&str; 4] = [
@@ -71,7 +71,7 @@ fn classroom50_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
 }
 
 /// Returns a message for each problem with the grader's zip. Its policy is checked against the
-/// practice exam, because that is the exam with which classroom50 grades.
+/// practice exam, because classroom50 grades with that exam.
 fn grader_zip_problems(contents: &PackageContents, handed_out: &HandedOut) -> Vec<String> {
     let mut problems = contents.damage_problems();
     problems.extend(contents.empty_folder_problems(&REQUIRED_FOLDERS, "classroom50"));

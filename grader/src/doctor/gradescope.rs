@@ -10,7 +10,7 @@ use crate::doctor::package_contents::{
 use crate::handed_out::HandedOut;
 use crate::inputs::exam_source::PRACTICE_ID;
 
-/// The folders from which the grader and the solution are built.
+/// The folders that the grader and the solution are built from.
 const REQUIRED_FOLDERS: [&str; 4] = [
     "pathtracing/grader/src/",
     "pathtracing/student/framework/src/",
@@ -19,15 +19,15 @@ const REQUIRED_FOLDERS: [&str; 4] = [
 ];
 /// The folder that contains the crates, so that nothing has to be downloaded.
 const CRATE_CACHE: &str = "pathtracing/crates/registry/cache/";
-/// The index of these crates, without which Cargo does not find them.
+/// The index of these crates. Cargo cannot find them without it.
 const CRATE_INDEX: &str = "pathtracing/crates/registry/index/";
-/// Part of the path of a crate that Cargo downloads only on Linux.
+/// Part of the path of a crate that Cargo only downloads on Linux.
 const LINUX_ONLY_CRATE: &str = "/landlock-";
 
 /// Options and commands that are followed by the name of a Rust toolchain.
 const INSTALLERS: [&str; 2] = ["--default-toolchain ", "toolchain install "];
 
-/// Returns whether a script installs a toolchain that is not a fixed version, such as `stable`.
+/// Returns whether a script installs a toolchain without a fixed version, such as `stable`.
 fn installs_floating(script: &[u8], installer: &str) -> bool {
     let script = String::from_utf8_lossy(script);
     let mut toolchains = script.split(installer).skip(1);
@@ -39,7 +39,7 @@ impl PackageContents {
     pub(super) fn problems(&self, handed_out: &HandedOut) -> Vec<String> {
         let mut problems = self.damage_problems();
         problems.extend(SCRIPTS.iter().flat_map(|name| self.script_problems(name)));
-        // As long as Gradescope cannot run these scripts, other problems do not matter.
+        // As long as Gradescope cannot run these scripts, other problems don't matter.
         if problems.is_empty() {
             problems.extend(self.script_problems(GRADE));
             problems.extend(self.exam_and_policy_problems(handed_out));
@@ -48,7 +48,7 @@ impl PackageContents {
         problems
     }
 
-    /// Returns a message for each problem with the files from which the grader is built.
+    /// Returns a message for each problem with the files that the grader is built from.
     fn build_input_problems(&self) -> Vec<String> {
         let mut problems = self.empty_folder_problems(&REQUIRED_FOLDERS, "gradescope");
         let is_for_linux =

@@ -1,5 +1,5 @@
-//! `cargo grade --doctor`: reports the compiler that submissions are built with on this machine,
-//! and the isolation levels that are available here.
+//! `cargo grade --doctor`: reports the compiler that submissions are built with and the isolation
+//! levels available on this machine.
 
 mod folder;
 mod gradescope;
@@ -22,7 +22,7 @@ pub struct Diagnosis {
     levels: Vec<(Isolation, Result<(), SelfTestError>)>,
 }
 
-/// Finds the compiler and the dependencies of submissions, and tests every isolation level.
+/// Finds the compiler and the dependencies of submissions. Tests every isolation level.
 pub fn diagnose() -> Result<Diagnosis, Error> {
     let builder = Builder::prepare(&Workspace::find()?)?;
     let levels = Isolation::ALL.map(|level| (level, with_level(&builder, level).map(drop)));
@@ -82,8 +82,7 @@ impl fmt::Display for Diagnosis {
     }
 }
 
-/// Returns advice for a level that is not available, if the reason does not already say what to
-/// do.
+/// Returns advice for a level that isn't available, unless the reason already says what to do.
 fn remedy(why: &SelfTestError) -> Option<&'static str> {
     match why {
         SelfTestError::NotCompiled(_) => Some(

@@ -24,7 +24,7 @@ const MAX_FILE_BYTES: u64 = 64 << 20;
 /// Maximum number of entries in a zip. A package has several thousand.
 const MAX_ENTRIES: usize = 100_000;
 
-/// The contents of a zip, as far as they are checked.
+/// The parts of a zip's contents that are checked.
 #[derive(Debug, Default)]
 pub(super) struct PackageContents {
     /// The permissions of every entry, by name.
@@ -62,7 +62,7 @@ pub(super) fn read_package(path: &Path) -> Result<PackageContents, Error> {
                 contents.inspected.insert(inspected, bytes);
                 read.map(drop)
             }
-            // Damage is reported only at the end of the contents.
+            // Damage is only reported at the end of the contents.
             None => io::copy(&mut file, &mut io::sink()).map(drop),
         };
         if let Err(error) = unpacked {
@@ -98,7 +98,7 @@ impl PackageContents {
     }
 }
 
-/// Returns the reason why a policy does not fit the exam, or `None` if it fits.
+/// Returns why a policy doesn't fit the exam, or `None` if it fits.
 pub(super) fn policy_problem(policy: &[u8], exam: &Exam) -> Option<String> {
     let path = Path::new(POLICY);
     let policy = Policy::from_text(path, &String::from_utf8_lossy(policy));

@@ -10,7 +10,7 @@ use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 
-/// Draws the range of the ray, and the parts of the range before the expected and before the
+/// Draws the range of the ray and the parts of the range before the expected and before the
 /// submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;

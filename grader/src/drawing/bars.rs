@@ -29,7 +29,7 @@ pub(super) enum BarStyle {
 }
 
 impl BarStyle {
-    /// Returns the colour, the outline, and the opacity of the fill.
+    /// Returns the colour, the outline and the opacity of the fill.
     fn look(self) -> (Ink, LineStyle, f64) {
         match self {
             BarStyle::Plain => (Ink::Text, LineStyle::Grid, 0.18),
@@ -76,8 +76,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Creates an axis that covers all of these distances, except those of 1e9 or more, which count
-    /// as infinite. On the page, it extends from `left` to the right edge.
+    /// Creates an axis that covers all of these distances, except those of 1e9 or more, which are
+    /// treated as infinite. On the page, it extends from `left` to the right edge.
     pub(super) fn over(left: f64, distances: impl IntoIterator<Item = f64>) -> Axis {
         let finite = distances.into_iter().filter(|t| t.abs() < 1e9);
         let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), t| {
@@ -115,7 +115,7 @@ impl Axis {
         self.first <= t && t <= self.last
     }
 
-    /// Draws the line of the axis with a few labelled ticks.
+    /// Draws the axis's line with a few labelled ticks.
     pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
         canvas.line(
             dvec2(self.left, y),
@@ -147,7 +147,7 @@ fn tick_step(least: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// Draws the rows from `y` downward, and below them an axis that covers `distances`. Returns the y
+/// Draws the rows from `y` downward and, below them, an axis that covers `distances`. Returns the y
 /// coordinate below the axis.
 pub(super) fn draw(
     canvas: &mut Canvas,

@@ -1,6 +1,6 @@
 //! A ray and a box, drawn in two ways: in the plane of the two axes that decide whether the ray
-//! hits, and as the intervals in which the ray is between the two planes of each axis. The exam
-//! stores these intervals.
+//! hits, and as the intervals where the ray is between each axis's two planes. The exam stores
+//! these intervals.
 
 use glam::{DVec2, Vec3};
 use judging::describe;
@@ -22,11 +22,11 @@ pub(super) struct BoxQuery {
     pub(super) ray: Ray,
     /// The interval that the result is clipped to.
     pub(super) times: Interval,
-    /// The expected result: the part of `times` in which the ray is in the box.
+    /// The expected result: the part of `times` where the ray is inside the box.
     pub(super) wanted: Option<Interval>,
     /// The submission's answer: an interval, `None`, or no answer at all.
     pub(super) got: Option<Option<Interval>>,
-    /// For each axis, the interval in which the ray is between the two planes, if the exam stores
+    /// For each axis, the interval where the ray is between the two planes, if the exam stores
     /// these intervals.
     pub(super) slabs: Option<[Interval; 3]>,
 }
@@ -50,13 +50,13 @@ pub(super) fn draw(query: &BoxQuery) -> Option<Drawing> {
     Some(sheet.finish(title, caption(query)))
 }
 
-/// Returns the plane of the two axes that decide whether the ray hits: the one whose slab it enters
-/// last, and the one whose slab it leaves first. In this plane, a hit looks like a hit and a miss
-/// like a miss.
+/// Returns the plane of the two axes that decide whether the ray hits: the axis whose slab it
+/// enters last and the axis whose slab it leaves first. In this plane, a hit looks like a hit and a
+/// miss like a miss.
 fn deciding_plane(query: &BoxQuery) -> Plane {
     let Some(slabs) = query.slabs else {
-        // If the exam has no slabs, look along the axis in which the ray's direction has the
-        // smallest component.
+        // If the exam contains no slabs, look along the axis with the smallest component of the
+        // ray's direction.
         let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);
@@ -66,8 +66,8 @@ fn deciding_plane(query: &BoxQuery) -> Plane {
     let last_in = last_in.unwrap_or(0);
     let others = [(last_in + 1) % 3, (last_in + 2) % 3];
     let [p, q] = others;
-    // If the slab that the ray enters last is also the one that it leaves first, the second axis is
-    // the one whose slab it leaves next.
+    // If the ray leaves first the same slab that it enters last, use the slab it leaves next for
+    // the second axis.
     let first_out = if slabs[p].max <= slabs[q].max { p } else { q };
     Plane::of(last_in, first_out)
 }
@@ -126,7 +126,7 @@ fn rows(query: &BoxQuery) -> Vec<BarRow> {
     rows
 }
 
-/// Returns the distances that the axis must cover. The slabs contribute only the last entry and the
+/// Returns the distances that the axis must cover. The slabs only contribute the last entry and the
 /// first exit.
 fn axis_distances(query: &BoxQuery) -> Vec<f64> {
     let ends = |span: Interval| [f64::from(span.min), f64::from(span.max)];

@@ -1,8 +1,7 @@
 //! An SVG image, built element by element in page units: x to the right, y down.
 //!
-//! Coordinates may come from submissions, so elements with points that are not finite or far off
-//! the page are skipped, and an image that has reached [`MAX_BYTES`] bytes accepts no more
-//! elements.
+//! Coordinates may come from submissions, so elements with points that aren't finite or far off the
+//! page are skipped. An image that has reached [`MAX_BYTES`] accepts no more elements.
 
 use glam::{DVec2, dvec2};
 use maud::{Markup, PreEscaped, Render, html};
@@ -19,7 +18,7 @@ pub(super) const WIDTH: f64 = 340.0;
 const FONT_SIZE: f64 = 12.5;
 /// The size of a drawing, in bytes, above which no more elements are added.
 const MAX_BYTES: usize = 120_000;
-/// The limit for the absolute value of a coordinate. Points beyond it are not drawn.
+/// The limit for the absolute value of a coordinate. Points beyond it aren't drawn.
 const MAX_COORDINATE: f64 = 1e4;
 /// The background colour of the page.
 const PAPER: &str = "var(--paper, Canvas)";
@@ -160,8 +159,8 @@ impl Canvas {
                 let arm =
                     |x: f64, y: f64| svg::path(&[at - 5.5 * dvec2(x, y), at + 5.5 * dvec2(x, y)]);
                 let cross = arm(1.0, 1.0) + &arm(1.0, -1.0);
-                // Drawn twice, first wider and in the background colour, so that a border
-                // separates the cross from the lines below it.
+                // Draw the cross twice, first wider and in the background colour, so that a border
+                // separates it from the lines below it.
                 html! {
                     path d=(cross) fill="none" stroke=(PAPER) stroke-width="6" {}
                     path d=(cross) fill="none" stroke=(Ink::Wrong.paint()) stroke-width="3" {}
@@ -173,14 +172,14 @@ impl Canvas {
         });
     }
 
-    /// Draws the part of a line that is in a window.
+    /// Draws the part of a line that is inside a window.
     pub(super) fn segment(&mut self, window: &Window, [from, to]: [DVec2; 2], line: LineStyle) {
         if let Some((from, to)) = window.clip_segment(from, to) {
             self.line(from, to, line);
         }
     }
 
-    /// Draws the line of a ray: its range, and the parts behind and ahead of its origin. `at` returns
+    /// Draws a ray's line: its range, and the parts behind and ahead of its origin. `at` returns
     /// the point at a distance, up to `far` in both directions.
     pub(super) fn ray(
         &mut self,
@@ -197,7 +196,7 @@ impl Canvas {
         self.segment(window, [at(0.0), at(far)], LineStyle::Ray);
     }
 
-    /// Draws a mark in a window, at its border if the point is outside.
+    /// Draws a mark in a window, or at its border if the point is outside.
     pub(super) fn mark_pinned(&mut self, window: &Window, at: Option<DVec2>, mark: Mark) {
         if let Some((at, _)) = at.and_then(|at| window.pin_to_border(at)) {
             self.mark(at, mark);

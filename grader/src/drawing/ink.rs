@@ -1,10 +1,10 @@
 //! Colours and line styles. Colour is never the only difference: the expected answer is drawn with
 //! solid lines and discs, and the submitted answer with dashed lines and crosses.
 //!
-//! A page may set the custom properties `--right`, `--wrong` and `--paper`, for example for its
-//! dark theme. The default colours are from Okabe and Ito, "Color Universal Design", 2008.
+//! A page may set the custom properties `--right`, `--wrong` and `--paper`, e.g. for a dark theme.
+//! The default colours are from Okabe and Ito, "Color Universal Design", 2008.
 
-/// A colour of the lines, areas and texts in a drawing.
+/// A colour for lines, areas and texts in a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
     /// The text colour of the page.
@@ -69,7 +69,7 @@ pub(super) struct Stroke {
 }
 
 impl LineStyle {
-    /// Returns the attributes of a line of this style.
+    /// Returns the attributes for this line style.
     pub(super) fn stroke(self) -> Stroke {
         let (ink, opacity, width, dashes) = match self {
             LineStyle::Outline => (Ink::Text, None, "1.5", None),

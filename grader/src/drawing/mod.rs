@@ -45,8 +45,8 @@ pub struct Drawing {
 }
 
 /// Draws one element of a question. `element` is its index, and `answer` is the answer to the whole
-/// question, if there is one. Returns `None` if there is nothing to draw, or if a drawing would add
-/// nothing to the text.
+/// question, if any. Returns `None` if there is nothing to draw, or if a drawing would add nothing
+/// to the text.
 pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) -> Option<Drawing> {
     let (asked, key) = (&question.question, &question.key);
     if let (Question::SampleRay(table), Key::Table { rows, .. }) = (asked, key)
@@ -129,7 +129,7 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
     None
 }
 
-/// Returns the value of an element, or `None` if there is none, because the code panicked.
+/// Returns the value of an element, or `None` if it is missing, e.g. because the code panicked.
 fn value<T>(outcomes: &[ElementOutcome<T>], element: usize) -> Option<&T> {
     match outcomes.get(element)? {
         ElementOutcome::Value(value) => Some(value),

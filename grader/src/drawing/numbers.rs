@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Formats a number with at most four significant digits, for use where six do not fit.
+/// Formats a number with at most four significant digits, for use where six don't fit.
 pub(super) fn short(value: f64) -> String {
     if value.is_nan() {
         return "NaN".to_owned();

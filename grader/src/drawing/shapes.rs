@@ -6,8 +6,8 @@ use protocol::Shape;
 use super::hit_comparison::HitComparison;
 use super::{Drawing, sphere, triangle};
 
-/// Draws the shape of the expected hit, else that of the submitted hit, else the shape nearest to
-/// the ray.
+/// Draws the shape of the expected hit or, failing that, of the submitted hit or, failing that, the
+/// shape nearest to the ray.
 pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
     let hit = comparison.wanted.or(comparison.got.hit());
     let distance = |shape: &&Shape| match hit {
@@ -46,14 +46,14 @@ fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
     }
 }
 
-/// Returns the distance of a shape's centre from the line of the ray.
+/// Returns the distance of a shape's centre from the ray's line.
 fn distance_to_line(shape: &Shape, comparison: &HitComparison) -> f64 {
     let [p0, p1, p2] = corners(shape);
     let aside = (p0 + p1 + p2) / 3.0 - comparison.ray.origin.as_dvec3();
     aside.cross(comparison.dir()).length()
 }
 
-/// Returns the corners of a triangle; for a sphere, its centre three times.
+/// Returns the corners of a triangle or, for a sphere, its centre three times.
 pub(super) fn corners(shape: &Shape) -> [DVec3; 3] {
     match *shape {
         Shape::Triangle { vertices, .. } => vertices.map(|vertex| vertex.position.as_dvec3()),

@@ -1,4 +1,4 @@
-//! A drawing that is filled from top to bottom: panels, bars over an axis, and a legend.
+//! A drawing that is filled from top to bottom with panels, bars over an axis and a legend.
 
 use glam::{DVec2, dvec2};
 
@@ -8,12 +8,12 @@ use super::ink::{Fill, Ink, LineStyle};
 use super::window::{Panel, Window, extent};
 use crate::machine::printing::wrap;
 
-/// The height of a line of the legend.
+/// The height of a line in the legend.
 const ROW_HEIGHT: f64 = 18.0;
-/// The maximum number of characters in a line of the legend.
+/// The maximum number of characters per line in the legend.
 const MAX_LINE_CHARS: usize = 47;
 
-/// The symbol at the start of a line of the legend.
+/// The symbol at the start of a line in the legend.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Symbol {
     /// A mark, such as a disc or a cross.
@@ -22,7 +22,7 @@ pub(super) enum Symbol {
     Line(LineStyle),
     /// A small rectangle with this fill.
     Area(Fill),
-    /// No symbol, for a line that is a remark.
+    /// No symbol, for a remark.
     None,
 }
 

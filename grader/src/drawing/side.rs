@@ -1,4 +1,4 @@
-//! Draws a ray from the side: it points to the right, and distances along it are to scale.
+//! Draws a ray from the side. It points to the right, and distances along it are to scale.
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::describe;
@@ -51,7 +51,7 @@ impl SideView<'_> {
         dvec2(aside.dot(self.dir.cross(self.up)), aside.dot(self.up))
     }
 
-    /// Returns the points of the expected and of the submitted hit in the plane.
+    /// Returns the points of the expected and the submitted hit in the plane.
     fn hits(&self) -> [Option<DVec2>; 2] {
         let wanted = self.comparison.wanted.map(|hit| hit.position.as_dvec3());
         [wanted, self.comparison.got_point()].map(|point| Some(self.project(point?)))
@@ -77,7 +77,7 @@ impl SideView<'_> {
         seen
     }
 
-    /// Draws the line of the ray, its origin, and its range if the range is limited.
+    /// Draws the ray's line, its origin and, if it is limited, its range.
     pub(super) fn draw_ray(&self, canvas: &mut Canvas, window: &Window) {
         let range = self.comparison.limited_range();
         canvas.ray(window, range, 1e7, |t| dvec2(t, 0.0));
@@ -92,7 +92,7 @@ impl SideView<'_> {
         canvas.mark_inside(window, DVec2::ZERO, Mark::Origin);
     }
 
-    /// Draws the expected and the submitted hit, with the field that is in focus.
+    /// Draws the expected and the submitted hit, including the field in focus.
     pub(super) fn draw_hits(&self, canvas: &mut Canvas, window: &Window) {
         /// The length of the arrow for a unit normal, in page units.
         const ARROW: f64 = 46.0;
@@ -141,7 +141,7 @@ impl SideView<'_> {
         };
         match (comparison.wanted, comparison.focus) {
             (None, _) => sheet.add_wanted(Symbol::None, "no hit"),
-            // The origin is that of the ray, which has its own entry.
+            // The expected origin is the ray's, which has its own legend entry.
             (Some(hit), Focus::Origin) => {
                 sheet.add_wanted(Symbol::Mark(Mark::Right), &hit_text(&hit))
             }

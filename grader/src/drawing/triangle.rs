@@ -18,7 +18,7 @@ pub(super) fn draw(comparison: &HitComparison, vertices: &[Vertex; 3]) -> Drawin
     let corners = vertices.map(|vertex| vertex.position.as_dvec3());
     let [p0, p1, p2] = corners;
     // In a plane that contains the ray and the normal, the triangle is seen edge-on. A degenerate
-    // triangle has no normal, so the first edge is used in its place.
+    // triangle has no normal, so use the first edge instead.
     let normal = (p1 - p0).cross(p2 - p0).try_normalize();
     let side = SideView::new(comparison, normal.unwrap_or(p1 - p0));
 
@@ -76,10 +76,10 @@ fn draw_outline(canvas: &mut Canvas, window: &Window, corners: [DVec2; 3]) {
 /// The size of a label, with some space around it.
 const LABEL: DVec2 = dvec2(16.0, 12.0);
 
-/// Returns where the corners' labels are written: away from the centre, so that none covers an edge,
-/// and not on top of each other, even if corners coincide.
+/// Returns the positions of the corners' labels. They are placed away from the centre so that they
+/// don't cover an edge, and they never overlap, even if corners coincide.
 fn label_positions(corners: [DVec2; 3]) -> Vec<DVec2> {
-    /// Steps to the sides, in sizes of a label. Two labels can block at most four of them.
+    /// Offsets to try, in label sizes. Two labels can block at most four of them.
     const STEPS: [DVec2; 9] = [
         dvec2(0.0, 0.0),
         dvec2(-1.0, 0.0),
@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     fn corner() -> impl Strategy<Value = DVec2> {
-        // On a coarse grid, so that corners often coincide or are near each other.
+        // Use a coarse grid, so that corners often coincide or are near each other.
         (0_i32..8, 0_i32..8).prop_map(|(x, y)| dvec2(f64::from(x), f64::from(y)) * 4.0)
     }
 

@@ -7,8 +7,8 @@ use super::hit_comparison::HitComparison;
 use super::ink::{Fill, Ink, LineStyle};
 use super::window::{Panel, Window};
 
-/// Draws the square with the expected and the submitted texture coordinates, and also those of a
-/// triangle's corners if `corners` is not empty.
+/// Draws the square with the expected and the submitted texture coordinates and, if `corners` isn't
+/// empty, those of a triangle's corners.
 pub(super) fn draw_square(
     canvas: &mut Canvas,
     panel: Panel,

@@ -28,8 +28,8 @@ impl Window {
         let (min, max) = extent(points).unwrap_or((DVec2::NEG_ONE, DVec2::ONE));
         let available = panel.max - panel.min - 2.0 * MARGIN;
         let size = max - min;
-        // The lower bound avoids a division by zero for a single point, which is in the middle at
-        // any scale.
+        // The lower bound avoids a division by zero for a single point, which is centred at any
+        // scale.
         let scale = (available / size.max(DVec2::splat(1e-12))).min_element();
         Window {
             panel,
@@ -55,7 +55,7 @@ impl Window {
     }
 
     /// Converts a point to page coordinates and clamps it to the panel. The flag is true if the
-    /// point was outside. Returns `None` if the point is not finite.
+    /// point was outside. Returns `None` if the point isn't finite.
     pub(super) fn pin_to_border(&self, at: DVec2) -> Option<(DVec2, bool)> {
         let (min, max) = (self.panel.min + 7.0, self.panel.max - 7.0);
         let page = self.page_position(at);
@@ -77,7 +77,7 @@ impl Window {
         if !(from.is_finite() && to.is_finite()) {
             return None;
         }
-        // Far enough away to look infinite, and near enough to be precise in `f64`.
+        // Far enough away to look infinite, but near enough to be precise in `f64`.
         let farthest = DVec2::splat(1e9);
         let [mut from, mut to] = [from, to].map(|at| at.clamp(-farthest, farthest));
         for axis in 0..2 {
@@ -95,7 +95,7 @@ impl Window {
     }
 }
 
-/// Returns the smallest and largest coordinates of the finite points, or `None` if there are none.
+/// Returns the smallest and largest coordinates of the finite points, if any.
 pub(super) fn extent(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
     let finite = points.into_iter().filter(|point| point.is_finite());
     finite.fold(None, |so_far, point| match so_far {

@@ -1,7 +1,7 @@
 //! check50's JSON
 //! (<https://cs50.readthedocs.io/projects/check50/en/latest/json_specification.html>).
 //!
-//! `passed` is true, false or null. Null means that a check did not run, or did not finish.
+//! `passed` is true, false or null. Null means that a check didn't run or didn't finish.
 
 use serde_json::{Value, json};
 
@@ -43,7 +43,7 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
         Some(true) => Value::Null,
         Some(false) | None => json!({ "rationale": rationale, "help": help }),
     };
-    // A dependency must be the name of another result, and hidden items have none.
+    // A dependency must be the name of another result, but hidden items have no result.
     let dependency = if let Verdict::Blocked { by } = &item.verdict {
         let mut items = view.visible_items();
         items.any(|(_, item)| item.id == *by).then_some(by)
@@ -61,7 +61,7 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
     })
 }
 
-/// Returns a check that explains the grade. The format has no other location for it.
+/// Returns a check that explains the grade. The format doesn't provide another place for it.
 fn counted_result(text: String) -> Value {
     json!({
         "name": "counted",

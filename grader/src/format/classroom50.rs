@@ -19,7 +19,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ..FormatSpec::EMPTY
 };
 
-/// The environment variables that describe the submission. The runner sets all but the last.
+/// The environment variables that describe the submission. The runner sets all except the last.
 const VARIABLES: [&str; 9] = [
     "CLASSROOM",
     "ASSIGNMENT",
@@ -29,7 +29,7 @@ const VARIABLES: [&str; 9] = [
     "COMMIT_URL",
     "RELEASE_URL",
     "REVIEW_URL",
-    // The date of the graded commit, which the script of the autograder package sets.
+    // The date of the graded commit, which is set by the autograder package's script.
     "SUBMITTED_AT",
 ];
 
@@ -53,7 +53,7 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
                     "output": item_text(view, item, context),
                 })
             })
-            // The format has no other location for an explanation of the score.
+            // The format has no other place for an explanation of the score.
             .chain(view.counted_text().map(
                 |text| json!({ "test-name": text, "passed": true, "score": 0, "max-score": 0 }),
             ))

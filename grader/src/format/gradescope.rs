@@ -21,8 +21,8 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ..FormatSpec::EMPTY
 };
 
-/// The maximum size in bytes. Gradescope documents no limit; similar platforms truncate at half
-/// this size.
+/// The maximum size in bytes. Gradescope doesn't document a limit, but similar platforms truncate
+/// at half this size.
 const MAX_BYTES: usize = 256 << 10;
 
 /// Renders `results.json`.
@@ -89,7 +89,7 @@ fn output(view: &StudentView) -> String {
 }
 
 /// Returns a test without points that explains the total. It is needed if the total includes hidden
-/// items: students see it when Gradescope shows them the total.
+/// items, because students should see it when Gradescope shows them the total.
 fn counted_test(view: &StudentView, number: usize) -> Option<Value> {
     let items = view.all_items.iter().map(|entry| entry.visibility);
     let hidden: Vec<Visibility> = items.filter(|shown| !shown.is_shown_now()).collect();
@@ -139,7 +139,7 @@ fn test(
     test
 }
 
-/// Returns Gradescope's status, or `None` for an item that is not graded yet.
+/// Returns Gradescope's status, or `None` for an item that isn't graded yet.
 fn status(verdict: &Verdict) -> Option<&'static str> {
     match verdict.kind() {
         VerdictKind::Passed => Some("passed"),

@@ -1,4 +1,4 @@
-//! Plain text about an item, for platforms that show only text.
+//! Plain text about an item, for platforms that only show text.
 
 use crate::format::{FormatContext, StudentView};
 use crate::inputs::exam_source::PRACTICE_ID;
@@ -39,7 +39,7 @@ pub fn build_report(view: &StudentView) -> String {
     files.chain(notes).collect::<Vec<_>>().join("\n\n")
 }
 
-/// Returns one line with the points that were earned.
+/// Returns one line with the points earned.
 pub fn headline(view: &StudentView) -> String {
     let score = &view.visible;
     format!(
@@ -48,7 +48,7 @@ pub fn headline(view: &StudentView) -> String {
     )
 }
 
-/// Returns one line with the points that were earned and, if they are others, those that count.
+/// Returns one line with the points earned and, if they differ, the final points.
 pub fn headline_with_counted(view: &StudentView) -> String {
     match view.counted_text() {
         Some(counted) => format!("{}. {counted}", headline(view)),

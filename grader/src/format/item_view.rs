@@ -5,7 +5,7 @@ use judging::assignment::Task;
 use crate::policy::Visibility;
 use crate::score::ItemScore;
 
-/// An item, and when students may see it.
+/// An item and its visibility to students.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ItemView {
     /// The task of the item.

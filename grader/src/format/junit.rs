@@ -106,8 +106,8 @@ enum Status {
 }
 
 impl Status {
-    /// Maps a verdict: a wrong answer becomes a failure, a missing answer an error, and an item
-    /// that was not graded a skipped test case.
+    /// Maps a verdict. A wrong answer becomes a failure, a missing answer becomes an error, and an
+    /// item that was not graded becomes a skipped test case.
     fn from_verdict(verdict: &Verdict) -> Self {
         match verdict.kind() {
             VerdictKind::Passed => Status::Passed,

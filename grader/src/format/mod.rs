@@ -1,5 +1,5 @@
 //! Output formats for learning platforms and CI services. Each renderer is a pure function of a
-//! [`StudentView`] and a [`FormatContext`] and never gets the score itself, so no format can leak
+//! [`StudentView`] and a [`FormatContext`]. It never gets the score itself, so no format can leak
 //! what the policy hides.
 //!
 //! A format is one file, which declares its [`FormatSpec`], and an entry in [`FORMATS`].
@@ -26,7 +26,7 @@ pub use item_view::ItemView;
 pub use spec::{FormatContext, FormatSpec, MethodLocation, OutputSpec};
 pub use student_view::StudentView;
 
-/// All formats, in the order in which `--help` lists them.
+/// All formats, in the order of `--help`.
 pub static FORMATS: [&FormatSpec; 9] = [
     &json::FORMAT,
     &text::FORMAT,

@@ -16,7 +16,7 @@ use crate::report::atomic_write;
 use crate::report::text::HintDetail;
 use crate::submission::Submission;
 
-/// The requested output files, and the context to render them.
+/// The requested output files and the context for rendering them.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
     files: Vec<Output>,
@@ -33,9 +33,9 @@ struct Output {
 }
 
 impl Outputs {
-    /// Resolves the path of each requested output: the path in the request if there is one, else
-    /// the platform's, else a file in `folder`. Fails if the environment lacks a variable that a
-    /// format needs.
+    /// Resolves the path of each requested output: the path in the request, else the platform's
+    /// path, else a file in `folder`. Fails if the environment lacks a variable that a format
+    /// needs.
     pub fn new(
         specs: &[OutputSpec],
         folder: &Path,
@@ -59,7 +59,7 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// Writes each file atomically. `view` is called only if there are files to write.
+    /// Writes each file atomically. `view` is only called if there are files to write.
     pub fn write(&self, view: &dyn Fn() -> StudentView) -> Result<(), Error> {
         if self.is_empty() {
             return Ok(());
@@ -145,8 +145,8 @@ fn checkout() -> PathBuf {
     named.unwrap_or_else(|| env::current_dir().unwrap_or_default())
 }
 
-/// Returns the folder of the task files relative to the checkout. The result is empty if the files are
-/// not below the checkout.
+/// Returns the folder of the task files relative to the checkout. The result is empty if the files
+/// aren't below the checkout.
 fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut) -> String {
     let below = handed_out.folders_in(submitted).next();
     let folder = below.and_then(|below| submitted.join(below).canonicalize().ok());
@@ -177,7 +177,8 @@ mod tests {
     use crate::format::tests::sample;
     use crate::handed_out::RAYS;
 
-    /// The folder with the starter's files, relative to the package, in which Cargo runs the tests.
+    /// The folder with the starter's files, relative to the package. Cargo runs the tests in the
+    /// package's folder.
     const STARTER: &str = "starter";
 
     fn outputs(formats: &[&str], folder: &Path) -> Outputs {
@@ -239,7 +240,8 @@ mod tests {
         assert!(commands(&["text", "github=out/a.md"]).starts_with("::error file="));
     }
 
-    /// Tests cannot set environment variables, so this one reads a file that Cargo names in one.
+    /// Tests cannot set environment variables, so this test uses a variable that Cargo sets to the
+    /// path of a file.
     #[test]
     fn a_file_that_the_platform_names_keeps_its_text() {
         static SHARED: FormatSpec = FormatSpec {
@@ -285,7 +287,7 @@ mod tests {
         let folder_of = |submitted: &str| {
             folder_in_checkout(&checkout.path().join(submitted), checkout.path(), &RAYS)
         };
-        // Not all files have to be there.
+        // Not all files have to exist.
         fs::create_dir_all(checkout.path().join("a3/src")).unwrap();
         fs::write(checkout.path().join("a3/src/bvh.rs"), "").unwrap();
         assert_eq!(["a3/src", "a3"].map(folder_of), ["a3/src"; 2]);
@@ -299,7 +301,7 @@ mod tests {
     #[test]
     fn the_checkout_is_the_current_folder_if_no_platform_names_another() {
         let folder = outputs(&[], "out".as_ref()).context.folder;
-        // On GitHub, the checkout is the whole workspace, if that is where the tests run.
+        // If the tests run on GitHub, the checkout is the whole workspace.
         let current = env::current_dir().unwrap().canonicalize().unwrap();
         let named = env::var_os("GITHUB_WORKSPACE").map(PathBuf::from);
         let is_elsewhere = named.is_some_and(|named| {

@@ -11,7 +11,7 @@ use crate::score::{
 };
 
 /// Returns the score without the parts that students may not see now. Every field is listed here,
-/// so that a new one is not shown before it is decided who may see it.
+/// so that a new field isn't shown before someone decides who may see it.
 pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
     Score {
         schema: score.schema,
@@ -63,8 +63,8 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
 }
 
 /// Removes everything from an item that students may not see at this visibility, including the ids
-/// of `hidden` items. Every field is listed here, so that a new one is not shown before it is
-/// decided who may see it.
+/// of `hidden` items. Every field is listed here, so that a new field isn't shown before someone
+/// decides who may see it.
 pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
     let verdict = without_hidden_id(&item.verdict, hidden);
     let sentence = sentence(&verdict, item.carried_forward);
@@ -94,7 +94,7 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
             at: None,
             look: (item.look.clone()).filter(|_| verdict.kind() == VerdictKind::Failed),
             verdict,
-            // The program can choose which of them it gets.
+            // A program could choose which clue it gets.
             clue: None,
             section: item.section.clone(),
             hints: item.hints.clone(),
@@ -133,7 +133,7 @@ fn sanitized_build(build: &BuildReport) -> BuildReport {
     }
 }
 
-/// Replaces the id of a hidden item by that of its task.
+/// Replaces the id of a hidden item with its task's.
 fn without_hidden_id(verdict: &Verdict, hidden: &[String]) -> Verdict {
     if let Verdict::Blocked { by } = verdict
         && hidden.contains(by)
@@ -144,8 +144,7 @@ fn without_hidden_id(verdict: &Verdict, hidden: &[String]) -> Verdict {
     verdict.clone()
 }
 
-/// Keeps only the id, the title and the points of an item, with a verdict that follows from the
-/// points.
+/// Keeps only an item's id, title and points, and a verdict derived from the points.
 fn redact_to_points(item: &ItemScore) -> ItemScore {
     let is_pending = item.verdict == Verdict::Pending;
     ItemScore {
@@ -164,7 +163,7 @@ fn verdict_from_points(is_pending: bool, points: u32, max_points: u32) -> Verdic
     }
 }
 
-/// Returns the items of a task that students may see now, and one item that sums up the others.
+/// Returns the items of a task that students may see now and one item that sums up the others.
 fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
     let (open, hidden): (Vec<&ItemView>, Vec<&ItemView>) = of_task
         .iter()
@@ -202,7 +201,7 @@ mod tests {
         items.find(|item| item.id == id).unwrap()
     }
 
-    /// The sample has something for each field, at each visibility.
+    /// The sample has a value for each field at each visibility.
     #[test]
     fn students_see_what_the_policy_allows() {
         let view = sample::restricted();
@@ -224,7 +223,7 @@ mod tests {
         assert_eq!(view.visible.rerun_command, RerunCommand::default());
     }
 
-    /// Students know the others.
+    /// Students know the ids of the other items.
     #[test]
     fn only_a_hidden_item_is_named_by_its_task() {
         let hidden = ["bbox.flat".to_owned()];

@@ -1,9 +1,9 @@
-//! The sentences that students read about the items of an exam that they do not have.
+//! The sentences that students read about the items of an exam they don't have.
 //!
-//! When a submission's program is graded, it sees the questions. Whatever it chooses and a student
-//! reads later could therefore carry questions out: the text of a panic, an exit code, the number
-//! of wrong answers. So the sentence about an item follows from its verdict alone, and contains
-//! nothing else but the id of an item of the exam.
+//! When a submission's program is graded, it sees the questions. Anything it can influence and a
+//! student later reads could leak them: the text of a panic, an exit code or the number of wrong
+//! answers. So the sentence about an item depends only on its verdict, and contains nothing else
+//! except an item's id.
 
 use crate::score::Verdict;
 

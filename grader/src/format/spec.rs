@@ -19,18 +19,18 @@ pub struct FormatSpec {
     /// The environment variables whose values are copied into the file. All of them must be set.
     pub variables: &'static [&'static str],
     /// The environment variable with the path of a file that the platform shares between commands.
-    /// If it is set, the text is appended to that file unless another path is requested.
+    /// If it is set, the text is appended to that file unless a different path is requested.
     pub shared_file: Option<&'static str>,
-    /// Renders the file. `None` for the score file, which is not for students.
+    /// Renders the file. `None` for the score file, which isn't for students.
     pub render: Option<Render>,
-    /// Renders commands to the CI runner, which are printed to standard output.
+    /// Renders commands for the CI runner, which are printed to standard output.
     pub runner_commands: Option<Render>,
 }
 
-/// A renderer. It gets only what students may see.
+/// A renderer. It only gets what students may see.
 pub type Render = fn(&StudentView, &FormatContext) -> String;
 
-/// Facts about a submission that are not part of its score.
+/// Facts about a submission that aren't part of its score.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormatContext {
     /// The folder of the task files in the repository, such as `student/src`. It is empty if they
@@ -38,7 +38,7 @@ pub struct FormatContext {
     pub folder: String,
     /// The location of each task's method.
     pub methods: BTreeMap<Task, MethodLocation>,
-    /// The environment variables with which the platform describes the submission.
+    /// The environment variables the platform uses to describe the submission.
     pub variables: BTreeMap<&'static str, String>,
     /// The level of detail of hints.
     pub hints: HintDetail,
@@ -49,12 +49,12 @@ pub struct FormatContext {
 pub struct MethodLocation {
     /// The name of the task file, such as `sphere.rs`.
     pub file: &'static str,
-    /// The 1-based line number of the method's signature, if the file has one.
+    /// The 1-based line number of the method's signature, if the file contains it.
     pub line: Option<u32>,
 }
 
 impl FormatContext {
-    /// Returns the name of the file with a task's method. It is empty if the task is not one of the
+    /// Returns the name of the file with a task's method. It is empty if the task isn't one of the
     /// assignment's.
     pub fn file_of(&self, task: Task) -> &str {
         self.methods.get(&task).map_or("", |method| method.file)
@@ -71,7 +71,7 @@ pub struct OutputSpec {
 }
 
 impl FormatSpec {
-    /// A format with only a name and a default file, from which the others are made.
+    /// A format with only a name and a default file, as a base for the others.
     pub const EMPTY: FormatSpec = FormatSpec {
         id: "",
         file: "",

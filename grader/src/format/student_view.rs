@@ -14,7 +14,7 @@ pub struct StudentView {
     pub visible: Score,
     /// All items, for platforms that can show some of them later.
     pub all_items: Vec<ItemView>,
-    /// The points that count in the course.
+    /// The final points in the course.
     pub counted: CountedPoints,
 }
 
@@ -50,14 +50,14 @@ impl StudentView {
         tasks.flat_map(|task| task.items.iter().map(move |item| (task, item)))
     }
 
-    /// Returns a sentence about the points that count towards the grade, and why, or `None` if they
-    /// count as they were earned.
+    /// Returns a sentence that explains how the points contribute to the grade, or `None` if they
+    /// are used unchanged.
     pub fn counted_text(&self) -> Option<String> {
         self.counted.explanation_if_changed()
     }
 
     /// Returns how long grading took, in milliseconds. `None` if students may not see every
-    /// question, since a program that waits can choose this number.
+    /// question, since a program can influence this number by waiting.
     pub fn milliseconds(&self) -> Option<u64> {
         let Timings {
             build_ms, exam_ms, ..
@@ -65,7 +65,7 @@ impl StudentView {
         shows_everything(&self.all_items).then_some(build_ms + exam_ms)
     }
 
-    /// Returns a notice if grading is not complete.
+    /// Returns a notice if grading isn't complete.
     pub fn unfinished_notice(&self) -> Option<String> {
         let all = self.all_items.len();
         let graded = self
@@ -89,9 +89,9 @@ impl StudentView {
     }
 }
 
-/// Returns whether students may see everything about all items of a task. If not, they see
-/// everything about none: one process answers the whole task, so its answer to an open item can
-/// repeat the question of another one.
+/// Returns whether students may see everything about all items of a task. Otherwise, they see
+/// everything about none of them: one process answers the whole task, so its answer to an open item
+/// could repeat another item's question.
 fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
     let mut items = task.items.iter();
     items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// Returns what students see of the sample as a final exam, with these exceptions.
+    /// Returns the students' view of the sample as a final exam, with these exceptions.
     fn view(items: &str) -> StudentView {
         let policy = format!("[visibility]\nfinal = 'all'\n[visibility.items]\n{items}");
         sample::view(&sample::of_final_exam(sample::score()), &policy, 0)
@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(visibility(&one, "triangle.edge"), Visibility::Points);
         assert_eq!(visibility(&one, "triangle.inside"), Visibility::Feedback);
         assert_eq!(visibility(&one, "camera.corners"), Visibility::All);
-        // Items that are not open anyway stay as they are.
+        // Items that aren't open anyway stay unchanged.
         let all = view("triangle = 'points'\n'triangle.edge' = 'hidden'");
         assert_eq!(visibility(&all, "triangle.inside"), Visibility::Points);
         assert_eq!(visibility(&all, "triangle.edge"), Visibility::Hidden);

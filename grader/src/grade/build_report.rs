@@ -1,11 +1,11 @@
-//! Reports compiler errors, and notes on a submission's files, in the score.
+//! Reports compiler errors and notes on a submission's files in the score.
 
 use crate::build::Build;
 use crate::score::{BuildReport, FileReport};
 use crate::submission::Submission;
 use crate::verdict::{file_line, file_message};
 
-/// Returns the compiler errors, and notes on the submission's files.
+/// Returns the compiler errors and notes on the submission's files.
 pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     let not_compiled = build.not_compiled.iter().map(|(file, why)| FileReport {
         file: (*file).to_owned(),
@@ -19,7 +19,7 @@ pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     }
 }
 
-/// Returns notes on the submission's files that do not affect points.
+/// Returns notes on the submission's files, which don't affect points.
 fn notes(submission: &Submission, build: &Build) -> Vec<String> {
     let mut notes = submission.notes.clone();
     let compiled = submission

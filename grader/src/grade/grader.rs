@@ -1,4 +1,4 @@
-//! The grader of submissions: exam, builder and policy, prepared once.
+//! The grader of submissions: an exam, a builder and a policy, prepared once.
 
 use std::io;
 use std::path::Path;
@@ -49,8 +49,8 @@ pub struct Grader<'a> {
 }
 
 impl<'a> Grader<'a> {
-    /// Loads the exam, prepares the builder and builds the submission. Reading the exam takes a tenth
-    /// as long as compiling, and is done in parallel with it.
+    /// Loads the exam, prepares the builder and builds the submission. Reading the exam takes a
+    /// tenth as long as compiling and is done in parallel.
     pub(super) fn build_prepared(prepared: &mut Prepared<'a>) -> Result<(Self, Build), Error> {
         let options = prepared.options;
         let report_errors = print_compile_errors(prepared.source_paths());
@@ -62,7 +62,7 @@ impl<'a> Grader<'a> {
             let builder = prepared.builder()?.clone();
             let builder = with_requested_level(builder, options.isolation)?;
             let submission = &prepared.submission;
-            // In the first run, preparing the builder takes longer than reading the exam. Then an
+            // In the first run, preparing the builder takes longer than reading the exam, so an
             // invalid exam is reported before the submission is compiled.
             let build = || builder.build_with_progress(submission, report_errors);
             let (build, file) = if reading.is_finished() {
@@ -77,7 +77,7 @@ impl<'a> Grader<'a> {
         Ok((grader, build))
     }
 
-    /// Loads the exam, and prepares the builder.
+    /// Loads the exam and prepares the builder.
     pub fn prepare(options: &'a GradeOptions) -> Result<Self, Error> {
         let file = options.exam.load(options.handed_out)?;
         let workspace = Workspace::find()?;
@@ -113,8 +113,8 @@ impl<'a> Grader<'a> {
         StudentView::new(score, &self.policy, self.lateness)
     }
 
-    /// Returns the requested output formats. They are written to `folder` unless they have a
-    /// location of their own.
+    /// Returns the requested output formats. They are written to `folder` unless they have their
+    /// own location.
     pub(super) fn outputs(&self, submission: &Submission, folder: &Path) -> Result<Outputs, Error> {
         let submitted = submission_path(self.options, &self.workspace);
         let (formats, hints) = (&self.options.formats, self.options.hints);
@@ -131,7 +131,7 @@ impl<'a> Grader<'a> {
         self.options.handed_out
     }
 
-    /// Returns the exam's id, and the hash of its file.
+    /// Returns the exam's id and the hash of its file.
     pub fn exam_name(&self) -> &ExamName {
         &self.exam_name
     }
@@ -142,7 +142,7 @@ impl<'a> Grader<'a> {
         self.builder.identity()
     }
 
-    /// Returns the isolation level at which submissions will be compiled and run.
+    /// Returns the isolation level for compiling and running submissions.
     pub fn isolation(&self) -> Isolation {
         self.builder.isolation()
     }
@@ -152,7 +152,7 @@ impl<'a> Grader<'a> {
         &self.policy
     }
 
-    /// Returns the exam. If only one task is graded, it contains the items of that task and those that
+    /// Returns the exam. If only one task is graded, it contains that task's items and the items
     /// they need.
     pub fn exam(&self) -> &Exam {
         &self.exam
@@ -163,12 +163,12 @@ impl<'a> Grader<'a> {
         source_paths(self.options, &self.workspace)
     }
 
-    /// Reads the submission's files as they are now.
+    /// Reads the current version of the submission's files.
     pub fn collect(&self) -> Result<Submission, Error> {
         collect(self.options, &self.workspace)
     }
 
-    /// Builds a submission. Files that do not compile are replaced by the starter's.
+    /// Builds a submission. Files that don't compile are replaced by the starter's.
     pub fn build(&self, submission: &Submission) -> Result<Build, Error> {
         self.builder.build(submission)
     }
@@ -218,8 +218,8 @@ impl<'a> Grader<'a> {
         })
     }
 
-    /// Returns the report's files, or `None` if only some tasks are graded, since their points are
-    /// not a score.
+    /// Returns the report's files, or `None` if only some tasks are graded, since their points
+    /// aren't a score.
     pub fn files(&self, submission: &Submission, reload: Reload) -> Option<ReportFiles> {
         let folder = match &self.options.out {
             Some(folder) => folder.clone(),

@@ -1,4 +1,4 @@
-//! Grades a submission, from options to the score.
+//! Grades a submission, from the options to the score.
 
 mod build_report;
 pub(crate) mod cached_report;
@@ -26,7 +26,7 @@ pub use build_report::build_report;
 pub use grader::Grader;
 pub use prepared::{Prepared, default_folder};
 
-/// The score of a submission, and the files to which it was written.
+/// The score of a submission and the files it was written to.
 #[derive(Debug)]
 pub struct GradedSubmission {
     /// The complete score, including what students may not see.
@@ -35,7 +35,7 @@ pub struct GradedSubmission {
     pub files: Option<ReportFiles>,
     /// The part of the score that students may see.
     pub student_view: StudentView,
-    /// Hashes of everything that the score depends on, or `None` if its report must not be cached.
+    /// Hashes of everything the score depends on, or `None` if its report must not be cached.
     pub cache_key: Option<CacheKey>,
 }
 
@@ -49,12 +49,12 @@ impl GradedSubmission {
     }
 }
 
-/// Grades the submission that the options name, and writes its reports.
+/// Grades the submission named in the options and writes its reports.
 pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
     grade_prepared(&mut Prepared::new(options)?)
 }
 
-/// Grades a submission that has been read, and writes its reports.
+/// Grades a submission that has been read and writes its reports.
 pub fn grade_prepared(prepared: &mut Prepared) -> Result<GradedSubmission, Error> {
     let (grader, build) = Grader::build_prepared(prepared)?;
     let (options, submission) = (prepared.options, &prepared.submission);

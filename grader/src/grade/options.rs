@@ -1,4 +1,4 @@
-//! Options for grading, independent of the command line that they may come from.
+//! Options for grading, independent of the command line.
 
 use std::path::PathBuf;
 
@@ -13,20 +13,20 @@ use crate::report::text::HintDetail;
 /// Options for grading a submission. The default is a student's own work on the practice exam.
 ///
 /// Code that depends on all options, such as a cache key, destructures this type without `..`, so
-/// that an option that is added later cannot be forgotten there.
+/// that a new option cannot be forgotten there.
 #[derive(Clone, Debug)]
 pub struct GradeOptions {
     /// The assignment.
     pub handed_out: &'static HandedOut,
-    /// The submission's folder or archive; `None` is the folder of students' own work.
+    /// The submission's folder or archive. `None` is the folder of students' own work.
     pub submission: Option<PathBuf>,
-    /// The exam that the submission is graded with.
+    /// The exam to grade the submission with.
     pub exam: ExamSource,
     /// The tasks to grade.
     pub tasks: TaskSelection,
-    /// The course's policy file; `None` is the default policy.
+    /// The course's policy file. `None` is the default policy.
     pub policy: Option<PathBuf>,
-    /// Gradescope's `submission_metadata.json`, which has the submission time.
+    /// Gradescope's `submission_metadata.json`, which contains the submission time.
     pub gradescope_metadata: Option<PathBuf>,
     /// The treatment of items that depend on a failed task.
     pub dependents: Dependents,
@@ -36,7 +36,7 @@ pub struct GradeOptions {
     pub budget: Budget,
     /// The level of detail of hints.
     pub hints: HintDetail,
-    /// The folder for the report; `None` is `target/grade/NAME`.
+    /// The folder for the report. `None` is `target/grade/NAME`.
     pub out: Option<PathBuf>,
     /// The requested output formats.
     pub formats: Vec<OutputSpec>,

@@ -1,4 +1,4 @@
-//! Everything that a command finds before it grades a submission: the files and settings that the
+//! Everything a command prepares before it grades a submission: the files and settings that the
 //! options refer to.
 
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use crate::submission::Submission;
 use crate::workspace::Workspace;
 use crate::workspace::source_paths::SourcePaths;
 
-/// A submission, and the workspace and the builder that it is graded with.
+/// A submission, and the workspace and the builder used to grade it.
 pub struct Prepared<'a> {
     /// The options that name the submission.
     pub options: &'a GradeOptions,
@@ -25,12 +25,12 @@ pub struct Prepared<'a> {
     pub submission: Submission,
     /// The builder, once it is needed.
     builder: Option<Builder>,
-    /// The time at which the command started.
+    /// The time when the command started.
     pub(super) started_at: Instant,
 }
 
 impl<'a> Prepared<'a> {
-    /// Finds the workspace, and reads the submission that the options name.
+    /// Finds the workspace and reads the submission named in the options.
     pub fn new(options: &'a GradeOptions) -> Result<Self, Error> {
         let started_at = Instant::now();
         let workspace = Workspace::find()?;
@@ -43,7 +43,7 @@ impl<'a> Prepared<'a> {
         })
     }
 
-    /// Returns the builder without a sandbox. It is prepared at the first call.
+    /// Returns the builder without a sandbox. It is prepared on the first call.
     pub fn builder(&mut self) -> Result<&Builder, Error> {
         let builder = match self.builder.take() {
             Some(builder) => builder,
@@ -58,7 +58,7 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Returns the policy that the options name, or the default.
+/// Returns the policy named in the options, or the default.
 pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Error> {
     let Some(path) = &options.policy else {
         return Ok(Policy::default());
@@ -83,7 +83,7 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
         .join(safe_folder_name(&submission.name))
 }
 
-/// Returns the builder. It uses the reference's parts if they exist and are wanted.
+/// Returns the builder. It uses the reference's parts if they exist and the options allow it.
 pub(super) fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, Error> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference(options.handed_out) {
@@ -94,7 +94,7 @@ pub(super) fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<B
     }
 }
 
-/// Reads the submission that the options name.
+/// Reads the submission named in the options.
 pub(super) fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<Submission, Error> {
     let path = submission_path(options, workspace);
     Ok(match &options.submission {
@@ -103,7 +103,7 @@ pub(super) fn collect(options: &GradeOptions, workspace: &Workspace) -> Result<S
     })
 }
 
-/// Returns the path of the submission that the options name.
+/// Returns the path of the submission named in the options.
 pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> PathBuf {
     match &options.submission {
         Some(path) => workspace.resolve(path),
@@ -111,7 +111,7 @@ pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> 
     }
 }
 
-/// Returns the paths of the task files of the submission that the options name.
+/// Returns the paths of the task files of the submission named in the options.
 pub(super) fn source_paths(options: &GradeOptions, workspace: &Workspace) -> SourcePaths {
     SourcePaths::of(&submission_path(options, workspace), options.handed_out)
 }

@@ -12,12 +12,11 @@ use crate::report::atomic_write;
 use crate::report::html::{self, Reload};
 use crate::score::Score;
 
-/// Minimum time between two writes of the score file during an exam. Writing a score takes a
-/// millisecond, and so do most items. If the grader is killed, at most the results of one interval
+/// Minimum time between two writes of the score file during an exam. Writing a score takes about as
+/// long as most items: a millisecond. If the grader is killed, at most the results of one interval
 /// are missing from the file.
 const SCORE_INTERVAL: Duration = Duration::from_millis(100);
-/// Minimum time between two writes of the page, which takes longer to write than most items take to
-/// test.
+/// Minimum time between two writes of the page. Writing it takes longer than testing most items.
 const PAGE_INTERVAL: Duration = Duration::from_secs(1);
 
 /// The report files of one submission.
@@ -93,8 +92,8 @@ impl ReportFiles {
         Ok(())
     }
 
-    /// Puts sentences about the points that count into the finished page. The page is rendered
-    /// before that, because a policy never changes a score.
+    /// Inserts sentences about the final points into the finished page. The page is rendered
+    /// without them, because a policy never changes a score.
     pub fn write_counted(&self, texts: &[String]) -> Result<(), Error> {
         Ok(html::write_counted(&self.page, texts)?)
     }

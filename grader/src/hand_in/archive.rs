@@ -1,4 +1,4 @@
-//! The bytes of the archive: the same for the same files, wherever and whenever it is made.
+//! The bytes of the archive. The same files always give the same bytes, on any machine.
 
 use std::io::Write;
 

@@ -1,4 +1,4 @@
-//! Makes the archive that a student hands in, and checks it as the grader will read it.
+//! Makes the archive that a student hands in and checks it by reading it as the grader will.
 
 mod archive;
 mod summary;
@@ -48,19 +48,19 @@ pub struct HandInArguments {
 pub struct HandIn {
     /// The path of the archive.
     pub archive: PathBuf,
-    /// The submission as it was read back from the archive.
+    /// The submission read back from the archive.
     submission: Submission,
-    /// The task files in the folder, some of which may be missing or unreadable.
+    /// The task files in the folder. Some may be missing or unreadable.
     original: Submission,
-    /// The compiler's errors, and notes about files.
+    /// The compiler's errors and notes about files.
     build: BuildReport,
-    /// The former archive, if it holds work that the new one does not.
+    /// The previous archive, if it contains work that the new one doesn't.
     kept: Option<FormerArchive>,
 }
 
 impl HandIn {
-    /// Makes the archive of a student's own work or of another folder, reads it back, and compiles
-    /// what is in it.
+    /// Makes the archive of a student's own work or of another folder, reads it back and compiles
+    /// its contents.
     pub fn make(arguments: HandInArguments) -> Result<Self, Error> {
         let handed_out = arguments.assignment.unwrap_or_default();
         let folder = arguments.folder;
@@ -108,7 +108,7 @@ impl HandIn {
         })
     }
 
-    /// Returns whether something was written, and everything compiles.
+    /// Returns whether some task has been started and everything compiles.
     pub fn is_ready(&self) -> bool {
         self.is_started() && self.build.not_compiled.is_empty()
     }
@@ -120,17 +120,18 @@ impl HandIn {
     }
 }
 
-/// A former archive that was kept.
+/// A copy of the previous archive.
 #[derive(Debug)]
 struct FormerArchive {
     /// The path of the copy.
     copy: PathBuf,
-    /// The task files that it holds work in, while the new ones are missing or as they were handed out.
+    /// The task files with work in the old archive that are missing or unmodified in the new one.
     files: Vec<&'static str>,
 }
 
-/// Copies the archive at this path if it holds work in a file that is now missing or as it was handed
-/// out. Anything that cannot be read as an archive of the task files is replaced, since it is no work.
+/// Copies the archive at this path if it contains work in a file that is now missing or unmodified.
+/// Anything that cannot be read as an archive of the task files is simply replaced, since it
+/// doesn't contain work.
 fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<FormerArchive>, Error> {
     let Ok(former) = Submission::collect(archive, now.handed_out) else {
         return Ok(None);
@@ -149,7 +150,7 @@ fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<FormerArchi
     Ok(Some(FormerArchive { copy, files }))
 }
 
-/// Reads the archive as the grader will, and compares it with the original.
+/// Reads the archive as the grader will and compares it with the original.
 fn read_back(archive: &Path, original: &Submission, bytes: &[u8]) -> Result<Submission, Error> {
     let changed = || {
         Error::Machine(format!(

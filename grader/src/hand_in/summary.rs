@@ -1,4 +1,4 @@
-//! The text about an archive: what it holds, and what to do with it.
+//! The text about an archive: its contents and what to do with it.
 
 use std::fmt;
 
@@ -45,7 +45,7 @@ impl fmt::Display for HandIn {
 }
 
 impl HandIn {
-    /// Returns what the archive holds of a file.
+    /// Describes the state of a file in the archive.
     fn state(&self, file: &TaskFile, text: &Result<String, TaskFileError>) -> String {
         let text = match text {
             Ok(text) => text,
@@ -89,7 +89,7 @@ impl HandIn {
     }
 }
 
-/// Returns the number of the first line with a `todo!` outside of a comment.
+/// Returns the number of the first line with a `todo!` outside a comment.
 fn line_with_todo(text: &str) -> Option<usize> {
     let code = without_comments(text);
     let mut numbered = (1..).zip(code.lines());

@@ -24,12 +24,12 @@ impl HandedOut {
     ///
     /// # Errors
     ///
-    /// A message that says why the method is not found. A task whose method is a function outside of
+    /// A message that says why the method was not found. A task whose method is a function outside
     /// an `impl` is never found.
     ///
     /// # Panics
     ///
-    /// If the assignment has no such task.
+    /// If the task isn't part of the assignment.
     pub fn task_method(&self, task: Task, text: &str) -> Result<TaskMethod, String> {
         let info = self.assignment.info(task);
         let file = self.task_file(info.file).expect("tasks have a task file");
@@ -47,7 +47,7 @@ impl HandedOut {
         let (before, after) = (&text[..span.bytes.start], &text[span.bytes.end..]);
         let line = 1 + text[..span.name_start].matches('\n').count();
         let is_changed = tokens(&text[span.bytes.clone()]) != tokens(handed_out);
-        // An editor on Windows may have changed all line ends.
+        // An editor on Windows may have changed all line endings.
         let handed_out = if text.contains("\r\n") {
             handed_out.replace('\n', "\r\n")
         } else {
@@ -62,7 +62,7 @@ impl HandedOut {
     }
 }
 
-/// The declaration of a method, as it is and as it was handed out.
+/// A method's current declaration and the original one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedDeclaration {
     /// The declaration in the submission, on one line.
@@ -71,8 +71,8 @@ pub struct ChangedDeclaration {
     pub handed_out: String,
 }
 
-/// Returns the first declaration in a file that is not as it was handed out, in more than its format.
-/// Methods that are not found are left to the compiler.
+/// Returns the first declaration in a file that differs from the starter's in more than its format.
+/// Methods that aren't found are left to the compiler.
 pub fn changed_declaration(file: &TaskFile, text: &str) -> Option<ChangedDeclaration> {
     let own = methods(text).ok()?;
     starter_methods(file).into_iter().find_map(|given| {

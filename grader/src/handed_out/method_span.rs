@@ -8,7 +8,8 @@ use ra_ap_rustc_lexer::{FrontmatterAllowed, Token, TokenKind, tokenize};
 
 use super::tokens::tokens;
 
-/// The reason why a method cannot be found if a brace, bracket or parenthesis is missing or superfluous.
+/// The reason given if a method cannot be found because a brace, bracket or parenthesis is missing
+/// or superfluous.
 const UNMATCHED_BRACES: &str = "its braces do not match";
 
 /// A method in an `impl` block at the top level of a file.
@@ -64,16 +65,16 @@ pub fn methods(text: &str) -> Result<Vec<MethodSpan<'_>>, &'static str> {
     }
 }
 
-/// The state while the tokens of a file are read in order.
+/// The state while reading a file's tokens in order.
 struct Scan<'a> {
     text: &'a str,
-    /// The closing delimiters that are expected, from the outermost to the innermost.
+    /// The expected closing delimiters, from the outermost to the innermost.
     open: Vec<&'static str>,
-    /// The end of the keyword `impl`, while its header is read.
+    /// The end of the keyword `impl`, while reading its header.
     header: Option<usize>,
-    /// The tokens of the header of the `impl` block that is being read.
+    /// The header's tokens of the current `impl` block.
     block: Option<String>,
-    /// The start of the item in the block that is being read, with its documentation.
+    /// The start of the current item in the block, including its documentation.
     item: Option<usize>,
     /// The name of this item, if it is a method.
     name: Option<Range<usize>>,
@@ -84,7 +85,7 @@ struct Scan<'a> {
 
 impl Scan<'_> {
     fn add(&mut self, token: &Token, bytes: Range<usize>) -> Result<(), &'static str> {
-        // An ordinary comment above an item is not part of it.
+        // An ordinary comment above an item isn't part of it.
         if let TokenKind::Whitespace
         | TokenKind::LineComment { doc_style: None }
         | TokenKind::BlockComment {
@@ -99,7 +100,8 @@ impl Scan<'_> {
             self.item.get_or_insert(bytes.start);
         }
         let is_after_fn = mem::take(&mut self.after_fn);
-        // The text says what a token is: a brace in a string or a character has quotation marks.
+        // The text is enough to tell tokens apart: a brace in a string or a character literal is
+        // part of a token with quotation marks.
         match word {
             "impl" if self.open.is_empty() => self.header = Some(bytes.end),
             "{" => {
@@ -137,7 +139,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    /// Ends the item that is being read, and records it if it is a method.
+    /// Ends the current item. Records it if it is a method.
     fn end_item(&mut self, end: usize) {
         let (start, name) = (self.item.take(), self.name.take());
         if let (Some(start), Some(implemented), Some(name)) = (start, &self.block, name) {

@@ -1,6 +1,6 @@
-//! The files of an assignment as they are handed out, embedded in this program: the task files that
-//! students write, and the given files around them. Given files in a submission are compared with
-//! these, but never used.
+//! The files of an assignment as handed out, embedded in this program: the task files that students
+//! write and the given files around them. Given files in a submission are compared with these but
+//! never used.
 
 mod fresh;
 mod method_span;
@@ -26,7 +26,7 @@ pub use tokens::without_comments;
 /// The assignments that `--assignment` selects from. The first is the default.
 pub static ASSIGNMENTS: [&HandedOut; 1] = [&RAYS];
 
-/// An assignment as it is handed out.
+/// An assignment as handed out to students.
 #[derive(PartialEq, Eq)]
 pub struct HandedOut {
     /// The assignment's tasks.
@@ -35,17 +35,17 @@ pub struct HandedOut {
     pub practice_exam: &'static str,
     /// The files that students write, in lecture order.
     pub files: &'static [TaskFile],
-    /// The given files that are compiled with every submission. The first is the root of the crate.
+    /// The given files that are compiled with every submission. The first is the crate's root.
     pub given: &'static [GivenFile],
-    /// The given file that renders pictures. The grader does not use it.
+    /// The given file that renders pictures. The grader doesn't use it.
     pub main: GivenFile,
-    /// Source of the function `main` of a probe, which is appended to the root of the crate.
+    /// Source of a probe's `main` function, which is appended to the crate's root.
     pub entry: &'static str,
     /// The folder of students' own work, relative to the workspace.
     pub student: &'static str,
-    /// The folder of the starter that is embedded in this program, relative to the workspace.
+    /// The folder of the starter embedded in this program, relative to the workspace.
     pub starter: &'static str,
-    /// The folder of the reference solution's files, relative to the workspace. Students do not have
+    /// The folder of the reference solution's files, relative to the workspace. Students don't have
     /// it.
     pub reference: &'static str,
     /// The files that can be graded with the reference's parts.
@@ -61,8 +61,8 @@ pub struct GivenFile {
     pub text: &'static str,
 }
 
-/// A task file that is graded with the reference's parts in place of the submission's other files,
-/// if an item that it depends on has failed. The sources that connect it to the parts are in
+/// A task file that is graded with the reference's parts in place of the submission's other files
+/// if an item it depends on has failed. The sources that connect it to the parts are in
 /// [`SubstitutedFile::folder`].
 #[derive(Debug, PartialEq, Eq)]
 pub struct SubstitutedFile {
@@ -73,8 +73,8 @@ pub struct SubstitutedFile {
 }
 
 impl SubstitutedFile {
-    /// Returns the folder of the sources that connect the file to the parts, relative to the parent
-    /// of the reference's `src`.
+    /// Returns the folder of sources that connect the file to the parts, relative to the parent of
+    /// the reference's `src`.
     pub fn folder(&self) -> String {
         format!("substitution/{}", self.file.trim_end_matches(".rs"))
     }
@@ -91,7 +91,7 @@ fn starter_methods(file: &TaskFile) -> Vec<MethodSpan<'static>> {
 }
 
 impl Default for &'static HandedOut {
-    /// Returns the assignment of a command line that names none.
+    /// Returns the assignment for a command line that doesn't name one.
     fn default() -> Self {
         ASSIGNMENTS[0]
     }
@@ -118,15 +118,15 @@ impl HandedOut {
     }
 
     /// Returns the names of the reference's files that make up the parts of a substituted file: all
-    /// files except the root of the crate and those that are compiled with the submission.
+    /// files except the crate's root and the files that are compiled with the submission.
     pub fn parts(&self, substituted: &SubstitutedFile) -> impl Iterator<Item = &'static str> {
         let given = self.given.iter().skip(1).map(|file| file.name);
         let all = self.file_names().chain(given);
         all.filter(|name| *name != substituted.file && !substituted.given.contains(name))
     }
 
-    /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is another
-    /// file.
+    /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is a
+    /// different file.
     pub fn task_file(&self, name: &str) -> Option<&'static TaskFile> {
         self.files.iter().find(|file| file.name == name)
     }
@@ -152,8 +152,8 @@ impl HandedOut {
         }
     }
 
-    /// Returns the folders, relative to a submission's, in which the assignment expects task files and
-    /// there are some.
+    /// Returns the folders, relative to a submission's, where the assignment expects task files and
+    /// that contain some.
     pub fn folders_in(&self, submission: &Path) -> impl Iterator<Item = &'static str> {
         let has_task_file = move |below: &&str| {
             let folder = submission.join(below);
@@ -190,7 +190,7 @@ impl HandedOut {
 pub struct ChangedMethod {
     /// The method's name.
     pub name: &'static str,
-    /// Whether there is no method of this name any more.
+    /// Whether the method no longer exists.
     pub is_missing: bool,
 }
 
@@ -261,7 +261,7 @@ mod tests {
             let missing = required.find(|part| !file.starter.contains(**part));
             assert_eq!(missing, None, "{}", file.name);
         }
-        // And each task is in a task file.
+        // Each task must be in a task file.
         for task in RAYS.assignment.tasks {
             assert!(RAYS.task_file(task.file).is_some(), "{}", task.id);
         }

@@ -1,10 +1,10 @@
-//! The assignment `rays` as it is handed out.
+//! The assignment `rays` as handed out to students.
 
 use judging::assignment;
 
 use super::{GivenFile, HandedOut, SubstitutedFile};
 
-/// Creates a given file of the starter that is embedded in this program.
+/// Creates a given file of the starter embedded in this program.
 macro_rules! given {
     ($name:literal) => {
         GivenFile {

@@ -1,9 +1,9 @@
-//! The tokens of source code, so that neither formatting nor a comment counts as a change.
+//! The tokens of source code. Comparing tokens ignores changes in formatting and comments.
 
 use ra_ap_rustc_lexer::{FrontmatterAllowed, TokenKind, tokenize};
 
-/// Returns the texts of the tokens of Rust source code, without white space and comments. Works on
-/// any text: what is no token of Rust is kept as it is.
+/// Returns the tokens of Rust source code as text, without white space and comments. Works on any
+/// text: anything that isn't a Rust token is kept unchanged.
 pub(super) fn tokens(text: &str) -> Vec<&str> {
     let mut rest = text;
     let mut found = Vec::new();
@@ -21,8 +21,8 @@ pub(super) fn tokens(text: &str) -> Vec<&str> {
     found
 }
 
-/// Returns the text without comments. The line breaks in them are kept, so that nothing moves to
-/// another line.
+/// Returns the text without comments. Line breaks in comments are kept, so that nothing moves to a
+/// different line.
 pub fn without_comments(text: &str) -> String {
     let mut rest = text;
     let mut code = String::new();

@@ -1,4 +1,4 @@
-//! Reads exams: the practice exam of an assignment, which is embedded in this program, a file, or standard input.
+//! Reads examsfrom the practice exam embedded in this program, a file or standard input.
 
 use std::borrow::Cow;
 use std::io::{self, Read};
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::handed_out::HandedOut;
 use crate::machine::files::{self, AtPath};
 
-/// Maximum size of an exam file, in bytes. The committed exams have about 3,000,000.
+/// Maximum size of an exam file, in bytes. The committed exams are about 3,000,000 bytes long.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
 /// The id of the practice exam, which students have with its answer keys and can run themselves.
@@ -19,16 +19,16 @@ pub const PRACTICE_ID: &str = "practice";
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
 
-/// The action that is impossible if the file cannot be read, for error messages.
+/// The failed action if the file cannot be read, for error messages.
 const ACTION: &str = "read the exam";
 
-/// The source that an exam is read from.
+/// The source of an exam.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum ExamSource {
     /// The practice exam.
     #[default]
     Practice,
-    /// Standard input, which can be read only once.
+    /// Standard input, which can only be read once.
     StandardInput,
     /// The exam file at this path.
     File(PathBuf),
@@ -54,8 +54,9 @@ impl ExamSource {
         }
     }
 
-    /// Returns the assignment of the command line, or else the one that an exam file is for. Without
-    /// either, or if the file has none that is known, returns the default one.
+    /// Returns the assignment named on the command line or, failing that, the assignment of the
+    /// exam file. If there is neither or the file's assignment is unknown, returns the default
+    /// assignment.
     pub fn assignment(&self, option: Option<&'static HandedOut>) -> &'static HandedOut {
         let of_file = || {
             let ExamSource::File(path) = self else {
@@ -67,7 +68,7 @@ impl ExamSource {
         option.or_else(of_file).unwrap_or_default()
     }
 
-    /// Reads the exam, and validates it as one for this assignment.
+    /// Reads the exam and validates it for this assignment.
     pub fn load(&self, handed_out: &HandedOut) -> Result<ExamFile, Error> {
         let name = self.option().unwrap_or(Path::new(PRACTICE_FILE));
         let bytes = self.bytes(handed_out)?;

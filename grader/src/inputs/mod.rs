@@ -1,4 +1,4 @@
-//! The inputs of a command besides the submission and the policy, as people name them.
+//! The inputs of a command, besides the submission and the policy, as people write them.
 
 pub mod exam_source;
 pub mod nearest_name;

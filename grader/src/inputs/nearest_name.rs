@@ -1,7 +1,7 @@
 //! Suggestions for misspelt names.
 
 /// Returns the known name that is nearest to a misspelt one, or `None` if none is near enough to be
-/// meant: at most one edit per three characters.
+/// a plausible typo, i.e. at most one edit per three characters.
 pub fn nearest_name<'a>(
     misspelt: &str,
     known: impl IntoIterator<Item = &'a str>,

@@ -8,8 +8,8 @@ use std::str::FromStr;
 pub struct QuestionRef {
     /// The item's id.
     pub item: String,
-    /// The question's number, counted from 1 over all questions of the item, or `None` for the first
-    /// wrong one.
+    /// The question's number, counted from 1 over all questions of the item, or `None` for the
+    /// first wrong question.
     pub number: Option<usize>,
 }
 

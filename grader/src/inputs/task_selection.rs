@@ -1,4 +1,4 @@
-//! The tasks to grade, as people name them.
+//! The tasks to grade, as people write them.
 
 use judging::assignment::{Assignment, Task, TaskInfo};
 
@@ -10,13 +10,13 @@ pub enum TaskSelection {
     /// All tasks.
     #[default]
     All,
-    /// Some of the tasks. They give no score.
+    /// Some of the tasks. Their points aren't a score.
     Only(Vec<Task>),
 }
 
 impl TaskSelection {
-    /// Selects tasks by name: the id of a task, or a file or its name without `.rs`, which means
-    /// all tasks in it. Upper and lower case are the same. Several names are separated by commas.
+    /// Selects tasks by name: a task's id, or a file's name with or without `.rs`, which selects
+    /// all tasks in it. Names are case-insensitive. Several names are separated by commas.
     ///
     /// # Errors
     ///
@@ -38,13 +38,13 @@ impl TaskSelection {
         }
     }
 
-    /// Returns whether all tasks are selected, so that there is a score.
+    /// Returns whether all tasks are selected, which is required for a score.
     pub fn is_all(&self) -> bool {
         *self == TaskSelection::All
     }
 }
 
-/// A task, or all tasks of a file, as people name them.
+/// A task, or all tasks of a file, as people write them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NamedTasks {
     /// The task with this id.
@@ -64,7 +64,7 @@ impl NamedTasks {
         names.map(|name| Self::parse(name, assignment)).collect()
     }
 
-    /// Returns the task with this id or, if there is none, the file with this name.
+    /// Returns the task with this id or, failing that, the file with this name.
     fn parse(name: &str, assignment: &Assignment) -> Result<Self, String> {
         let is = |known: &str| known.eq_ignore_ascii_case(name);
         let tasks = || assignment.tasks.iter();

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use crate::machine::files::{AtPath, PathError};
 
-/// Writes a copy beside the file, with the first number that is free, such as `bvh.rs.bak-1`.
-/// Returns its path. Never replaces a file or follows a link.
+/// Writes a copy next to the file, with the first free number, such as `bvh.rs.bak-1`. Returns its
+/// path. Never replaces a file or follows a link.
 pub(crate) fn keep(path: &Path, bytes: &[u8]) -> Result<PathBuf, PathError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut number = 1u32;
     loop {
         let copy = path.with_file_name(format!("{name}.bak-{number}"));
-        // `create_new` fails if there is anything at the path, even if it appeared just now.
+        // `create_new` fails if anything exists at the path, even if it was created just now.
         match OpenOptions::new().write(true).create_new(true).open(&copy) {
             Ok(mut file) => {
                 let written = file.write_all(bytes).and_then(|()| file.sync_all());

@@ -28,7 +28,7 @@ struct State {
 
 impl Capture {
     /// Starts reading in a thread. Keeps the first `keep` bytes and discards the rest, so that a
-    /// process that prints a lot is not blocked by a full pipe.
+    /// process that prints a lot isn't blocked by a full pipe.
     pub fn start(mut pipe: impl Read + Send + 'static, keep: usize) -> Self {
         let capture = Capture {
             shared: Arc::default(),

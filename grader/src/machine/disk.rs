@@ -1,10 +1,10 @@
-//! The seam between the grader and the disk. An installed [`Disk`] is asked before every operation on
-//! the files of submissions, reports and classes, and can make it fail. Tests install one that is
-//! full, or that fails every operation from some point on, as if the process had been killed. Outside
-//! of tests, none is installed.
+//! The interface between the grader and the disk. An installed [`Disk`] is called before every
+//! operation on the files of submissions, reports and classes and can make it fail. Tests install
+//! disks that are full, or that fail every operation from some point on, as if the process had been
+//! killed. Outside tests, none is installed.
 //!
-//! It is not asked about the files of the compiler, its sandbox and the probes: they are separate
-//! processes, and a fault in them is one of a process.
+//! It isn't called for the files of the compiler, its sandbox and the probes. They are separate
+//! processes, so tests make the processes fail instead.
 
 use std::io;
 use std::path::Path;
@@ -17,35 +17,35 @@ pub enum Operation<'a> {
     Read(&'a Path),
     /// Lists a folder.
     List(&'a Path),
-    /// Creates a folder, and those around it.
+    /// Creates a folder and its parents.
     CreateFolder(&'a Path),
     /// Creates an empty file with a temporary name in a folder.
     CreateTemporary(&'a Path),
-    /// Writes the contents of a file. If the operation is interrupted, a part of them may have been
+    /// Writes the contents of a file. If the operation is interrupted, part of them may have been
     /// written.
     Write(&'a Path, &'a [u8]),
-    /// Gives a complete file its name.
+    /// Renames a complete file to its final name.
     Rename(&'a Path, &'a Path),
     /// Removes a file.
     Remove(&'a Path),
 }
 
-/// A judge of operations.
+/// Decides whether operations succeed.
 pub trait Disk: Send + Sync {
-    /// Called before an operation. If this returns an error, the operation is not made, and fails
+    /// Called before an operation. If this returns an error, the operation is skipped and fails
     /// with this error.
     fn before(&self, operation: Operation) -> io::Result<()>;
 }
 
 static INSTALLED: OnceLock<&'static dyn Disk> = OnceLock::new();
 
-/// Installs a disk for the rest of this process. Returns whether it is the first one; others have no
-/// effect.
+/// Installs a disk for the rest of this process. Returns whether it is the first one. Later ones
+/// have no effect.
 pub fn install(disk: &'static dyn Disk) -> bool {
     INSTALLED.set(disk).is_ok()
 }
 
-/// Asks the installed disk, if there is one, before an operation.
+/// Calls the installed disk, if any, before an operation.
 pub fn before(operation: Operation) -> io::Result<()> {
     INSTALLED
         .get()

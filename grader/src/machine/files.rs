@@ -1,7 +1,8 @@
 //! Reads and writes files, with errors that name the path.
 //!
-//! Not the crate `fs-err`: it returns `io::Error`, so that an error without a path still compiles
-//! where one is expected, and it cannot name the path of a temporary file or of a program to run.
+//! The crate `fs-err` isn't used, because it returns `io::Error`, so an error without a path would
+//! still compile where one with a path is expected. It also cannot name the path of a temporary
+//! file or of a program to run.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
@@ -38,13 +39,13 @@ impl<T> AtPath<T> for io::Result<T> {
 }
 
 impl PathError {
-    /// Returns the error with other words between "cannot" and the path.
+    /// Returns the error with different words between "cannot" and the path.
     pub fn of_action(self, action: &'static str) -> Self {
         PathError { action, ..self }
     }
 
-    /// Returns the system's message in the style of other messages: it starts in lower case and has
-    /// no number. It also lacks the random name that the crate `tempfile` adds to it.
+    /// Returns the system's message in the style of other messages: in lower case, without an error
+    /// number, and without the random name that the crate `tempfile` adds.
     pub fn reason(&self) -> String {
         let text = self.source.to_string();
         let Some((message, after)) = text.split_once(" (os error ") else {
@@ -56,7 +57,7 @@ impl PathError {
         }
         let mut letters = message.chars();
         match (letters.next(), letters.next()) {
-            // Not in "I/O error".
+            // Keep the capital in "I/O error".
             (Some(first), Some('a'..='z' | ' ')) => first
                 .to_lowercase()
                 .chain(message.chars().skip(1))
@@ -66,9 +67,9 @@ impl PathError {
     }
 }
 
-/// Returns whether an error from reading says something about the file: it is gone, or its permissions
-/// deny reading. Other errors, such as those of a network drive, are the machine's, and must not cost
-/// a submission points.
+/// Returns whether a read error is about the file itself: it is gone, or its permissions deny
+/// reading. Other errors, such as those of a network drive, are the machine's and must not cost a
+/// submission points.
 pub fn is_about_file(error: &io::Error) -> bool {
     matches!(
         error.kind(),
@@ -82,7 +83,7 @@ pub fn is_about_file(error: &io::Error) -> bool {
     )
 }
 
-/// Asks the disk, and then does something with a file or a folder.
+/// Calls the installed disk and then performs an operation on a file or a folder.
 fn with_disk<T>(operation: Operation, act: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     disk::before(operation)?;
     act()
@@ -99,7 +100,7 @@ pub fn read_to_string(path: impl AsRef<Path>) -> Result<String, PathError> {
     read_text(path.as_ref()).at("read", path)
 }
 
-/// Reads a text file, or returns `None` if it does not exist.
+/// Reads a text file. Returns `None` if it doesn't exist.
 pub fn read_if_exists(path: impl AsRef<Path>) -> Result<Option<String>, PathError> {
     match read_text(path.as_ref()) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
@@ -136,7 +137,7 @@ pub fn write(path: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), P
     with_disk(operation, || fs::write(path, contents)).at("write", path)
 }
 
-/// Writes a file, and creates its folder if it does not exist.
+/// Writes a file. Creates its folder if it doesn't exist.
 pub fn write_with_parents(
     path: impl AsRef<Path>,
     contents: impl AsRef<[u8]>,
@@ -147,12 +148,12 @@ pub fn write_with_parents(
 
 /// Copies a file with its permissions.
 pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), PathError> {
-    // The error of `fs::copy` does not say which of the two paths is at fault.
+    // The error of `fs::copy` doesn't say which of the two paths is at fault.
     File::open(&from).at("read", &from)?;
     fs::copy(from, &to).map(drop).at("write", to)
 }
 
-/// Creates a folder, and those around it, if they do not exist.
+/// Creates a folder and its parents if they don't exist.
 pub fn create_dir_all(folder: impl AsRef<Path>) -> Result<(), PathError> {
     let folder = folder.as_ref();
     let operation = Operation::CreateFolder(folder);
@@ -209,7 +210,7 @@ mod tests {
                 "permission denied",
             ),
             ("I/O error (os error 5)", "I/O error"),
-            // Those of our own are unchanged.
+            // Our own messages are unchanged.
             ("Cargo.toml is missing", "Cargo.toml is missing"),
             (mount, mount),
         ] {

@@ -1,5 +1,5 @@
 //! Prints to standard output and standard error. All programs print here, because a CI system
-//! executes commands that it finds in a log, and a log contains names and texts of students.
+//! executes commands that it finds in a log, and logs contain students' names and texts.
 //!
 //! These are commands: `::name …::` at the start of a line on GitHub, `##[name …]` anywhere in a
 //! line on GitHub and Azure, `##vso[name …]` on Azure, `##teamcity[name …]` on TeamCity.
@@ -43,7 +43,7 @@ pub fn counted(count: usize, thing: &str) -> String {
     }
 }
 
-/// Wraps a text into lines of at most this many characters, if its words are not longer.
+/// Wraps a text into lines of at most this many characters, unless a single word is longer.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in text.lines() {
@@ -75,13 +75,15 @@ pub fn exit_with(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code())
 }
 
-/// Returns the text with a backslash in everything that a CI system would execute. A shell ignores
-/// the backslash, so a path can still be copied. The text may have colours, which may be removed.
+/// Returns the text with a backslash inserted in everything a CI system would execute. A shell
+/// ignores the backslash, so paths can still be copied. The text may contain colours, which may be
+/// removed later.
 pub fn without_commands(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    // The number of colons that the line has so far, or `None` if it has anything else.
+    // The number of colons in the line so far, or `None` if it contains anything else.
     let mut colons = Some(0);
-    // The number of number signs just before, up to 2. Letters may follow the second.
+    // The number of number signs just before this character, up to 2. Letters may follow the
+    // second.
     let mut number_signs = 0;
     for (piece, is_colour) in AnsiCodeIterator::new(text) {
         if is_colour {
@@ -96,7 +98,7 @@ pub fn without_commands(text: &str) -> String {
             number_signs = match c {
                 '#' => 2.min(number_signs + 1),
                 'a'..='z' | 'A'..='Z' if number_signs == 2 => 2,
-                // Terminals and colour filters remove it.
+                // Terminals and colour filters remove control characters.
                 c if c.is_control() && !"\r\n".contains(c) => number_signs,
                 _ => 0,
             };

@@ -1,16 +1,16 @@
-//! Decides whether the machine is the reason that something fails: it is repeated while nothing else
-//! of this process runs, and then compared with a program of the grader's own.
+//! Decides whether the machine is the reason for a failure. The failed operation is repeated while
+//! this process runs nothing else, and then compared with one of the grader's own programs.
 
 use std::io;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-/// Held while a program runs: shared by those that run beside others.
+/// Held while a program runs. Programs that may run concurrently share it.
 static RUNNING: RwLock<()> = RwLock::new(());
 
-/// Attempts something beside others and, if the machine may be the reason for the outcome, once more
-/// alone. If it may be the reason again, `control` attempts the same with code of the grader's own, and
-/// returns an error if that fails, too. Otherwise, the outcome stands. A thread must not call this
-/// within `attempt` or `control`.
+/// Attempts something while other programs may run. If the machine may be the reason for the
+/// outcome, tries once more while nothing else runs. If the machine may still be the reason,
+/// `control` attempts the same with the grader's own code and returns an error if that fails too.
+/// Otherwise, the outcome stands. A thread must not call this within `attempt` or `control`.
 pub fn decide<T>(
     mut attempt: impl FnMut() -> io::Result<T>,
     is_doubtful: impl Fn(&T) -> bool,
@@ -31,12 +31,12 @@ pub fn decide<T>(
     Ok(outcome)
 }
 
-/// Returns a permit to compile or run something beside others. Waits while something runs alone.
+/// Returns a shared permit to compile or run something. Waits while an exclusive permit is held.
 fn beside_others() -> RwLockReadGuard<'static, ()> {
     RUNNING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Returns a permit to compile or run something alone. Waits until everything else has ended.
+/// Returns an exclusive permit to compile or run something. Waits until everything else has ended.
 fn alone() -> RwLockWriteGuard<'static, ()> {
     RUNNING.write().unwrap_or_else(PoisonError::into_inner)
 }
@@ -45,7 +45,7 @@ fn alone() -> RwLockWriteGuard<'static, ()> {
 mod tests {
     use super::*;
 
-    /// Decides about attempts that are doubtful or not, in this order.
+    /// Calls `decide` with attempts that are doubtful or not, in this order.
     fn decided(doubtful: &[bool], control: io::Result<()>) -> io::Result<usize> {
         let mut attempts = 0;
         let attempt = || {

@@ -32,8 +32,7 @@ pub enum EntryKind {
 /// A file, folder, link or device in a zip.
 #[derive(Debug)]
 pub struct Entry {
-    /// The recorded name. It may be a path that leads out of the folder to which the zip is
-    /// unpacked.
+    /// The recorded name. It may be a path that leads out of the folder where the zip is unpacked.
     pub name: String,
     /// The kind of the entry.
     pub kind: EntryKind,
@@ -46,7 +45,7 @@ pub struct Entry {
     wayfinder: ZipArchiveEntryWayfinder,
 }
 
-/// Reasons why a zip, or an entry of it, cannot be read.
+/// Reasons for rejecting a zip or an entry.
 #[derive(Debug, thiserror::Error)]
 pub enum ZipError {
     /// The zip is truncated or malformed.
@@ -67,7 +66,7 @@ pub enum ZipError {
 }
 
 impl<R: ReaderAt> Zip<R> {
-    /// Reads the directory of a zip of `length` bytes. Fails if it has more than `most` entries.
+    /// Reads the directory of a zip of `length` bytes. Fails if there are more than `most` entries.
     pub fn open(bytes: R, length: u64, most: usize) -> Result<Self, ZipError> {
         let mut buffer = vec![0; RECOMMENDED_BUFFER_SIZE];
         let located = ZipLocator::new().locate_in_reader(bytes, &mut buffer, length);
@@ -80,14 +79,14 @@ impl<R: ReaderAt> Zip<R> {
             }
             entries.push(Entry::new(&header));
         }
-        // Without this check, entries that were cut out of the directory would go unnoticed.
+        // Without this check, entries missing from the directory would go unnoticed.
         if archive.entries_hint() != entries.len() as u64 {
             return Err(ZipError::WrongCount);
         }
         Ok(Zip { archive, entries })
     }
 
-    /// Returns a reader of an entry's contents. Damage is reported only at the end of the contents.
+    /// Returns a reader of an entry's contents. Damage is only reported at the end of the contents.
     pub fn read(&self, entry: &Entry) -> Result<impl Read + '_, ZipError> {
         if entry.is_encrypted {
             return Err(ZipError::Encrypted);
@@ -123,7 +122,7 @@ impl Entry {
     }
 }
 
-/// Decodes a name. UTF-8 is tried even without the flag for it, which not every program sets. Other
+/// Decodes a name. UTF-8 is tried even without its flag, since not every program sets it. Other
 /// names are in code page 437, the original encoding of the format (PKWARE's APPNOTE.TXT, appendix
 /// D).
 fn decode_name(bytes: &[u8]) -> String {

@@ -1,25 +1,26 @@
-//! The time that a submission may use in all, and how it is shared out among its items.
+//! The total time that a submission may use, and how it is divided among its items.
 
 use std::time::Duration;
 
 use super::limits::{ItemLimits, TimeUsed};
 
-/// The time that a submission may wait in all items together: enough for all of its methods to wait
-/// until they are stopped.
+/// The total time that a submission may wait in all items. It is enough for all of its methods to
+/// wait until they are stopped.
 const TOTAL_WAITING: Duration = Duration::from_secs(40);
 
 /// The time that a submission may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The least limit of CPU time for an item.
+    /// The minimum CPU time limit of an item.
     least: Duration,
-    /// The greatest limit of CPU time for an item.
+    /// The maximum CPU time limit of an item.
     most: Duration,
 }
 
 impl Default for Budget {
-    /// The limit follows the submission's own speed. Correct items take milliseconds, so that a
-    /// mistake is noticed after two seconds; a slow machine, or slow but correct code, gets ten.
+    /// Returns a budget whose limit adapts to the submission's own speed. Correct items take
+    /// milliseconds, so an endless loop is usually noticed after two seconds. On a slow machine, or
+    /// for slow but correct code, the limit rises to ten.
     fn default() -> Self {
         Budget {
             least: Duration::from_secs(2),
@@ -29,12 +30,12 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// The largest limit of CPU time for an item that can be chosen, in seconds.
+    /// The largest CPU time limit of an item that can be chosen, in seconds.
     pub const MAX_SECONDS: u64 = 600;
     /// An item may take this many times as long as the slowest item that has passed.
     pub const SLOWER_THAN_PASSED: u32 = 50;
 
-    /// Returns a budget with a fixed limit of CPU time for each item, in seconds.
+    /// Returns a budget with a fixed CPU time limit for each item, in seconds.
     pub fn from_seconds(seconds: u64) -> Self {
         let limit = Duration::from_secs(seconds);
         Budget {
@@ -48,7 +49,7 @@ impl Budget {
         12 * self.most
     }
 
-    /// Returns the limits of an item that is run by itself.
+    /// Returns the limits of an item that is run on its own.
     pub fn single_item(self) -> ItemLimits {
         ItemLimits {
             cpu_if_printing: self.most,
@@ -57,7 +58,7 @@ impl Budget {
     }
 }
 
-/// The part of its budget that a submission has left while it is graded.
+/// The remaining budget of a submission while it is graded.
 #[derive(Clone, Debug)]
 pub struct Allowance {
     budget: Budget,
@@ -100,7 +101,7 @@ impl Allowance {
         })
     }
 
-    /// Records the time that was used.
+    /// Records the time used.
     pub fn spend(&mut self, used: TimeUsed) {
         self.used += used;
     }

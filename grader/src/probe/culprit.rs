@@ -1,7 +1,7 @@
 //! Finds the element that crashes or hangs the program. The elements of an item are sent together,
-//! so a fault alone does not tell which of them caused it.
+//! so the fault doesn't identify the element that caused it.
 //!
-//! The result only helps to find the mistake. It does not affect points.
+//! The result only helps to find the mistake. It doesn't affect points.
 
 use std::io;
 use std::ops::Range;
@@ -18,14 +18,14 @@ const LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_millis(300),
     ..ItemLimits::from_cpu(Duration::from_millis(100))
 };
-/// The limit of CPU time for a process, which is asked hundreds of questions.
+/// The CPU time limit of a process, which answers hundreds of questions.
 const PROCESS_CPU: Duration = Duration::from_secs(60);
 
 /// The element that crashes or hangs the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Culprit {
     /// The indices of the first question that crashes or hangs a fresh program, and of the first
-    /// element in that question that does. `None` if the fault does not occur again.
+    /// such element in that question. `None` if the fault doesn't occur again.
     pub position: Option<(usize, usize)>,
     /// The time that the search took.
     pub used: TimeUsed,
@@ -46,8 +46,8 @@ impl Culprit {
         };
         let question = &item.questions[number].question;
 
-        // Two steps of about √n questions each, instead of one question per element. Each step ends
-        // at its first fault, because a hang uses up all the time of its question.
+        // Use two steps of about √n questions each instead of one question per element. Each step
+        // ends at its first fault, because a hang uses up all of its question's time.
         let mut suspects = 0..question.count();
         for length in [isqrt_up(suspects.len()), 1] {
             let parts: Vec<Range<usize>> = chunks(suspects, length).collect();
@@ -73,7 +73,7 @@ impl Culprit {
         for (number, question) in questions.enumerate() {
             match probe.ask([&question], LIMITS) {
                 Ok(_) => {}
-                // No question is the reason.
+                // The fault isn't the question's.
                 Err(fault) if fault.is_doubtful() => break,
                 Err(_) => {
                     faulty = Some(number);

@@ -1,10 +1,10 @@
-//! Faults: the reasons why a probe gives no answer.
+//! Faults: why a probe gives no answer.
 
 use std::fmt;
 
 use judging::signatures::NoAnswerReason;
 
-/// The reason why there is no answer. A fault ends the probe and fails the item.
+/// Why there is no answer. A fault ends the probe and fails the item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The item exceeded a time limit.
@@ -22,13 +22,13 @@ pub enum Fault {
 pub enum TimeLimit {
     /// The CPU time limit.
     Cpu,
-    /// The limit of the time in which the process waited, but not for a processor.
+    /// The limit on waiting for something other than a processor.
     Waiting,
-    /// The wall time limit, on systems that do not report what a process does.
+    /// The wall time limit, on systems that don't report how a process uses its time.
     Wall,
 }
 
-/// The way in which a process ended before it answered.
+/// How a process ended before it answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crash {
     /// Its stack overflowed.
@@ -37,8 +37,8 @@ pub enum Crash {
     Exited(i32),
     /// It was ended by this signal.
     Signal(i32),
-    /// It was killed from outside while it used little memory. If the machine runs out of memory,
-    /// the system may kill any process.
+    /// It was killed from outside while using little memory. If the machine runs out of memory, the
+    /// system may kill any process.
     Killed,
     /// It failed before the first question, when none of the submission's functions had been called.
     NotStarted,
@@ -50,7 +50,7 @@ impl Fault {
         matches!(self, Fault::Crashed(Crash::Killed | Crash::NotStarted))
     }
 
-    /// Converts the fault to the reason that is compared with the signatures of known mistakes.
+    /// Converts the fault to a reason to compare with the signatures of known mistakes.
     pub fn no_answer_reason(&self) -> NoAnswerReason {
         match self {
             Fault::TimedOut(_) => NoAnswerReason::Time,
@@ -67,8 +67,8 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            // Without the limit, which follows the speed of the machine: the same submission gets the
-            // same report.
+            // Leave out the limit, which depends on the machine's speed, so that the same
+            // submission always gets the same report.
             Fault::TimedOut(TimeLimit::Cpu) => {
                 f.write_str("stopped, because it took too long: is there an endless loop?")
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A request that another thread makes while a probe answers. All clones share it. By default, there
+/// A request made by another thread while a probe answers. All clones share it. By default, there
 /// is no request.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);

@@ -1,4 +1,4 @@
-//! The time limits of an item, and how much of them it has used.
+//! The time limits of an item and the time used so far.
 
 use std::time::{Duration, Instant};
 
@@ -11,13 +11,13 @@ const MUCH_OUTPUT_BYTES: u64 = 64 << 10;
 /// The time limits of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ItemLimits {
-    /// The limit of CPU time. This is the limit that endless loops exceed.
+    /// The CPU time limit. This is the limit that endless loops exceed.
     pub cpu: Duration,
-    /// The limit of CPU time of a program that prints a lot. Printing on every call takes a
-    /// thousand times as long as a correct answer.
+    /// The CPU time limit of a program that prints a lot. Printing on every call takes a thousand
+    /// times as long as a correct answer.
     pub cpu_if_printing: Duration,
-    /// The limit of the time in which the program waits, for example sleeps. Waiting for a
-    /// processor does not count, because on a busy machine it says nothing about the code.
+    /// The limit on the time the program waits, e.g. sleeps. Waiting for a processor isn't
+    /// included, because on a busy machine it says nothing about the code.
     pub waiting: Duration,
 }
 
@@ -31,7 +31,7 @@ impl ItemLimits {
         }
     }
 
-    /// Returns the limit of CPU time of a program that has printed this many bytes.
+    /// Returns the CPU time limit of a program that has printed this many bytes.
     fn cpu_after_printing(self, bytes: u64) -> Duration {
         if bytes > MUCH_OUTPUT_BYTES {
             self.cpu_if_printing
@@ -44,9 +44,9 @@ impl ItemLimits {
 /// The time that a program has used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TimeUsed {
-    /// CPU time, or wall time on systems that do not report CPU time.
+    /// CPU time, or wall time on systems that don't report CPU time.
     pub cpu: Duration,
-    /// Time in which it waited, but not for a processor.
+    /// Time it spent waiting for something other than a processor.
     pub waiting: Duration,
 }
 
@@ -62,7 +62,7 @@ impl std::ops::AddAssign for TimeUsed {
 pub(super) struct Stopwatch {
     limits: ItemLimits,
     started: Instant,
-    /// The time and the process's use of it at the first check.
+    /// The time of the first check and the process's time use at that point.
     first: Option<(Instant, ProcessTime)>,
     used: TimeUsed,
 }
@@ -78,12 +78,12 @@ impl Stopwatch {
         }
     }
 
-    /// Returns the exceeded limit, if there is one. Time before the first check does not count:
-    /// most items are answered before that, and reading a process's time at the start of an item
-    /// would take longer than answering it.
+    /// Returns the exceeded limit, if any. Time before the first check is ignored: most items are
+    /// answered before that, and reading a process's time at the start of an item would take longer
+    /// than answering it.
     ///
     /// `printed` is the number of bytes that the program has printed since the start. On systems
-    /// that do not report a process's time, wall time is limited instead.
+    /// that don't report a process's time, wall time is limited instead.
     pub(super) fn exceeded(&mut self, now: Option<ProcessTime>, printed: u64) -> Option<TimeLimit> {
         let cpu = self.limits.cpu_after_printing(printed);
         let waiting = self.limits.waiting;
@@ -107,7 +107,7 @@ impl Stopwatch {
     }
 }
 
-/// Returns the time that a process has used between two moments that are `wall` apart.
+/// Returns the time that a process used between two measurements that are `wall` apart.
 fn used(wall: Duration, first: ProcessTime, now: ProcessTime) -> TimeUsed {
     let cpu = now.cpu.saturating_sub(first.cpu);
     let delayed = now.delayed.saturating_sub(first.delayed);

@@ -1,5 +1,5 @@
-//! Starts probes and exchanges questions and answers with them. Nothing that a probe does can block
-//! the grader.
+//! Starts probes and exchanges questions and answers with them. Nothing a probe does can block the
+//! grader.
 
 mod budget;
 mod culprit;
@@ -32,7 +32,8 @@ pub use program::RunningProgram;
 pub use shrink::smallest_overflow;
 pub use streams::Batch;
 
-/// The time limits of starting. They are generous, because no code of the submission runs yet.
+/// The time limits for starting a program. They are generous, because no code of the submission
+/// runs yet.
 pub const START_LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_secs(30),
     ..ItemLimits::from_cpu(Duration::from_secs(10))
@@ -42,12 +43,12 @@ pub const START_LIMITS: ItemLimits = ItemLimits {
 #[derive(Debug)]
 pub struct Probe {
     program: RunningProgram,
-    /// Maximum memory use that was observed, in bytes.
+    /// Maximum observed memory use, in bytes.
     memory: u64,
     /// Time used for questions.
     used: TimeUsed,
     interrupt: Interrupt,
-    /// The fault if it did not start. It answers no question then.
+    /// The fault if the probe didn't start. It then answers no questions.
     not_started: Option<Fault>,
 }
 
@@ -56,9 +57,9 @@ pub struct Probe {
 pub struct Launcher {
     /// Path of the program to start.
     pub program: PathBuf,
-    /// The sandbox in which the program runs.
+    /// The sandbox that the program runs in.
     pub sandbox: Sandbox,
-    /// Ends the answers of its probes early.
+    /// Stops its probes early.
     pub interrupt: Interrupt,
 }
 
@@ -69,13 +70,13 @@ impl Launcher {
     /// Correct solutions use less than half of it.
     pub const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
-    /// Starts a probe that waits for questions. `cpu` is the CPU time that it may use in all; this
-    /// limit ends it even if the grader itself has been killed.
+    /// Starts a probe that waits for questions. `cpu` is the total CPU time it may use. This limit
+    /// ends it even if the grader itself has been killed.
     ///
-    /// No code of the submission runs before the first question, but its variables may need too much
-    /// memory. A program that fails up to then answers every question with [`Crash::NotStarted`].
-    /// Returns an error if the launcher fails or the system cannot create a process, which no
-    /// submission can bring about.
+    /// No code of the submission runs before the first question, but its static variables may need
+    /// too much memory. A program that fails before that answers every question with
+    /// [`Crash::NotStarted`]. Returns an error if the launcher fails or the system cannot create a
+    /// process, which a submission cannot cause.
     pub fn start(&self, cpu: Duration) -> io::Result<Probe> {
         let limits = Limits {
             memory: Self::MEMORY_LIMIT,
@@ -95,15 +96,15 @@ impl Launcher {
             probe.program.process.kill();
             probe.not_started = Some(Fault::Crashed(Crash::NotStarted));
         }
-        // Only now, so that an interrupted start does not look like one that failed.
+        // Set this only now, so that an interrupted start doesn't look like a failed one.
         probe.interrupt = self.interrupt.clone();
         Ok(probe)
     }
 }
 
 impl Probe {
-    /// Sends all questions at once and receives the answers. After a fault the probe cannot be used
-    /// again.
+    /// Sends all questions at once and receives the answers. After a fault, the probe cannot be
+    /// used again.
     pub fn ask<'a>(
         &mut self,
         questions: impl IntoIterator<Item = &'a Question>,
@@ -132,7 +133,7 @@ impl Probe {
         answers
     }
 
-    /// Receives the answers with these nonces, and the end with its own.
+    /// Receives the answers with these nonces and the end frame with its own nonce.
     fn receive(
         &mut self,
         nonces: Vec<u64>,
@@ -153,13 +154,13 @@ impl Probe {
         }
     }
 
-    /// Ends the probe. Returns the beginning of what the submission printed, without the messages
-    /// of the Rust runtime.
+    /// Ends the probe. Returns the beginning of the submission's output, without the messages of
+    /// the Rust runtime.
     pub fn finish(self) -> String {
         self.program.finish()
     }
 
-    /// Returns the time used since the last call, and forgets it.
+    /// Returns the time used since the last call and resets it.
     pub fn take_time_used(&mut self) -> TimeUsed {
         mem::take(&mut self.used)
     }
@@ -205,7 +206,7 @@ fn nonces(count: usize) -> Vec<u64> {
         .collect()
 }
 
-/// Returns the answer in a frame, which must be the one to the question with this nonce.
+/// Returns the answer in a frame, which must belong to the question with this nonce.
 fn answer_to(nonce: u64, frame: &Frame) -> Result<Answer, Fault> {
     if frame.nonce != nonce {
         return Err(no_question());
@@ -238,8 +239,8 @@ mod tests {
         }
     }
 
-    /// Starts a program that echoes the first frame, which is the end of no questions, and then goes on
-    /// with these commands.
+    /// Starts a program that echoes the first frame, which marks the end of an empty list of
+    /// questions, and then runs these commands.
     fn start_script(commands: &str) -> (TempDir, Launcher, Probe) {
         let folder = TempDir::new().unwrap();
         let program = folder.path().join("program");

@@ -15,14 +15,14 @@ use crate::machine::capture::Capture;
 use crate::machine::system::{self, Limits};
 use crate::sandbox::{ExitReason, Process, Profile, Sandbox};
 
-/// Maximum size of a program's output that is stored, in bytes.
+/// Maximum size of the stored part of a program's output, in bytes.
 const MAX_OUTPUT_BYTES: usize = 64 << 10;
 /// Polling interval for a silent program.
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
 /// Time to wait for the remaining output of a program that has ended.
 const OUTPUT_TIMEOUT: Duration = Duration::from_millis(200);
-/// Time to wait for a program to end after it has closed its pipe. Freeing its memory may take a
-/// while on a busy machine.
+/// Time to wait for a program to end after it closes its pipe. Freeing its memory may take a while
+/// on a busy machine.
 pub(super) const EXIT_TIMEOUT: Duration = Duration::from_secs(2);
 
 // Parts of messages that the Rust runtime prints when it ends the process.
@@ -35,7 +35,7 @@ const RUNTIME_MESSAGES: [&str; 4] = [
     "note: run with `RUST_BACKTRACE=1`",
 ];
 
-/// A running program of a submission. Nothing that it does can block the thread that asks it.
+/// A running program of a submission. Nothing it does can block the thread that uses it.
 #[derive(Debug)]
 pub struct RunningProgram {
     /// The process, for reading its time and memory, and for killing it.
@@ -45,7 +45,7 @@ pub struct RunningProgram {
 }
 
 impl RunningProgram {
-    /// Starts a program. On Linux it ends with the thread that started it, so that it does not
+    /// Starts a program. On Linux it ends with the thread that started it, so that it doesn't
     /// outlive a killed grader.
     pub fn start(program: &Path, sandbox: &Sandbox, limits: Limits) -> io::Result<Self> {
         let folder = program.parent().unwrap_or(Path::new("."));
@@ -62,13 +62,13 @@ impl RunningProgram {
         })
     }
 
-    /// Sends requests. If the program has ended, the missing response is noticed later.
+    /// Sends requests. If the program has ended, the missing response will be noticed later.
     pub fn send(&self, requests: Batch) {
         self.streams.send(requests);
     }
 
-    /// Returns the next response, or `None` if there is none after a moment, so that the caller can
-    /// check its limits.
+    /// Returns the next response, or `None` if there is none after a short time, so that the caller
+    /// can check its limits.
     pub fn next_frame(&mut self) -> Result<Option<Frame>, Fault> {
         match self.streams.next(POLL_INTERVAL) {
             Ok(Ok(frame)) => Ok(Some(frame)),
@@ -78,7 +78,7 @@ impl RunningProgram {
                 self.process.kill();
                 Err(Fault::Protocol(error.to_string()))
             }
-            // A child process of the program may keep the pipe open, so do not wait for it to close.
+            // A child process of the program may keep the pipe open, so don't wait for it to close.
             Err(RecvTimeoutError::Timeout) if self.process.exit_reason().is_some() => {
                 match self.streams.next(OUTPUT_TIMEOUT) {
                     Ok(Ok(frame)) => Ok(Some(frame)),
@@ -94,7 +94,7 @@ impl RunningProgram {
         self.output.total()
     }
 
-    /// Kills the program. Returns the beginning of what it printed, without the messages of the Rust
+    /// Kills the program. Returns the beginning of its output, without the messages of the Rust
     /// runtime.
     pub fn finish(mut self) -> String {
         self.process.kill();
@@ -103,7 +103,7 @@ impl RunningProgram {
         output.lines().filter(is_own).collect::<Vec<_>>().join("\n")
     }
 
-    /// Determines why the program ended. Its output is used for diagnosis only and cannot earn
+    /// Determines why the program ended. Its output is only used for diagnosis and cannot earn
     /// points.
     fn post_mortem(&mut self) -> Fault {
         // The program may have closed its pipe without ending.

@@ -1,5 +1,5 @@
-//! Finds the fewest primitives on which a build still overflows the stack, so that the recursion can
-//! be followed by hand.
+//! Finds a minimal set of primitives that still makes a build overflow the stack, so that the
+//! recursion can be followed by hand.
 
 use std::io;
 
@@ -7,15 +7,15 @@ use protocol::{Question, Shape};
 
 use super::{Budget, Crash, Fault, Launcher};
 
-/// The maximum number of programs that are started. Each ends in some milliseconds.
+/// The maximum number of programs to start. Each ends within a few milliseconds.
 const MAX_ATTEMPTS: usize = 100;
 
-/// Leaves out primitives for as long as the build of the others overflows the stack. Returns what is
-/// left, or `None` if not even all of them do.
+/// Leaves out primitives as long as building the rest still overflows the stack. Returns the
+/// remaining primitives, or `None` if even all of them don't overflow it.
 ///
-/// The method is delta debugging (Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing
-/// Input", IEEE Transactions on Software Engineering 28, 2002): first large parts are left out, then
-/// smaller ones, at last single primitives.
+/// The method is delta debugging (Zeller and Hildebrandt, "Simplifying and Isolating
+/// Failure-Inducing Input", IEEE Transactions on Software Engineering 28, 2002): first leave out
+/// large parts, then smaller ones, and finally single primitives.
 pub fn smallest_overflow(
     launcher: &Launcher,
     shapes: &[Shape],

@@ -1,8 +1,8 @@
 //! The threads that write to and read from a probe's pipes, so that a probe that never reads or
-//! never answers does not block the grader.
+//! never answers doesn't block the grader.
 //!
 //! Questions and answers are exchanged in batches, because a system call or waking a thread takes
-//! as long as many questions.
+//! as long as answering many questions.
 
 use std::io::{BufReader, Read, Write};
 use std::mem;
@@ -15,10 +15,10 @@ use protocol::wire::{self, Frame, WireError};
 
 use super::fault::Fault;
 
-/// Size in bytes at which a batch is sent. This is the capacity of a pipe.
+/// A batch is sent when it reaches this size, in bytes. It is the capacity of a pipe.
 const BATCH_BYTES: usize = 1 << 16;
 
-/// A batch of requests, which are sent together.
+/// A batch of requests to send together.
 #[derive(Debug, Default)]
 pub struct Batch {
     frames: Vec<u8>,
@@ -27,7 +27,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Adds a request, which `append` encodes and appends to the frames before it. Its response has
+    /// Adds a request, which `append` encodes and appends to the previous frames. Its response has
     /// at most `limit` bytes.
     pub fn add(
         &mut self,
@@ -52,12 +52,12 @@ pub(super) struct Streams {
     questions: Sender<Vec<u8>>,
     limits: Sender<Vec<usize>>,
     answers: Receiver<Result<Vec<Frame>, WireError>>,
-    /// Frames that were received but not requested yet.
+    /// Frames that were received but not yet requested.
     received: vec::IntoIter<Frame>,
 }
 
 impl Streams {
-    /// Starts both threads. They end when their pipe is closed or this value is dropped.
+    /// Starts both threads. Each ends when its pipe is closed or this value is dropped.
     pub(super) fn open(
         stdin: impl Write + Send + 'static,
         stdout: impl Read + Send + 'static,
@@ -75,13 +75,13 @@ impl Streams {
         }
     }
 
-    /// Sends a batch. If a thread has ended, the missing answer is noticed later.
+    /// Sends a batch. If a thread has ended, the missing answer will be noticed later.
     pub(super) fn send(&self, batch: Batch) {
         self.limits.send(batch.limits).ok();
         self.questions.send(batch.frames).ok();
     }
 
-    /// Returns the next frame, whatever it contains.
+    /// Returns the next frame, regardless of its contents.
     pub(super) fn next(
         &mut self,
         timeout: Duration,
@@ -119,7 +119,7 @@ fn read(
     for limits in batches {
         let mut frames = Vec::new();
         for limit in limits {
-            // Pass on what was received before waiting for more.
+            // Pass on the received frames before waiting for more.
             if stdout.buffer().is_empty() && !frames.is_empty() {
                 answered.send(Ok(mem::take(&mut frames))).ok();
             }
@@ -155,8 +155,9 @@ mod tests {
         Answer::Spans(vec![times; elements])
     }
 
-    /// Returns the frames that arrive in order, if the program writes `bytes` in pieces of these sizes
-    /// and lets other threads run after each, and the questions were sent in batches of these sizes.
+    /// Returns the frames in order of arrival if the questions are sent in batches of these sizes
+    /// and the program writes `bytes` in pieces of these sizes, yielding to other threads after
+    /// each piece.
     fn received(
         bytes: Vec<u8>,
         limits: &[usize],

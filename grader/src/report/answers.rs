@@ -1,5 +1,5 @@
-//! The answers that an HTML report draws. They are not part of the score file, which is for
-//! programs and should stay small.
+//! The answers drawn in an HTML report. They aren't part of the score file, which is for programs
+//! and should stay small.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::score::{ItemScore, VerdictKind};
 pub struct ReportAnswers(BTreeMap<String, Vec<Answer>>);
 
 impl ReportAnswers {
-    /// Keeps the answers to an item if the report has something to draw from them.
+    /// Keeps the answers to an item if the report can draw something from them.
     pub fn record(&mut self, item: &Item, line: &ItemScore, answers: Vec<Answer>) {
         let is_judged = matches!(
             line.verdict.kind(),

@@ -10,8 +10,8 @@ use crate::machine::disk::{self, Operation};
 use crate::machine::files::{AtPath, PathError};
 use crate::machine::system;
 
-/// Writes a file that everyone with access to its folder can read. Creates the folder if it does
-/// not exist. The contents go to a temporary file in the same folder, which is then renamed.
+/// Writes a file that everyone with access to its folder can read. Creates the folder if it doesn't
+/// exist. The contents go to a temporary file in the same folder, which is then renamed.
 pub fn write(contents: impl AsRef<[u8]>, path: &Path) -> Result<(), PathError> {
     let contents = contents.as_ref();
     let written = || {

@@ -1,11 +1,11 @@
-//! The failing items of a task: which of them tells most, and which share a hint, so that a report
-//! shows the hint once.
+//! The failing items of a task: which are most informative, and which share a hint, so that a
+//! report shows the hint only once.
 
 use crate::score::{ItemScore, TaskScore, VerdictKind};
 
-/// Returns the failing items of a task, the most telling first: those whose mistake is recognised, those
-/// that fail in a way that tells what to look for, those with a wrong answer, and those with none. Among
-/// equals, the exam's order goes from simple to difficult.
+/// Returns the failing items of a task, the most informative first: items whose mistake is
+/// recognised, items whose failure shows what to look for, items with a wrong answer, and items
+/// without one. Equals keep the exam's order, which goes from simple to difficult.
 pub(super) fn most_telling_first(task: &TaskScore) -> Vec<&ItemScore> {
     let failing = task
         .items
@@ -27,8 +27,8 @@ pub(super) fn most_telling_first(task: &TaskScore) -> Vec<&ItemScore> {
     failing
 }
 
-/// Returns the first failing item, and the others that have evidence and another hint than the items
-/// before them.
+/// Returns the first failing item and those others with evidence and a different hint from the
+/// items before them.
 pub(super) fn with_something_new<'a>(failing: &[&'a ItemScore]) -> Vec<&'a ItemScore> {
     let mut shown: Vec<&ItemScore> = Vec::new();
     for &item in failing {

@@ -8,8 +8,7 @@ use crate::sandbox::Isolation;
 use crate::score::{Score, TaskScore};
 
 /// Returns what to do next if at least one of the selected tasks is complete, with an empty line
-/// after it. The advice is for students who grade their own work with the practice exam; others get
-/// nothing.
+/// after it. The advice is only for students who grade their own work with the practice exam.
 pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignment) -> String {
     let is_own_work = score.rerun_command.exam.is_none() && score.isolation == Isolation::None;
     if !is_own_work {
@@ -33,7 +32,7 @@ pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignme
     }
 }
 
-/// Returns a task's title and, if there is one, the chapter of the handout about it.
+/// Returns a task's title and the handout's chapter about it, if any.
 fn title_and_chapter(task: &TaskScore) -> String {
     match &task.chapter {
         Some(chapter) => format!("{}, {}", task.title, chapter.location()),
@@ -41,7 +40,7 @@ fn title_and_chapter(task: &TaskScore) -> String {
     }
 }
 
-/// Returns what to do with a complete assignment.
+/// Returns advice on what to do after completing the assignment.
 fn after_all_points(assignment: &Assignment) -> String {
     let picture = assignment
         .render

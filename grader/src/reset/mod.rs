@@ -1,5 +1,5 @@
-//! Starts tasks afresh: replaces their methods, or whole files, with the starter's. The old files
-//! are kept. Links are refused.
+//! Resets tasks: replaces their methods, or entire files, with the starter's. The old files are
+//! kept. Links are refused.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,9 +18,9 @@ use crate::report::atomic_write;
 use crate::submission::places;
 use crate::workspace::{Workspace, display_path};
 
-/// Starts the named tasks afresh in a submission's folder, by default the folder of students' own
-/// work. Returns a message that says what has changed. If there is an error, nothing has changed,
-/// unless the error is about writing.
+/// Resets the named tasks in a submission's folder, by default the folder of students' own work.
+/// Returns a message that says what has changed. If there is an error, nothing has changed, unless
+/// the error occurred while writing.
 pub fn reset(
     handed_out: &'static HandedOut,
     folder: Option<&Path>,
@@ -40,13 +40,13 @@ pub fn reset(
     Ok(lines.concat())
 }
 
-/// The part of a file that starts afresh.
+/// The part of a file to reset.
 enum Request {
     WholeFile,
     Methods(Vec<Task>),
 }
 
-/// Returns what starts afresh in each file.
+/// Returns the part to reset in each file.
 fn requests(handed_out: &HandedOut, names: &[NamedTasks]) -> BTreeMap<&'static str, Request> {
     let mut requests: BTreeMap<&'static str, Request> = BTreeMap::new();
     for name in names {
@@ -67,14 +67,14 @@ fn requests(handed_out: &HandedOut, names: &[NamedTasks]) -> BTreeMap<&'static s
     requests
 }
 
-/// A file as it is, and as it will be.
+/// A file before and after the change.
 struct FileChange {
     file: &'static TaskFile,
-    /// The bytes of the file as it is, or `None` if it does not exist.
+    /// The file's current bytes, or `None` if it doesn't exist.
     before: Option<Vec<u8>>,
-    /// The text of the file as it will be, or `None` if it is that already.
+    /// The file's new text, or `None` if it wouldn't change.
     after: Option<String>,
-    /// The part that starts afresh, for a message.
+    /// The reset part, for a message.
     part: String,
 }
 
@@ -145,12 +145,12 @@ impl FileChange {
     }
 }
 
-/// Returns the names of the tasks' methods, and the text with all of them as they were handed out,
-/// or `None` if they already are.
+/// Returns the names of the tasks' methods and the text with all of them replaced by the starter's,
+/// or `None` if they already are the starter's.
 ///
 /// # Errors
 ///
-/// The beginning of a message that goes on with a remedy.
+/// The beginning of a message that continues with a remedy.
 fn fresh_methods(
     handed_out: &HandedOut,
     text: &str,
@@ -175,7 +175,8 @@ struct SourceFolder {
 }
 
 impl SourceFolder {
-    /// Finds the folder with the task files of a submission, where the assignment expects them.
+    /// Finds a submission's folder with the task files, in one of the places where the assignment
+    /// expects it.
     fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         refuse_link(folder)?;
         if !folder.is_dir() {
@@ -208,7 +209,7 @@ impl SourceFolder {
         }
     }
 
-    /// Returns the bytes of a task file, or `None` if it does not exist.
+    /// Returns the bytes of a task file, or `None` if it doesn't exist.
     fn read(&self, file: &TaskFile) -> Result<Option<Vec<u8>>, Error> {
         let path = self.path.join(file.name);
         refuse_link(&path)?;

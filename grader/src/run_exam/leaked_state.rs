@@ -1,5 +1,5 @@
-//! Finds out whether a wrong answer depends on earlier calls: if so, the question is answered correctly
-//! when it is asked alone, in a new process.
+//! Finds out whether a wrong answer depends on earlier calls. If so, the question is answered
+//! correctly when rerun in isolation, in a new process.
 
 use std::io;
 
@@ -9,8 +9,8 @@ use judging::judge::{Failure, FailureKind, Judgement, element_error};
 use crate::probe::{Allowance, Launcher};
 use crate::verdict::item_outcome::worst_failure;
 
-/// Returns whether the answer that the report shows is right when its question is asked alone. The time
-/// that it takes is deducted from the allowance.
+/// Returns whether the answer shown in the report is right when its question is rerun in isolation.
+/// The time this takes is deducted from the allowance.
 pub fn is_right_alone(
     launcher: &Launcher,
     item: &Item,
@@ -23,7 +23,7 @@ pub fn is_right_alone(
     };
     let question = &item.questions[index];
     if let Key::Radiance { .. } = question.key {
-        // A path-traced picture is a question by itself, and takes too long to ask twice.
+        // A path-traced picture is a single question and takes too long to run twice.
         return Ok(false);
     }
     let Some(limits) = allowance.next_item() else {
@@ -40,7 +40,7 @@ pub fn is_right_alone(
     Ok(answers.first().is_some_and(is_right))
 }
 
-/// Returns whether the code has answered, and is written.
+/// Returns whether the code has been written and gave an answer.
 fn is_answer(failure: &Failure) -> bool {
     match &failure.kind {
         FailureKind::Wrong { .. } => true,

@@ -1,4 +1,4 @@
-//! Runs an exam item by item. A failure in one item does not affect the next.
+//! Runs an exam item by item. A failure in one item doesn't affect the next.
 
 mod leaked_state;
 pub mod task_session;
@@ -34,7 +34,7 @@ pub fn run_exam<E: From<io::Error>>(
     let mut stopped = BTreeSet::new();
     for task in build.handed_out.assignment.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        // One process per task, so that a task cannot affect the next one.
+        // Use one process per task, so that a task cannot affect the next.
         let mut sessions = TaskSessions::new(build);
         for item in items {
             let (line, answers) = sessions.grade_item(item, score, &stopped, &mut allowance)?;
@@ -65,7 +65,7 @@ pub fn run_exam<E: From<io::Error>>(
 struct TaskSessions<'a> {
     build: &'a Build,
     own: TaskSession<'a>,
-    /// Whether the submission's own program had a fault in an item that depends on a failed one.
+    /// Whether the submission's own program had a fault in an item that depends on a failed item.
     has_blocked_fault: bool,
     substituted: Option<TaskSession<'a>>,
 }
@@ -80,8 +80,8 @@ impl<'a> TaskSessions<'a> {
         }
     }
 
-    /// Grades one item and returns its score and answers. The items that it depends on must already
-    /// be graded. `stopped` are the tasks that did not come to their end.
+    /// Grades one item and returns its score and answers. The items it depends on must already be
+    /// graded. `stopped` lists the tasks that were stopped early.
     fn grade_item(
         &mut self,
         item: &Item,
@@ -96,8 +96,8 @@ impl<'a> TaskSessions<'a> {
             return Ok((item_score(item, &outcome, handed_out), Vec::new()));
         }
         let blocking = blocking_item(item, others);
-        // What made that task stop, or another item that depends on it, would make this item stop,
-        // too.
+        // The reason that stopped that task, or another item that depends on it, would stop this
+        // item too.
         let is_hopeless = blocking
             .is_some_and(|blocking| stopped.contains(&blocking.task) || self.has_blocked_fault);
         let (outcome, answers) = if is_hopeless {
@@ -137,8 +137,7 @@ impl<'a> TaskSessions<'a> {
         self.own.spent() + substituted.unwrap_or_default()
     }
 
-    /// Adds hints, which need the answers to the whole task, and returns what the submission
-    /// printed.
+    /// Adds hints, which need the answers to the whole task. Returns the submission's output.
     fn finish(mut self, exam: &Exam, lines: &mut [ItemScore]) -> Option<String> {
         let substituted = self.substituted.as_ref().map(TaskSession::observations);
         let own = self.own.observations();
@@ -217,7 +216,7 @@ mod tests {
         };
         assert_eq!(verdict(&dependent, &[bbox], false), blocked);
         assert_eq!(verdict(&dependent, &[], true), blocked);
-        // Otherwise, it is asked, here of a submission without a program.
+        // Otherwise, it is run, here on a submission without a program.
         assert_eq!(verdict(&dependent, &[], false), Verdict::Pending);
         let independent = item("traverse.flat", vec![boxes(1)]);
         assert_eq!(verdict(&independent, &[bbox], true), Verdict::Pending);

@@ -1,4 +1,4 @@
-//! Asks a program the items of one task. The task is stopped if the program hangs or crashes too
+//! Runs the items of one task on a program. The task is stopped if the program hangs or crashes too
 //! often.
 
 use std::io;
@@ -25,8 +25,8 @@ pub const MAX_CRASHES: usize = 2;
 /// Maximum length of the stored output of a submission, in characters.
 const MAX_PRINTED_CHARS: usize = 1_000;
 
-/// A program that is asked the items of one task. Its process is started for the first item, and
-/// again after a fault.
+/// A program that runs the items of one task. Its process is started for the first item and
+/// restarted after a fault.
 pub struct TaskSession<'a> {
     build: &'a Build,
     launcher: Option<Launcher>,
@@ -40,7 +40,7 @@ pub struct TaskSession<'a> {
     spent: TimeSpent,
 }
 
-/// Time that a session spent, by activity.
+/// Time spent in a session, by activity.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TimeSpent {
     /// Starting the program.
@@ -63,7 +63,7 @@ impl Add for TimeSpent {
     }
 }
 
-/// The answers to an item, or the fault, with the process that it was asked.
+/// The answers to an item, or the fault, with the process that ran it.
 struct Asked {
     probe: Probe,
     answered: Result<Vec<Answer>, Fault>,
@@ -88,8 +88,8 @@ impl<'a> TaskSession<'a> {
         }
     }
 
-    /// Runs one item and returns its outcome and its answers, if there are any. The time that it
-    /// takes is deducted from the allowance.
+    /// Runs one item. Returns its outcome and its answers, if any. The time this takes is deducted
+    /// from the allowance.
     pub fn ask(
         &mut self,
         item: &Item,
@@ -157,9 +157,9 @@ impl<'a> TaskSession<'a> {
         }
     }
 
-    /// Asks an item. If the machine may be the reason for a fault, the item is asked again by itself;
-    /// if the fault is the same, but not that of the control, the program is the reason. `cpu` is the
-    /// CPU time that a process may use.
+    /// Runs an item. If the machine may be the reason for a fault, the item is rerun while nothing
+    /// else runs. If the fault occurs again, but not in the control program, the submission is the
+    /// reason. `cpu` is the CPU time limit of a process.
     fn ask_fairly(
         &mut self,
         launcher: &Launcher,
@@ -200,8 +200,8 @@ impl<'a> TaskSession<'a> {
         })
     }
 
-    /// Counts a fault towards stopping the task, if the outcome is one. Faults that another task
-    /// may be the reason for are not counted.
+    /// If the outcome is a fault, counts it towards stopping the task. Faults that another task may
+    /// have caused aren't counted.
     pub fn count_fault(&mut self, outcome: &ItemOutcome) {
         let ItemOutcome::Fault { fault, .. } = outcome else {
             return;
@@ -233,7 +233,7 @@ impl<'a> TaskSession<'a> {
         self.spent
     }
 
-    /// Ends a probe and keeps what it printed, unless earlier output has already been kept.
+    /// Ends a probe and keeps its output, unless earlier output has already been kept.
     fn keep_output(&mut self, probe: Probe) {
         let output = probe.finish();
         if self.printed.is_empty() {
@@ -241,7 +241,7 @@ impl<'a> TaskSession<'a> {
         }
     }
 
-    /// Ends the program, and returns what it printed, if anything.
+    /// Ends the program. Returns its output, if any.
     pub fn printed(&mut self) -> Option<String> {
         if let Some(probe) = self.probe.take() {
             self.keep_output(probe);

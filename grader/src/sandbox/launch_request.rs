@@ -7,21 +7,21 @@ use serde::{Deserialize, Serialize};
 use crate::machine::system::Limits;
 use crate::sandbox::isolation::Isolation;
 
-/// The first argument of a process that is to run as the launcher.
+/// The first argument of a process that should run as the launcher.
 pub(super) const LAUNCH_FLAG: &str = "--launch-confined";
 
 /// The byte that the launcher writes to standard output once the sandbox is in place. All further
-/// output comes from the confined program. If the byte is missing, the launcher failed, not the
-/// program.
+/// output comes from the confined program. If the byte is missing, the launcher failed rather than
+/// the program.
 pub(super) const READY: u8 = b'+';
 
-/// The system access that is granted to a program. All other access is denied.
+/// The system access granted to a program. All other access is denied.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Profile {
-    /// A submission's program: it computes, and communicates through the pipes that it inherits.
-    /// It may not open files or sockets, or start processes, so it must be linked statically.
+    /// A submission's program, which computes and communicates through the pipes it inherits. It
+    /// may not open files or sockets or start processes, so it must be linked statically.
     Probe,
-    /// The compiler, and the linker that it starts.
+    /// The compiler and the linker it starts.
     Compiler {
         /// The files and folders that the compiler and the linker may read and execute.
         readable: Vec<PathBuf>,
@@ -33,11 +33,11 @@ pub enum Profile {
 /// The launcher's instructions for starting one program.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LaunchRequest {
-    /// The required level of isolation. If it is not available, nothing is started.
+    /// The required level of isolation. If it isn't available, nothing is started.
     pub(super) level: Isolation,
     /// The grader's process id. A probe is killed when the grader ends.
     pub(super) grader: u32,
-    /// The access that the program is granted.
+    /// The access granted to the program.
     pub(super) profile: Profile,
     /// The resource limits of the program.
     pub(super) limits: Limits,

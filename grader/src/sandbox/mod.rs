@@ -1,12 +1,12 @@
-//! Runs untrusted programs under limits, and makes sure that they end.
+//! Runs untrusted programs under limits and ensures that they end.
 //!
 //! Your own work runs at level `none`: in its own process group, with an empty environment, and
-//! with limits on memory and CPU time as far as the [`system`](crate::machine::system) supports them. Other
-//! people's code is started by a *launcher*: the grader's own executable, started once more. It
-//! drops its privileges one after the other and then executes the untrusted program. The launcher
-//! works on Linux only; on other systems, `none` is the only level.
+//! with limits on memory and CPU time as far as the [`system`](crate::machine::system) supports
+//! them. Other people's code is started by a *launcher*, which is another process of the grader's
+//! own executable. It drops its privileges one after the other and then executes the untrusted
+//! program. The launcher only works on Linux. On other systems, `none` is the only level.
 //!
-//! `grader/SECURITY.md` says what each level promises, and what no level promises.
+//! `grader/SECURITY.md` describes what each level promises and what no level promises.
 
 mod isolation;
 mod launch_request;
@@ -34,15 +34,15 @@ pub use isolation::Isolation;
 pub use launch_request::Profile;
 pub use process::Process;
 
-/// Starts programs at one level of isolation.
+/// Starts programs at a given isolation level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sandbox {
     level: Isolation,
     launcher: PathBuf,
 }
 
-/// Runs this process as the launcher if it was started as one, and returns its exit code. Returns
-/// `None` otherwise.
+/// Runs this process as the launcher if it was started as one. Returns its exit code in that case,
+/// otherwise `None`.
 ///
 /// Every program that uses a [`Sandbox`] must call this first in its `main`.
 pub fn run_as_launcher() -> Option<ExitCode> {
@@ -51,7 +51,7 @@ pub fn run_as_launcher() -> Option<ExitCode> {
         return None;
     }
     Some(platform::launch(arguments).unwrap_or_else(|error| {
-        // The grader reads this from standard error: the program itself has not been started.
+        // The grader reads this from standard error, since the program itself hasn't been started.
         eprint!("{error}");
         ExitCode::FAILURE
     }))
@@ -63,7 +63,8 @@ impl Sandbox {
         Sandbox::at(Isolation::None)
     }
 
-    /// Returns a sandbox of this level. On a machine that does not support it, nothing starts.
+    /// Returns a sandbox of this level. On a machine that doesn't support it, nothing can be
+    /// started.
     pub fn at(level: Isolation) -> Self {
         Sandbox {
             level,
@@ -72,8 +73,8 @@ impl Sandbox {
         }
     }
 
-    /// Uses another executable as the launcher. Tests need this, because their own `main` does not
-    /// call [`run_as_launcher`] first. The `main` of `launcher` must do so.
+    /// Uses another executable as the launcher. Tests need this, because their own `main` doesn't
+    /// call [`run_as_launcher`] first. The `main` of `launcher` must call it.
     pub fn with_launcher(self, launcher: PathBuf) -> Self {
         Sandbox { launcher, ..self }
     }
@@ -88,9 +89,9 @@ impl Sandbox {
         self.level > Isolation::None
     }
 
-    /// Starts a program in `folder`. Its environment has only the variables that `command` sets.
+    /// Starts a program in `folder`. Its environment contains only the variables set by `command`.
     ///
-    /// Call it from a thread that lives as long as the program: on Linux, a confined program is
+    /// Call this from a thread that lives as long as the program. On Linux, a confined program is
     /// killed when the *thread* that started it ends.
     pub fn start(
         &self,

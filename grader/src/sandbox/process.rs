@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::machine::system::{self, ExitReason, Limits, ProcessTime};
 use crate::sandbox::launch_request::READY;
 
-/// The maximum length of a launcher's error message, in bytes. The rest is not read.
+/// The maximum length of a launcher's error message, in bytes. The rest isn't read.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
 /// A running program, with pipes to its three standard streams. The program is killed when this
@@ -28,9 +28,9 @@ impl Process {
         Ok(process)
     }
 
-    /// Starts a launcher, which sets up its own session and limits, and waits until the sandbox is
-    /// in place. If the launcher fails, its message becomes the error. Such a failure is never the
-    /// fault of the program that it was to start.
+    /// Starts a launcher, which sets up its own session and limits. Waits until the sandbox is in
+    /// place. If the launcher fails, its message becomes the error. Such a failure is never the
+    /// fault of the program to be started.
     pub(super) fn launch(command: &mut Command, folder: &Path) -> io::Result<Self> {
         let mut process = Process::spawn(command, folder)?;
         let mut first = [0];
@@ -72,9 +72,9 @@ impl Process {
         system::cpu_time(&self.child)
     }
 
-    /// Returns the CPU time used so far by the process and by those of its children that have ended
-    /// and that it has waited for, if the system reports it. After the process has ended, the time
-    /// is available until [`Process::exit_reason`] returns that.
+    /// Returns the CPU time used so far by the process and by those of its children that it has
+    /// waited for, if the system reports it. After the process has ended, the time is available
+    /// until [`Process::exit_reason`] returns the reason.
     pub fn cpu_time_with_children(&self) -> Option<Duration> {
         system::cpu_time_with_children(&self.child)
     }
@@ -98,13 +98,13 @@ impl Process {
             .map(system::exit_reason)
     }
 
-    /// Kills the process and its process group, and returns how it ended.
+    /// Kills the process and its process group. Returns how it ended.
     pub fn kill(&mut self) -> Option<ExitReason> {
         if let Some(reason) = self.exit_reason() {
             return Some(reason);
         }
         system::kill_group(&self.child);
-        // This wait is short: a process cannot ignore SIGKILL.
+        // This wait is short, because a process cannot ignore SIGKILL.
         self.child.kill().ok();
         self.child.wait().ok().map(system::exit_reason)
     }
@@ -117,22 +117,22 @@ impl Drop for Process {
 }
 
 impl ExitReason {
-    /// Returns whether the process exited with code 0. For an untrusted program, this proves
-    /// nothing.
+    /// Returns whether the process exited with code 0. This proves nothing if the program is
+    /// untrusted.
     pub fn is_success(self) -> bool {
         self == ExitReason::Code(0)
     }
 
     /// Returns whether the process was killed with SIGKILL, as the system does when memory runs
-    /// out. The cause is outside the process: its own limits use other signals, and a confined
-    /// probe cannot send this signal to itself.
+    /// out. The cause is outside the process, because its own limits use other signals and a
+    /// confined probe cannot send this signal to itself.
     pub fn is_external_kill(self) -> bool {
         /// The number of SIGKILL on every system.
         const KILL: i32 = 9;
         self == ExitReason::Signal(KILL)
     }
 
-    /// Returns whether the process was ended by its limit of CPU time.
+    /// Returns whether the process was ended by its CPU time limit.
     pub fn is_time_limit(self) -> bool {
         /// The number of SIGXCPU on Linux, where this limit is set.
         const XCPU: i32 = 24;

@@ -1,7 +1,7 @@
 //! The score file, the result of grading for people and programs. `cargo grade --schema` prints its
 //! schema.
 //!
-//! The same submission, exam and toolchain give the same bytes, except for `timings` and
+//! The same submission, exam and toolchain always give the same bytes, except for `timings` and
 //! `isolation`.
 
 pub mod rerun_command;
@@ -21,8 +21,8 @@ use crate::workspace::book::Book;
 /// Version of the format.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// The JSON schema of the format. It is committed, so that graders need not compile `schemars`, and
-/// a test compares it with the types.
+/// The JSON schema of the format. It is committed so that graders don't need to compile `schemars`.
+/// A test compares it with the types.
 pub const PUBLISHED_SCHEMA: &str = include_str!("score.schema.json");
 
 /// The score of one submission.
@@ -144,7 +144,8 @@ pub struct CodeLocation {
 }
 
 impl CodeLocation {
-    /// Parses the location of a panic, such as `sphere.rs:34:9`. `None` if it is not in a task file.
+    /// Parses the location of a panic, such as `sphere.rs:34:9`. Returns `None` if it is not in a
+    /// task file.
     pub fn from_panic(location: &str, handed_out: &HandedOut) -> Option<Self> {
         let mut parts = location.split(':');
         let file = handed_out.task_file(parts.next()?)?;
@@ -283,7 +284,7 @@ pub struct BuildReport {
 }
 
 impl BuildReport {
-    /// Returns all notes, those on files that were not graded first.
+    /// Returns all notes, starting with those on files that were not graded.
     pub fn all_notes(&self) -> impl Iterator<Item = &String> + Clone {
         self.ignored_copies.iter().chain(&self.notes)
     }
@@ -337,13 +338,13 @@ impl ItemScore {
         }
     }
 
-    /// Returns where to look: what this failure tells, or else what the item tells.
+    /// Returns where to look: the clue from this failure or, failing that, the item's own text.
     pub fn where_to_look(&self) -> Option<&String> {
         self.clue.as_ref().or(self.look.as_ref())
     }
 
-    /// Returns the rows with which reports in text describe the item: a label, and a text unless there
-    /// is none. The wording of the message and of the hints is the report's.
+    /// Returns the rows that describe the item in text reports, each with a label and a text, if
+    /// any. The report chooses the wording of the message and the hints.
     pub fn rows(&self, what: String, hint: Option<String>) -> Vec<(&'static str, String)> {
         let evidence = |text: fn(&Evidence) -> &String| self.evidence.as_ref().map(text).cloned();
         let rows = [
@@ -370,7 +371,7 @@ impl ItemScore {
         }
     }
 
-    /// Returns the command that shows the question of the evidence in the viewer, if there is one.
+    /// Returns the command that shows the evidence's question in the viewer, if any.
     pub fn view_command(&self, command: &RerunCommand) -> Option<String> {
         let evidence = self.evidence.as_ref()?;
         let number = evidence.can_be_shown.then_some(evidence.number)?;
@@ -379,7 +380,7 @@ impl ItemScore {
 }
 
 impl Score {
-    /// Returns all items, in the order in which they are graded.
+    /// Returns all items, in grading order.
     pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
         self.tasks.iter().flat_map(|task| &task.items)
     }

@@ -7,13 +7,13 @@ use maud::html;
 /// The options that every printed command must repeat to refer to the same submission and exam.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RerunCommand {
-    /// The id of the assignment, or `None` if it is the default one.
+    /// The id of the assignment, or `None` for the default.
     pub assignment: Option<&'static str>,
-    /// The path of the submission, or `None` for the default one.
+    /// The path of the submission, or `None` for the default.
     pub submission: Option<PathBuf>,
     /// The path of the exam file, or `None` for the practice exam.
     pub exam: Option<PathBuf>,
-    /// Whether the submission runs in a sandbox only.
+    /// Whether the submission may only run in a sandbox.
     pub is_untrusted: bool,
 }
 
@@ -29,7 +29,7 @@ impl RerunCommand {
     }
 
     /// Returns the command that shows the tree or the shapes of one question in the viewer, which
-    /// accepts only the practice exam.
+    /// only accepts the practice exam.
     pub fn view(&self, item: &str, number: usize) -> Option<String> {
         let is_practice = self.exam.is_none();
         let submission = self.submission.iter();
@@ -47,7 +47,8 @@ impl RerunCommand {
         self.join("cargo grade", submission.chain(exam), what.to_owned())
     }
 
-    /// Returns a command that treats the submission as before. `words` name it.
+    /// Returns a command with the same options as before. `words` are its arguments that name the
+    /// submission.
     fn join(&self, start: &str, words: impl Iterator<Item = String>, end: String) -> String {
         let assignment = self.assignment.map(|id| format!("--assignment {id}"));
         let untrusted = self.is_untrusted.then(|| "--untrusted".to_owned());
@@ -58,7 +59,7 @@ impl RerunCommand {
     }
 }
 
-/// Returns a report page whose commands name the submission at `to` instead of `from`.
+/// Returns a report page whose commands refer to the submission at `to` instead of `from`.
 pub fn with_moved_submission(page: &str, from: &Path, to: &Path) -> String {
     let [from, to] = [from, to].map(|path| html! { (shell_word(path)) }.into_string());
     page.replace(&from, &to)

@@ -8,13 +8,13 @@ use judging::assignment::Task;
 /// Wall time of each stage of grading one submission.
 #[derive(Clone, Debug, Default)]
 pub struct StageTimes {
-    /// Reading the exam, and finding the compiler and the dependencies.
+    /// Reading the exam and finding the compiler and the dependencies.
     pub prepare: Duration,
-    /// Compiling and linking the submission, repeatedly if a file does not compile.
+    /// Compiling and linking the submission, repeatedly if a file doesn't compile.
     pub build: Duration,
     /// Starting the probe, once per task.
     pub start: Duration,
-    /// Waiting for answers, for each task, without starting the probe.
+    /// Waiting for answers, for each task, excluding the start of the probe.
     pub asking: Vec<(Task, Duration)>,
     /// Comparing answers with keys and with the signatures of known mistakes.
     pub judging: Duration,

@@ -1,4 +1,4 @@
-//! The reasons why a submission, or one of its files, cannot be graded.
+//! Reasons for not grading a submission or one of its files.
 
 use std::path::PathBuf;
 
@@ -11,39 +11,40 @@ use crate::machine::files::PathError;
 /// The maximum number of names in a message about a submission without task files.
 const MAX_NAMES: usize = 10;
 
-/// Reasons why a task file cannot be graded. The tasks of such a file score nothing; the other
-/// files are graded.
+/// Reasons for not grading a task file. The tasks in such a file score nothing, but the other files
+/// are graded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TaskFileError {
-    /// The file does not exist.
+    /// The file doesn't exist.
     Missing,
     /// The path is a folder, a link or a device.
     NotRegular,
     /// The file is longer than any reasonable solution.
     TooLong,
-    /// The file is not valid UTF-8. The number is the line of the first invalid byte, counted from 1.
+    /// The file isn't valid UTF-8. The number is the line of the first invalid byte, counted from
+    /// 1.
     NotText(usize),
     /// The system cannot read the file, with this message.
     Unreadable(String),
 }
 
-/// Reasons why a path has no submission to grade. These are usage errors.
+/// Reasons for finding no submission to grade at a path. These are usage errors.
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
-    /// The path does not exist.
+    /// The path doesn't exist.
     #[error("there is no {0}: name the folder with the task files, such as `student`")]
     NotFound(PathBuf),
     /// The path is a device, a pipe or a socket.
     #[error("{0} is neither a folder nor a file: name the folder with the task files")]
     NotFileOrFolder(PathBuf),
-    /// The folder or archive has none of the task files.
+    /// The folder or archive contains none of the task files.
     #[error("{} has none of {files} in any of its folders; it has {}", path.display(), listed(found))]
     NoTaskFiles {
         /// The path of the folder or archive.
         path: PathBuf,
         /// The names of the task files.
         files: String,
-        /// The names of the files and folders in it.
+        /// The names of the files and folders found instead.
         found: Vec<String>,
     },
     /// One of the files or folders to read is a link.
@@ -62,7 +63,7 @@ pub enum SubmissionError {
     /// The machine failed to read a file or folder. Nothing is known about the submission.
     #[error("{0}; this is a fault of the machine, so try again")]
     Machine(PathError),
-    /// Several copies of the task files differ, and each could be the one that is meant.
+    /// Several copies of the task files differ, and any of them could be the right one.
     #[error(
         "{path} has task files that differ, in {}: put those that count into one folder, without the others",
         places(copies)
@@ -73,7 +74,7 @@ pub enum SubmissionError {
         /// Two of the folders or files. The empty path is the top level.
         copies: Vec<String>,
     },
-    /// Task files are as they were handed out, and there are changed copies of them.
+    /// Task files are unmodified, but changed copies of them exist.
     #[error(
         "{path} has the starter's {}, and changed copies in {}: keep the file that counts, under the task file's name",
         listed(starters),
@@ -87,7 +88,7 @@ pub enum SubmissionError {
         /// The paths of the copies.
         copies: Vec<String>,
     },
-    /// The submission has more than is read.
+    /// The submission exceeds a limit on reading it.
     #[error("{0} has {1}: hand in the task files without the rest")]
     TooMany(PathBuf, Limit),
     /// The path is a file, but not an archive that can be read.
@@ -95,7 +96,7 @@ pub enum SubmissionError {
     Archive {
         /// The path of the file.
         path: PathBuf,
-        /// The reason why the archive is rejected.
+        /// Why the archive is rejected.
         why: ArchiveError,
     },
 }
@@ -116,7 +117,7 @@ impl TaskFileError {
 }
 
 impl SubmissionError {
-    /// Returns whether the machine is at fault, and not the submission.
+    /// Returns whether the machine is at fault, rather than the submission.
     pub fn is_machine_fault(&self) -> bool {
         matches!(
             self,

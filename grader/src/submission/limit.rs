@@ -1,6 +1,6 @@
-//! The limits on what collecting one submission may read, in total, over all of its folders and
-//! archives, and archives in archives. They are numbers of files and bytes, and not times, so that they
-//! do not depend on the machine.
+//! The limits on reading one submission, in total over all of its folders, archives and nested
+//! archives. They are numbers of files and bytes rather than times, so that they don't depend on
+//! the machine.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use std::fmt;
 pub enum Limit {
     /// Files and folders, in folders and in archives.
     Files,
-    /// Levels of folders inside each other.
+    /// Levels of nested folders.
     Levels,
     /// Archives.
     Archives,
@@ -17,12 +17,12 @@ pub enum Limit {
     Folders,
     /// Files whose names resemble those of task files.
     Copies,
-    /// Bytes that are read from archives, compressed and inflated.
+    /// Bytes read from archives, compressed and inflated.
     Bytes,
 }
 
 impl Limit {
-    /// Returns how much may be read.
+    /// Returns the maximum quantity.
     pub(super) fn most(self) -> usize {
         match self {
             Limit::Files => 50_000,

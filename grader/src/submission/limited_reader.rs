@@ -23,7 +23,7 @@ pub(super) struct ByteBudget {
 }
 
 impl ByteBudget {
-    /// Returns a budget of its own.
+    /// Returns an independent budget.
     pub(super) fn new(bytes: u64) -> Self {
         ByteBudget {
             left: Rc::new(Cell::new(bytes)),
@@ -31,7 +31,7 @@ impl ByteBudget {
         }
     }
 
-    /// Returns a budget for a part of what this one is for. What is read is deducted from both.
+    /// Returns a budget that is part of this one. Bytes read are deducted from both.
     pub(super) fn part(&self, bytes: u64) -> Self {
         ByteBudget {
             left: Rc::new(Cell::new(bytes)),
@@ -44,7 +44,7 @@ impl ByteBudget {
         self.left() == 0
     }
 
-    /// Sets the number of bytes left, which the total limits, too.
+    /// Sets the number of bytes left. The total still applies too.
     pub(super) fn reset(&self, bytes: u64) {
         self.left.set(bytes);
     }
@@ -64,7 +64,7 @@ impl ByteBudget {
         self.left.get().min(total)
     }
 
-    /// Reads into as much of the buffer as the budget allows, and deducts the bytes read.
+    /// Reads into as much of the buffer as the budget allows. Deducts the bytes read.
     fn read_within(
         &self,
         buffer: &mut [u8],
@@ -122,7 +122,7 @@ mod tests {
         assert!(budget.is_exhausted());
         let error = reader.read(&mut buffer).unwrap_err();
         assert_eq!(error.to_string(), "it has more bytes than may be read");
-        // Reading nothing is possible at any time.
+        // Reading zero bytes is always possible.
         assert_eq!(reader.read(&mut []).unwrap(), 0);
         budget.reset(9);
         assert_eq!(reader.read(&mut buffer).unwrap(), 2);

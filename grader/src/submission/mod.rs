@@ -1,4 +1,4 @@
-//! Collects a submission: the task files of an assignment from a folder or an archive, and nothing else.
+//! Collects a submission, i.e. only the assignment's task files, from a folder or an archive.
 //!
 //! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
@@ -28,32 +28,32 @@ pub use error::{SubmissionError, TaskFileError, listed, places};
 pub use limit::Limit;
 pub use names::{is_archive_name, may_be_task_file};
 
-/// The maximum length of a file that is read, in bytes. The reference's files are about 10,000
-/// bytes long.
+/// The maximum length of a file to read, in bytes. The reference's files are about 10,000 bytes
+/// long.
 const MAX_FILE_BYTES: u64 = 1 << 20;
 /// The maximum number of notes about other files in a report.
 const MAX_NOTES: usize = 20;
 /// The maximum length of a printed name, in characters.
 const MAX_NAME_CHARS: usize = 200;
 
-/// The task files as they were submitted.
+/// The task files as submitted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
     /// The assignment.
     pub handed_out: &'static HandedOut,
     /// The name of the folder or archive, for reports.
     pub name: String,
-    /// The text of each task file, or the reason why it has none, in lecture order.
+    /// The text of each task file, or why there is none, in lecture order.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
-    /// Notes about files that look like task files or archives, and are not graded.
+    /// Notes about files that look like task files or archives but aren't graded.
     pub ignored_copies: Vec<String>,
-    /// Notes about other files that were found, which are not graded.
+    /// Notes about other files that were found but aren't graded.
     pub notes: Vec<String>,
 }
 
 impl Submission {
-    /// Reads the task files of a folder or archive, at any depth, and from the archives in it. The
-    /// folder in it with most of the task files counts; copies that are ignored are named in a note.
+    /// Reads the task files in a folder or archive, at any depth, including the archives in it. The
+    /// folder with the most task files is used. Ignored copies are mentioned in a note.
     pub fn collect(path: &Path, handed_out: &'static HandedOut) -> Result<Self, SubmissionError> {
         let name = folder_name(path);
         if path.is_dir() {
@@ -69,9 +69,9 @@ impl Submission {
         })
     }
 
-    /// Reads the task files in the folder `src` of the package that students work in: the files that
-    /// Cargo compiles, whatever copies are in other folders. Without such a folder, looks for the
-    /// files like [`Submission::collect`].
+    /// Reads the task files in the folder `src` of the package that students work in: the files
+    /// that Cargo compiles, regardless of copies in other folders. If there is no such folder,
+    /// searches for the files like [`Submission::collect`].
     pub fn collect_package(
         path: &Path,
         handed_out: &'static HandedOut,
@@ -88,8 +88,8 @@ impl Submission {
         Submission::collect(path, handed_out)
     }
 
-    /// Reads the task files among these files, each given by its submitted name and its path on
-    /// disk, and in the archives among them.
+    /// Reads the task files among these files, including the archives among them. Each file is
+    /// given by its submitted name and its path on disk.
     pub fn from_files(
         name: &str,
         files: &[(String, PathBuf)],
@@ -99,7 +99,7 @@ impl Submission {
         Submission::choose(name.to_owned(), search)
     }
 
-    /// Chooses the folder that is graded.
+    /// Chooses the folder to grade.
     fn choose(name: String, search: Search) -> Result<Self, SubmissionError> {
         let (path, handed_out) = (search.submission, search.handed_out);
         let link = |link: &String| SubmissionError::Link {
@@ -110,7 +110,7 @@ impl Submission {
             .errors
             .into_iter()
             .partition(|(_, error)| error.is_machine_fault());
-        // What the machine did not read could be what counts.
+        // A file that the machine failed to read could be the one to grade.
         if let Some((_, fault)) = faults.into_iter().next() {
             return Err(fault);
         }
@@ -139,7 +139,7 @@ impl Submission {
         if let Some(path) = paths.find(|path| search.links.contains(path)) {
             return Err(link(&path));
         }
-        // What cannot be read could have the files that are missing.
+        // The missing files could be in something that cannot be read.
         if !choice.is_complete {
             let mut links = search.links.iter();
             let leads_to_files = |path: &&String| may_lead_to_files(path, handed_out);
@@ -171,8 +171,8 @@ impl Submission {
         })
     }
 
-    /// Returns notes about copies of one's own task files, of which Cargo compiles none. Those that
-    /// `cargo grade --reset` makes are left out.
+    /// Returns notes about copies of students' own task files, which Cargo doesn't compile. Copies
+    /// made by `cargo grade --reset` are left out.
     fn notes_on_own_copies(&self, copies: &[Lookalike]) -> Vec<String> {
         let differs = |copy: &&Lookalike| {
             let graded = self.text(copy.file).map(str::as_bytes);
@@ -188,7 +188,7 @@ impl Submission {
         copies.map(note).collect()
     }
 
-    /// Returns the text of the task file with this name, if it has one.
+    /// Returns the text of the task file with this name, if any.
     pub fn text(&self, name: &str) -> Option<&str> {
         let mut files = self.files.iter();
         let (_, text) = files.find(|(file, _)| file.name == name)?;
@@ -201,7 +201,7 @@ impl Submission {
         self.handed_out.task_method(task.task(), text).ok()
     }
 
-    /// Returns whether the assignment has not been started: every task file is the starter's, token
+    /// Returns whether the assignment hasn't been started: every task file is the starter's, token
     /// for token.
     pub fn is_as_handed_out(&self) -> bool {
         let mut files = self.files.iter();
@@ -209,7 +209,7 @@ impl Submission {
     }
 }
 
-/// Returns whether a link has the name of a task file, or of a folder that people hand in.
+/// Returns whether a link has the name of a task file or of a folder that people hand in.
 fn may_lead_to_files(link: &str, handed_out: &HandedOut) -> bool {
     let name = link.rsplit('/').next().unwrap_or(link);
     let mut folders = handed_out.assignment.folders.iter();
@@ -254,7 +254,7 @@ fn decode(bytes: Vec<u8>) -> Result<String, TaskFileError> {
     })
 }
 
-/// Returns notes that list the other files found, and say that they are not used.
+/// Returns notes that list the other files found and say that they aren't used.
 fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec<String> {
     let note = |(name, bytes): (&String, &Vec<u8>)| match handed_out.given_file(name) {
         // `main.rs` only renders pictures, and the reference's may differ because it imports
@@ -262,7 +262,7 @@ fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec
         Some(given) if *given == handed_out.main => None,
         Some(given) => {
             let theirs = String::from_utf8_lossy(bytes);
-            // Compares by line: git and editors may change line endings.
+            // Compare by line, because git and editors may change line endings.
             let same = theirs.lines().eq(given.text.lines());
             (!same).then(|| {
                 format!("{name} differs from the given file: the given one is used, not yours")

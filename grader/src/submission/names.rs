@@ -1,18 +1,17 @@
-//! Decides by its name what a file could be: a task file, a copy of one, or an archive. People,
-//! browsers, file managers and editors rename files, so that a name is compared without what they
-//! add.
+//! Decides from its name what a file could be: a task file, a copy of one, or an archive. People,
+//! browsers, file managers and editors rename files, so names are compared without their additions.
 
 use unicode_normalization::UnicodeNormalization;
 
 use crate::handed_out::HandedOut;
 
-/// Words that browsers, file managers and web storage put around the name of a copy, in the languages
-/// of common systems. A number is such a word, too.
+/// Words that browsers, file managers and web storage put around the name of a copy, in the
+/// languages of common systems. A number is also treated as such a word.
 const COPY_WORDS: [&str; 20] = [
     "copy", "of", "another", "kopie", "von", "copie", "de", "copia", "di", "kopi", "kopia",
     "kopio", "kopya", "af", "av", "van", "st", "nd", "rd", "th",
 ];
-/// Those words with other letters than the English ones.
+/// Those of these words with non-English letters.
 const OTHER_COPY_WORDS: [&str; 7] = [
     "cópia",
     "másolat",
@@ -22,33 +21,34 @@ const OTHER_COPY_WORDS: [&str; 7] = [
     "コピー",
     "のコピー",
 ];
-/// Extensions of texts that could be source code, in a name without `rs`.
+/// Extensions of text files that could be source code despite lacking `rs`.
 const TEXT_EXTENSIONS: [&str; 14] = [
     "txt", "text", "rust", "bak", "old", "orig", "save", "tmp", "swp", "rtf", "doc", "docx", "odt",
     "pages",
 ];
-/// Extensions of archives, most of which cannot be read.
+/// Extensions of archives. Most kinds cannot be read.
 const ARCHIVE_EXTENSIONS: [&str; 30] = [
     "zip", "tar", "gz", "tgz", "rar", "7z", "xz", "txz", "bz2", "tbz", "tbz2", "zst", "tzst", "lz",
     "lz4", "lzma", "lzh", "z", "z01", "zipx", "arj", "ace", "cab", "iso", "dmg", "sit", "sitx",
     "cpio", "wim", "xar",
 ];
-/// The beginning of the names in which macOS stores metadata of other files.
+/// The prefix of files where macOS stores metadata of other files.
 const MACOS_METADATA: &str = "._";
 
-/// How a name resembles that of a task file.
+/// How a name resembles a task file's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resemblance {
     /// It is the task file's name.
     Exact,
-    /// It is the task file's name with what a browser or a file manager adds to a copy:
-    /// `bvh (1).rs`, `Copy of bvh.rs`. Without a task file of the exact name, it counts as that file.
+    /// It is the task file's name with the additions that a browser or a file manager makes for a
+    /// copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name, it is
+    /// used as that file.
     Copy,
     /// It contains the task file's name, such as `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
     Similar,
 }
 
-/// Returns how the name of a file resembles that of a task file, or `None` if it does not.
+/// Returns how a file's name resembles a task file's, or `None` if it doesn't.
 pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
     if name == task_file {
         return Some(Resemblance::Exact);
@@ -67,7 +67,8 @@ pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
         let mut others = words(stem_of_name)
             .into_iter()
             .filter(|word| !is_added(word));
-        // Names of hidden files begin with a dot, and those of editors' files with other characters.
+        // Names of hidden files begin with a dot, and names of editors' files with other
+        // characters.
         let is_plain = name.starts_with(char::is_alphanumeric);
         if is_plain && others.next() == Some(stem) && others.next().is_none() {
             return Some(Resemblance::Copy);
@@ -84,19 +85,19 @@ pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
     is_similar.then_some(Resemblance::Similar)
 }
 
-/// Returns whether a file of this name may be a task file or a copy of one.
+/// Returns whether a file with this name may be a task file or a copy of one.
 pub fn may_be_task_file(name: &str, handed_out: &HandedOut) -> bool {
     let mut files = handed_out.file_names();
     files.any(|file| resemblance(name, file).is_some())
 }
 
-/// Returns whether this is the name of an archive, or of a copy of one, even if its kind is not
+/// Returns whether this is the name of an archive or a copy of one, even if its kind isn't
 /// supported.
 pub fn is_archive_name(name: &str) -> bool {
     let lower = name.to_lowercase();
     let mut extensions = lower.split('.').skip(1);
     let is_archives = |extension: &str| {
-        // Without what is added to the whole name, such as ` (1)` or `~`.
+        // Ignore suffixes of the whole name, such as ` (1)` or `~`.
         let end = extension.find(|c: char| !c.is_alphanumeric());
         ARCHIVE_EXTENSIONS.contains(&&extension[..end.unwrap_or(extension.len())])
     };
@@ -184,8 +185,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Whatever is added around the name of a task file, the file is still recognised. Marks of
-        /// copies alone leave a copy.
+        /// No matter what is added around a task file's name, the file is still recognised. If only
+        /// copy marks are added, it is recognised as a copy.
         #[test]
         fn no_addition_hides_a_task_file(
             marks in prop::collection::vec(copy_mark(), 1..4),

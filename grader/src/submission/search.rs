@@ -1,5 +1,5 @@
-//! The results of a search in the folders and archives of a submission. The files of each folder are
-//! sorted by what their names resemble.
+//! The results of a search in the folders and archives of a submission. The files of each folder
+//! are classified by what their names resemble.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,19 +18,19 @@ pub(super) struct Search {
     pub(super) submission: PathBuf,
     /// The assignment.
     pub(super) handed_out: &'static HandedOut,
-    /// The number of things of each kind that were read.
+    /// The number of items read so far, for each limited quantity.
     counts: BTreeMap<Limit, usize>,
     /// The bytes that may still be read from archives.
     pub(super) bytes: ByteBudget,
-    /// The folders that have task files, on disk or in an archive.
+    /// The folders that contain task files, on disk or in an archive.
     pub(super) candidates: Vec<Candidate>,
     /// The files that only resemble task files.
     pub(super) lookalikes: Vec<Lookalike>,
-    /// The names at the top level, in which what is not UTF-8 is replaced.
+    /// The names at the top level, with invalid UTF-8 replaced.
     pub(super) names: Vec<String>,
     /// The paths of links below the folder, with `/`.
     pub(super) links: Vec<String>,
-    /// Folders and archives that cannot be read, or are below too many others, by their paths.
+    /// Folders and archives that cannot be read or are nested too deeply, by their paths.
     pub(super) errors: Vec<(String, SubmissionError)>,
     /// The archives that were found, with their paths on disk.
     pub(super) archives: Vec<(String, PathBuf)>,
@@ -64,7 +64,7 @@ impl Search {
         }
     }
 
-    /// Counts things. Fails if there are more of them than may be read.
+    /// Adds to the count of a limited quantity. Fails if this exceeds the limit.
     pub(super) fn spend(&mut self, limit: Limit, count: usize) -> Result<(), SubmissionError> {
         let spent = self.counts.entry(limit).or_default();
         *spent = spent.saturating_add(count);
@@ -84,7 +84,7 @@ impl Search {
         }
     }
 
-    /// Returns the error if there is more than may be read.
+    /// Returns the error for exceeding a limit.
     pub(super) fn too_many(&self, limit: Limit) -> SubmissionError {
         SubmissionError::TooMany(self.submission.clone(), limit)
     }
@@ -94,8 +94,8 @@ impl Search {
         self.handed_out.given_file(name).is_some() || may_be_task_file(name, self.handed_out)
     }
 
-    /// Adds a folder, on disk or in an archive: as one that could be graded, if it has task files, and
-    /// the files that only resemble task files.
+    /// Adds a folder on disk or in an archive. If it contains task files, it becomes a candidate
+    /// for grading. Files that only resemble task files are recorded too.
     pub(super) fn add_folder(&mut self, folder: FoundFolder) -> Result<(), SubmissionError> {
         let FoundFolder { path, read, others } = folder;
         let handed_out = self.handed_out;
@@ -103,7 +103,7 @@ impl Search {
         for file in handed_out.file_names() {
             let resembles = |(name, contents): &(String, FileContents)| {
                 let kind = resemblance(name, file)?;
-                // A folder or a link is no copy.
+                // A folder or a link isn't a copy.
                 let is_copy = *contents != Err(TaskFileError::NotRegular);
                 (kind == Resemblance::Exact || is_copy).then(|| Lookalike {
                     path: join(&path, name),
@@ -136,8 +136,8 @@ impl Search {
         Ok(())
     }
 
-    /// Records the error of one folder or archive, so that the search can go on. Fails if there is
-    /// too much to be read at all.
+    /// Records the error of one folder or archive, so that the search can go on. Fails if the
+    /// submission exceeds a limit.
     pub(super) fn keep_error<T>(
         &mut self,
         path: &str,
@@ -154,8 +154,8 @@ impl Search {
     }
 }
 
-/// Returns the index of the file that counts as the task file: the one with its name, or else a copy
-/// of it, if only one file could be meant.
+/// Returns the index of the file to use as the task file: the one with its name or, failing that, a
+/// copy of it, if it is the only one.
 fn graded(all: &[Lookalike], handed_out: &HandedOut) -> Option<usize> {
     let of_kind = |kind: Resemblance| all.iter().position(|file| file.kind == kind);
     if let Some(index) = of_kind(Resemblance::Exact) {

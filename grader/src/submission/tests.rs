@@ -52,7 +52,7 @@ pub(super) fn collected(files: Files) -> Result<Submission, SubmissionError> {
     Submission::collect(folder(files).path(), &RAYS)
 }
 
-/// Returns the limit that a submission exceeds, if it does.
+/// Returns the limit that a submission exceeds, if any.
 pub(super) fn exceeded<T>(collected: Result<T, SubmissionError>) -> Option<Limit> {
     match collected {
         Ok(_) => None,
@@ -61,7 +61,7 @@ pub(super) fn exceeded<T>(collected: Result<T, SubmissionError>) -> Option<Limit
     }
 }
 
-/// Returns what was found of a task file.
+/// Returns the result of reading a task file.
 pub(super) fn text<'a>(
     submission: &'a Submission,
     name: &str,
@@ -90,20 +90,20 @@ fn copies_in_other_folders_do_not_stop_students_at_their_own_work() {
     let own = Submission::collect_package(package.path(), &RAYS).unwrap();
     assert_eq!(texts(&own).len(), RAYS.files.len() - 1, "one is missing");
     write_files(&package.path().join("src"), "new");
-    // Of what is handed in, nobody knows which copy is meant.
+    // If this is handed in, it is unclear which copy is meant.
     let handed_in = Submission::collect(package.path(), &RAYS);
     assert!(matches!(
         handed_in,
         Err(SubmissionError::Ambiguous { copies, .. }) if copies == ["src", "src/yesterday"]
     ));
-    // Without a package, the files are found as well.
+    // The files are also found without a package.
     let folder = tempfile::tempdir().unwrap();
     write_files(&folder.path().join("my/work"), "new");
     let found = Submission::collect_package(folder.path(), &RAYS).unwrap();
     assert!(found.files.iter().all(|(_, text)| text.is_ok()));
 }
 
-/// Returns the files of a submission that have a text.
+/// Returns the files of a submission that could be read.
 pub(super) fn texts(submission: &Submission) -> Vec<(&str, &str)> {
     let files = submission.files.iter();
     let texts = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
@@ -147,7 +147,7 @@ fn a_link_matters_only_if_files_are_missing_that_it_may_lead_to() {
     assert_eq!(refused(), "src");
     write_files(&source, "new");
     assert!(collect().is_ok());
-    // But not one in the place of a file that is graded.
+    // However, a copy doesn't replace a graded file.
     fs::remove_file(source.join("bvh.rs")).unwrap();
     link("work/bvh.rs");
     assert_eq!(refused(), "work/bvh.rs");

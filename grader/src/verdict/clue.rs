@@ -1,11 +1,11 @@
-//! Clues: what to look for where the way in which an item failed tells more than the item itself.
+//! Clues: what to look for if the way an item failed is more informative than the item itself.
 
 use judging::assignment::TaskInfo;
 use judging::signatures::PanicKind;
 
 use crate::probe::{Crash, Fault, TimeLimit};
 
-/// The clue for a question that is answered correctly when it is asked alone.
+/// The clue for a question that is answered correctly when rerun in isolation.
 pub const KEPT_STATE: &str = "The same question is answered correctly when it is asked alone, so your \
     code keeps something from one call to the next, in a `static` or a `Cell` for example. An answer \
     must depend only on the arguments of its call.";
@@ -51,7 +51,7 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
     }
 }
 
-/// Returns the clue for a panic with this message, if the kind of panic has one.
+/// Returns the clue for a panic with this message, if any.
 pub fn of_panic(message: &str) -> Option<&'static str> {
     Some(match PanicKind::of(message)? {
         PanicKind::Index => {

@@ -1,5 +1,5 @@
-//! Explains a task's wrong answers: by known mistakes, or by clues for the whole task. The functions here
-//! are pure.
+//! Explains a task's wrong answers with known mistakes or with clues for the whole task. The
+//! functions here are pure.
 
 use judging::assignment::TaskInfo;
 use judging::exam::{Exam, Item};
@@ -9,9 +9,9 @@ use crate::handed_out::HandedOut;
 use crate::score::{ItemScore, Verdict, VerdictKind};
 use crate::verdict::{add_clue, add_hints};
 
-/// Adds the hints for the mistakes that explain a task's answers: those of the submission's own
-/// program, and those of the program with substituted parts. Where no mistake does, and not one ray hits
-/// anything, adds the clue for that.
+/// Adds the hints for the mistakes that explain a task's answers, both those of the submission's
+/// own program and those of the program with substituted parts. If no mistake explains them and no
+/// ray hits anything, adds the clue for that.
 pub fn explain_items(
     exam: &Exam,
     lines: &mut [ItemScore],
@@ -35,14 +35,14 @@ pub fn explain_items(
     }
 }
 
-/// Returns whether these are all items of a task. After a save, the items that failed before are graded
-/// first, and rays of the others may hit something.
+/// Returns whether these are all items of a task. After a save, only the items that failed before
+/// are graded first, and rays of the other items may hit something.
 fn is_whole_task<'a>(items: impl Iterator<Item = &'a Item>, info: &TaskInfo) -> bool {
     items.map(|item| item.points).sum::<u32>() == info.points
 }
 
-/// Returns whether a hint is possible: there is a wrong answer, or a known reason why there is no
-/// answer.
+/// Returns whether a hint is possible: there is a wrong answer, or a known reason for a missing
+/// one.
 fn can_have_hint(verdict: &Verdict) -> bool {
     // Invalid answers say nothing about the mistake.
     matches!(verdict.kind(), VerdictKind::Failed | VerdictKind::NoAnswer)
@@ -73,7 +73,7 @@ mod tests {
         });
         let spans = |span| [Answer::Spans(vec![ElementOutcome::Value(span); 3])];
         let (right, wrong) = (spans(None), spans(Some(Interval { min: 1.0, max: 2.0 })));
-        // The mistake does not affect the third item.
+        // The mistake doesn't affect the third item.
         for item in &mut exam.items[..2] {
             item.questions = vec![boxes(3)];
             item.signatures.elements = (0..3).collect();
@@ -91,7 +91,7 @@ mod tests {
             observations
         };
         let (right, wrong) = (observations(&right), observations(&wrong));
-        // The first item is graded with substituted parts, and the second is not.
+        // The first item is graded with substituted parts. The second isn't.
         let hinted = |verdict: Verdict, own: &Observations, substituted: Option<&Observations>| {
             let mut lines: Vec<ItemScore> = pending(&exam).items().cloned().collect();
             lines[0].carried_forward = true;
@@ -118,7 +118,7 @@ mod tests {
         }
         let miss = ElementOutcome::Value(None);
         let hit = ElementOutcome::Value(Some(Interval::AHEAD));
-        // Returns the clue in a line, if all items are answered with two misses and `last`.
+        // Returns the clue in an item's score if all items are answered with two misses and `last`.
         let clue_in = |line: &ItemScore, exam: &Exam, last: &ElementOutcome<_>| {
             let mut observations = Observations::default();
             for item in &exam.items {
@@ -138,7 +138,7 @@ mod tests {
         assert!(clue.is_some());
         assert_eq!(clue_in(&wrong, &whole, &miss), clue);
         assert_eq!(clue_in(&wrong, &whole, &hit), None);
-        // What is not asked may be a hit.
+        // A question that isn't asked could have been a hit.
         let mut some = whole.clone();
         some.items.pop();
         assert_eq!(clue_in(&wrong, &some, &miss), None);
@@ -153,7 +153,7 @@ mod tests {
             ..wrong.clone()
         };
         assert_eq!(clue_in(&with_clue, &whole, &miss), with_clue.clue);
-        // A hint of a known mistake says more than the clue.
+        // A known mistake's hint is more helpful than the clue.
         let mut hinted = wrong;
         hinted.hints = vec![Hint {
             nudge: String::new(),

@@ -8,15 +8,15 @@ use crate::probe::Fault;
 /// The outcome of running one item.
 #[derive(Clone, Debug)]
 pub enum ItemOutcome<'a> {
-    /// The item has not been run yet.
+    /// The item hasn't been run yet.
     Pending,
-    /// The task's file is not part of the program.
+    /// The task's file isn't part of the program.
     NotCompiled(&'a NotCompiled),
-    /// There is no answer.
+    /// The item was not answered.
     Fault {
-        /// The reason why there is no answer.
+        /// The fault that prevented an answer.
         fault: Fault,
-        /// Indices of the question and of the element that cause the fault when run alone, if
+        /// Indices of the question and the element that cause the fault when run in isolation, if
         /// known.
         culprit: Option<(usize, usize)>,
     },
@@ -26,15 +26,16 @@ pub enum ItemOutcome<'a> {
     Answered {
         /// The judgements of the answers.
         judgements: Vec<Judgement>,
-        /// Whether the wrong answer that the report shows is right when its question is asked alone.
+        /// Whether the wrong answer shown in the report is right when its question is rerun in
+        /// isolation.
         right_alone: bool,
     },
 }
 
-/// The reason why an item was not run.
+/// Why an item was not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRun {
-    /// Other items of its task ended with this fault, so that the task was stopped.
+    /// Other items of its task ended with this fault, so the task was stopped.
     TaskStopped(Fault),
     /// It depends on a task that was stopped.
     NeedsStoppedTask,
@@ -43,7 +44,7 @@ pub enum NotRun {
 }
 
 impl ItemOutcome<'_> {
-    /// Returns the outcome with these judgements, of questions that were not asked alone.
+    /// Returns the outcome with these judgements, for questions that were not rerun in isolation.
     pub fn answered(judgements: Vec<Judgement>) -> Self {
         ItemOutcome::Answered {
             judgements,
@@ -61,9 +62,9 @@ impl ItemOutcome<'_> {
     }
 }
 
-/// Returns the failure that the report of an item shows, and the index of its question. The points of an
-/// item are those of its worst question, so it is that question's failure. Returns `None` if all answers
-/// are right, or if the worst question has no answer to show.
+/// Returns the failure shown in an item's report and the index of its question. An item's points
+/// are those of its worst question, so this is that question's failure. Returns `None` if all
+/// answers are right, or if there is no answer to the worst question.
 pub fn worst_failure(judgements: &[Judgement]) -> Option<(usize, &Failure)> {
     let worst = judgements.iter().map(|judgement| judgement.credit).min()?;
     if worst == Credit::FULL {

@@ -142,7 +142,7 @@ fn not_compiled_message(file: &str, why: &NotCompiled) -> String {
     }
 }
 
-/// Returns the line of the compiler's error, if there is one.
+/// Returns the line of the compiler's error, if any.
 pub fn file_line(why: &NotCompiled) -> Option<u32> {
     let NotCompiled::Error { line, .. } = why else {
         return None;
@@ -150,7 +150,7 @@ pub fn file_line(why: &NotCompiled) -> Option<u32> {
     *line
 }
 
-/// Returns the compiler's error, or why there was nothing to compile.
+/// Returns the compiler's error, or why nothing was compiled.
 pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.message(file),
@@ -233,7 +233,7 @@ fn score_answers(
     score.evidence = Some(evidence(item, (question, failure.element), [got, wanted]));
 }
 
-/// Returns the evidence for an element of a question, with the answer and the expected one.
+/// Returns the evidence for an element of a question, with the submitted and the expected answer.
 fn evidence(item: &Item, (question, element): (usize, usize), answers: [String; 2]) -> Evidence {
     let asked = &item.questions[question].question;
     let [got, wanted] = answers;
@@ -246,7 +246,7 @@ fn evidence(item: &Item, (question, element): (usize, usize), answers: [String; 
     }
 }
 
-/// Returns how many answers are wrong, and `what` is wrong in the one that is shown.
+/// Returns a message with the number of wrong answers and `what` is wrong in the one that is shown.
 fn wrong_answer_message(
     what: &str,
     item: &Item,
@@ -263,8 +263,8 @@ fn wrong_answer_message(
     }
 }
 
-/// Returns the numbers of wrong answers and of all answers, as answers are numbered: across all
-/// questions of the item. The pixels of a path-traced picture are counted by themselves.
+/// Returns the number of wrong answers and the total, counted across all questions of the item. The
+/// pixels of a path-traced picture are counted individually.
 fn wrong_answers(
     item: &Item,
     judgements: &[Judgement],
@@ -281,7 +281,7 @@ fn wrong_answers(
     Some((wrong.sum(), item.count()))
 }
 
-/// An item that earned no points, and that another one depends on.
+/// An item that earned no points and that another item depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockingItem<'a> {
     /// Its id.
@@ -290,7 +290,7 @@ pub struct BlockingItem<'a> {
     pub task: Task,
 }
 
-/// Returns the first item that this one depends on and that earned no points, if there is one.
+/// Returns the first item without points that this item depends on, if any.
 pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<BlockingItem<'a>> {
     item.needs.iter().find_map(|id| {
         let mut tasks = others.tasks.iter();
@@ -301,8 +301,8 @@ pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<BlockingItem<
 }
 
 /// Returns the score of an item that depends on the failed item `by`. If the item earned nothing,
-/// it is reported as blocked: without substituted parts, it is impossible to tell which of the two
-/// tasks has the mistake.
+/// it is reported as blocked, because without substituted parts it is impossible to tell which of
+/// the two tasks contains the mistake.
 pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
     if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
@@ -338,15 +338,15 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     line.staff = Some(format!("answers like {}", ids.join(" or ")));
 }
 
-/// Adds a clue to an item with wrong answers, if neither a hint nor another clue says more.
+/// Adds a clue to an item with wrong answers, unless a hint or another clue is more helpful.
 pub fn add_clue(line: &mut ItemScore, clue: Option<&str>) {
     if line.verdict.kind() == VerdictKind::Failed && line.hints.is_empty() && line.clue.is_none() {
         line.clue = clue.map(str::to_owned);
     }
 }
 
-/// Returns the score of an item that was graded with substituted parts. This score counts: mistakes
-/// in other files cost nothing here, and cannot hide a mistake in this file either.
+/// Returns the score of an item that was graded with substituted parts. This score is used because
+/// mistakes in other files cost nothing here, but also cannot hide a mistake in this file.
 pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> ItemScore {
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),

@@ -4,25 +4,25 @@ use judging::assignment::Task;
 
 use crate::report::text::ReportParts;
 
-/// Everything that one page shows.
+/// Everything shown on one page.
 #[derive(Clone, Copy)]
 pub(super) struct Page<'a> {
     /// The phase of grading.
     pub(super) status: &'a str,
     pub(super) report: &'a ReportParts,
-    /// The next step, if there is one.
+    /// The next step, if any.
     pub(super) next: &'a str,
     /// The table in one line.
     pub(super) short_table: &'a str,
-    /// Returns a line that says how to see what does not fit, given the task that it is about.
+    /// Returns a line that says how to see the rest, given the task it is about.
     pub(super) rest: &'a dyn Fn(Option<Task>) -> String,
 }
 
-/// A line, and the task that it is about.
+/// A line and the task it is about.
 type Line = (String, Option<Task>);
 
-/// Returns at most `rows` lines. If not even the first failing item fits, it comes first, and the
-/// table shrinks to a line below it.
+/// Returns at most `rows` lines. If even the first failing item doesn't fit, it comes first and the
+/// table shrinks to one line below it.
 pub(super) fn fit(page: &Page, rows: usize) -> Vec<String> {
     let lines = arrange(page, rows).into_iter();
     lines.map(|(line, _)| line).collect()
@@ -71,7 +71,7 @@ fn arrange(page: &Page, rows: usize) -> Vec<Line> {
     lines
 }
 
-/// Returns the lines that fit. If some do not, the last one says how to see the rest.
+/// Returns the lines that fit. If some don't fit, the last line says how to see the rest.
 fn cut(mut lines: Vec<Line>, rows: usize, page: &Page) -> Vec<Line> {
     if lines.len() > rows {
         let rest = lines.split_off(rows.saturating_sub(1));
@@ -173,9 +173,9 @@ mod tests {
         };
         let last = |rows| fit(&page, rows).pop().unwrap();
         assert_eq!(fit(&page, 11).len(), 11);
-        // With ten rows, a line of the second task does not fit.
+        // With ten rows, a line of the second task doesn't fit.
         assert_eq!([11, 10, 9].map(last), ["4", "two", "two"]);
-        // With less, the table shrinks, and a line of the first task does not fit either.
+        // With fewer rows, the table shrinks, and a line of the first task doesn't fit either.
         assert_eq!(fit(&page, 4), ["status", "1", "one", "short table"]);
     }
 }

@@ -29,7 +29,7 @@ use crate::watch::screen::{Phase, Screen};
 /// Grades until the process is stopped or an error occurs. With `open`, opens the report's page in a
 /// browser once.
 pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
-    // A missing submission is reported before anything is compiled.
+    // Report a missing submission before compiling anything.
     let mut submission = Prepared::new(options)?.submission;
     let grader = Grader::prepare(options)?;
     let watcher = SaveWatcher::new(|| grader.collect().ok());
@@ -39,25 +39,25 @@ pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     loop {
         match grade_version(&grader, &submission, last.as_ref(), &screen) {
             Ok(score) => {
-                // Only once: from now on, the page reloads itself.
+                // Open the page only once. From now on, it reloads itself.
                 if let Some(files) = page.take() {
                     desktop::show(&files.page);
                 }
-                // A terminal that cannot be written now is reported at the next save.
+                // A write error is reported at the next save.
                 submission = watcher.wait_for_change_while(&submission, || {
                     let _ = screen.show_if_resized(&score);
                 });
                 last = Some(score);
             }
-            // Not `wait_for_change`: if the save is undone meanwhile, the same version is graded
-            // again, because the screen shows a part of its results.
+            // Don't use `wait_for_change` here. If the save is undone in the meantime, the same
+            // version must be graded again, because the screen only shows part of its results.
             Err(Interruption::Saved) => submission = watcher.wait_for_version(),
             Err(Interruption::Failed(error)) => return Err(error),
         }
     }
 }
 
-/// Grades one version of the submission, until another one is saved.
+/// Grades one version of the submission until a new version is saved.
 fn grade_version(
     grader: &Grader,
     submission: &Submission,
@@ -71,7 +71,7 @@ fn grade_version(
     let build = grader.build(submission)?;
     let is_done = AtomicBool::new(false);
     thread::scope(|scope| {
-        // A program that hangs is ended at once, and not only between two items.
+        // End a hanging program immediately instead of waiting for the end of its item.
         scope.spawn(|| {
             let has_changed = || grader.collect().is_ok_and(|now| now != *submission);
             while !is_done.load(Ordering::Relaxed) {
@@ -87,7 +87,7 @@ fn grade_version(
     })
 }
 
-/// Runs the items that failed last time, and then all of them. Afterwards the screen shows that the
+/// Runs the items that failed last time and then all items. Afterwards the screen shows that the
 /// grader is waiting for the next version.
 fn run_exams(
     grader: &Grader,
@@ -96,7 +96,7 @@ fn run_exams(
     last: Option<&Score>,
     screen: &Screen,
 ) -> Result<Score, Interruption> {
-    // Checked before results are shown: those of an interrupted item are wrong.
+    // Check this before showing results, because the results of an interrupted item are wrong.
     let stop_if_saved = || {
         if build.interrupt.is_requested() {
             Err(Interruption::Saved)
@@ -139,7 +139,7 @@ fn run_exams(
         stop_if_saved()?;
         if let Some(id) = ids.next() {
             done += 1;
-            // The items that failed have been graded above, and their hints are known.
+            // The failed items were graded above, so their hints are known.
             if old.remove(id)
                 && let Some(item) = score.items().find(|item| item.id == id)
             {
@@ -156,7 +156,7 @@ fn run_exams(
             (false, Some(_)) => screen.show(&shown, Phase::Grading { done, total }, &old)?,
             (false, None) => screen.show(score, Phase::Grading { done, total }, &old)?,
         }
-        // The page is written after the screen is updated, so that the screen does not wait for it.
+        // Write the page after updating the screen, so that the screen doesn't wait for it.
         if let Some(files) = &mut files {
             files.write_page(score, exam, answers)?;
         }
@@ -169,7 +169,7 @@ fn all_items(score: &Score) -> BTreeSet<String> {
     score.items().map(|item| item.id.clone()).collect()
 }
 
-/// Returns the ids of an exam's items in the order in which they are graded.
+/// Returns the ids of an exam's items in grading order.
 fn ids_in_order<'a>(exam: &'a Exam, handed_out: &HandedOut) -> impl Iterator<Item = &'a str> {
     let tasks = handed_out.assignment.tasks();
     let of_task = move |task| exam.items.iter().filter(move |item| item.task == task);
@@ -181,14 +181,14 @@ fn files(grader: &Grader, submission: &Submission) -> Option<ReportFiles> {
     grader.files(submission, Reload::WhileUnfocused)
 }
 
-/// Returns an exam of the items that lost points, and of the items that they depend on.
+/// Returns an exam with the items that lost points and the items they depend on.
 fn failed_items(exam: &Exam, last: &Score) -> Exam {
     let lost = last.items().filter(|item| item.points < item.max_points);
     let lost: Vec<&str> = lost.map(|item| item.id.as_str()).collect();
     exam.with_needed_items(|item| lost.contains(&item.id.as_str()))
 }
 
-/// Reasons why grading a version was interrupted.
+/// Reasons for interrupting the grading of a version.
 enum Interruption {
     /// A file was saved in the meantime.
     Saved,

@@ -1,6 +1,6 @@
 //! Detects when a submission has been saved, by polling its task files.
 //!
-//! File system events would be a few milliseconds faster, but they are not always delivered on
+//! File system events would be a few milliseconds faster, but they aren't always delivered on
 //! network drives, in containers and in virtual machines. Reading a few small files takes 50 µs.
 
 use std::thread;
@@ -33,17 +33,17 @@ impl<'a> SaveWatcher<'a> {
     }
 
     /// Waits for the next version and returns it. Two reads in a row must give the same version,
-    /// because editors write a file in several steps, and some delete it first.
+    /// because editors write a file in several steps and some delete it first.
     pub fn wait_for_change(&self, last: &Submission) -> Submission {
         self.wait_for_change_while(last, || ())
     }
 
-    /// Waits for the next version, and calls `meanwhile` between two reads.
+    /// Waits for the next version. Calls `meanwhile` between reads.
     pub fn wait_for_change_while(&self, last: &Submission, meanwhile: impl FnMut()) -> Submission {
         self.wait_for(|now| now != last, meanwhile)
     }
 
-    /// Waits until two reads in a row give the same version, whichever it is.
+    /// Waits until two reads in a row give the same version, even if it isn't a new one.
     pub fn wait_for_version(&self) -> Submission {
         self.wait_for(|_| true, || ())
     }

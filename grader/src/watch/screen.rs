@@ -1,4 +1,4 @@
-//! The terminal output of `--watch`: a single page, redrawn in one write so that it does not
+//! The terminal output of `--watch`: a single page, redrawn in one write so that it doesn't
 //! flicker. Without a terminal, reports are printed one after the other.
 
 use std::cell::Cell;
@@ -44,16 +44,16 @@ pub struct Screen<'a> {
     term: Term,
     options: &'a GradeOptions,
     paths: SourcePaths,
-    /// The rows and columns of the page that is on the screen.
+    /// The rows and columns of the page on the screen.
     drawn_size: Cell<(u16, u16)>,
 }
 
 impl<'a> Screen<'a> {
-    /// Opens standard output. Reports show the selected tasks only.
+    /// Opens standard output. Reports only show the selected tasks.
     pub fn open(options: &'a GradeOptions, paths: SourcePaths) -> Self {
         let term = Term::buffered_stdout();
         if term.is_term() {
-            // Scrolls up what is on the screen, so that it is not overwritten.
+            // Scroll up the contents of the screen so that they aren't overwritten.
             let rows = usize::from(term.size().0);
             let _ = term.write_str(&"\n".repeat(rows));
         }
@@ -80,7 +80,7 @@ impl<'a> Screen<'a> {
         })
     }
 
-    /// Shows a score, complete or not. The items in `old` have not been graded since the last save.
+    /// Shows a score, complete or not. The items in `old` haven't been graded since the last save.
     pub fn show(&self, score: &Score, phase: Phase, old: &BTreeSet<String>) -> io::Result<()> {
         if !self.term.is_term() && phase != Phase::Waiting {
             return Ok(());
@@ -124,7 +124,7 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// Shows the final results again if the terminal has another size than before.
+    /// Shows the final results again if the terminal's size has changed.
     pub fn show_if_resized(&self, score: &Score) -> io::Result<()> {
         if self.term.is_term() && self.term.size() != self.drawn_size.get() {
             self.show(score, Phase::Waiting, &BTreeSet::new())?;
@@ -150,7 +150,8 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// Returns the command that shows all of what does not fit: of this task, or of the first that fails.
+/// Returns the command that shows everything for this task or, if there is none, for the first task
+/// that fails.
 fn command_for_the_rest(score: &Score, task: Option<Task>) -> String {
     let fails = |verdict: &Verdict| !matches!(verdict, Verdict::Pass | Verdict::Pending);
     let mut tasks = score.tasks.iter();
@@ -188,7 +189,7 @@ fn status_line(score: &Score, phase: Phase, has_old_results: bool) -> String {
     }
 }
 
-/// Removes the colours from a line unless the output should have them.
+/// Removes the colours from a line unless they should be shown.
 fn strip_unwanted_colours(line: &str) -> String {
     match anstream::AutoStream::choice(&io::stdout()) {
         anstream::ColorChoice::Never => anstream::adapter::strip_str(line).to_string(),

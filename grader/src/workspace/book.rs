@@ -6,7 +6,7 @@ use judging::section::{CHAPTERS, Section};
 
 use crate::workspace::Workspace;
 
-/// The folders in which a book may be, relative to the workspace: as handed out, and as built by
+/// The folders where a book may be, relative to the workspace: as handed out, or as built by
 /// `cargo book`.
 const FOLDERS: [&str; 3] = ["handout/book", "target/handout", "target/students-handout"];
 
@@ -17,7 +17,7 @@ pub struct Book {
 }
 
 impl Book {
-    /// Returns the book of a workspace, if there is one.
+    /// Returns the book of a workspace, if any.
     pub fn find(workspace: &Workspace) -> Option<Self> {
         let folders = FOLDERS.map(|folder| workspace.root().join(folder));
         let mut folders = folders.into_iter();
@@ -26,7 +26,7 @@ impl Book {
         Some(Book { folder })
     }
 
-    /// Returns the `file:` URL of a section, or `None` if the book has no such page.
+    /// Returns the `file:` URL of a section, or `None` if the book doesn't contain its page.
     pub fn url(&self, section: &Section) -> Option<String> {
         let name = section.chapter().strip_suffix(".md")?;
         let page = self.folder.join(format!("{name}.html"));
@@ -63,8 +63,8 @@ impl Book {
     }
 }
 
-/// Returns the length of the mention of a section at the start of `text`: a path and, on the same
-/// line, perhaps a heading in quotation marks.
+/// Returns the length of the section's mention at the start of `text`: a path, optionally followed
+/// by a heading in quotation marks on the same line.
 fn mention_length(text: &str, path_start: usize) -> usize {
     let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-.".contains(c));
     let name = &text[path_start..];
@@ -77,7 +77,7 @@ fn mention_length(text: &str, path_start: usize) -> usize {
     heading.map_or(path_end, |heading| path_end + ", \"\"".len() + heading)
 }
 
-/// Returns the section that a mention means, without the folder: the inverse of
+/// Returns the section that a mention refers to, without the folder. This is the inverse of
 /// [`Section::location`].
 fn mentioned_section(mention: &str) -> Section {
     match mention.split_once(", \"") {
@@ -95,7 +95,8 @@ fn is_plain(name: &str) -> bool {
     !name.is_empty() && name.chars().all(is_allowed)
 }
 
-/// Returns the URL of an absolute path. On Windows, the drive follows a slash, as in `file:///C:/`.
+/// Returns the URL of an absolute path. On Windows, a slash precedes the drive, as in
+/// `file:///C:/`.
 fn file_url(path: &Path) -> String {
     let mut url = "file://".to_owned();
     for part in path.components() {
@@ -115,7 +116,8 @@ fn file_url(path: &Path) -> String {
     url
 }
 
-/// Encodes all bytes but those that stand for themselves in every part of a URL (RFC 3986, 2.3).
+/// Percent-encodes all bytes except those that are unreserved in every part of a URL (RFC 3986,
+/// 2.3).
 fn percent_encoded(text: &str) -> String {
     let encoded = text.bytes().map(|byte| {
         let is_unreserved = byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
@@ -159,7 +161,7 @@ mod tests {
         assert_eq!(book.with_links(&text), expected);
         let others = "handout/src/none.md handout/src/../boxes.md handout/src/ boxes.md";
         assert_eq!(book.with_links(others), others);
-        // A link is no text: without a terminal, only the text is left.
+        // Links aren't text, so only the text is left if there is no terminal.
         let plain = anstream::adapter::strip_str(&expected).to_string();
         assert_eq!(plain, text);
     }

@@ -1,5 +1,5 @@
-//! The version of the bundle that students got: the build metadata in the versions of its packages.
-//! In this repository, there is none.
+//! The version of the students' bundle, which is stored as build metadata in the versions of its
+//! packages. This repository itself has none.
 
 use std::fs;
 
@@ -12,12 +12,12 @@ const MANIFESTS: [(&str, &str); 3] = [
     ("student", "student/Cargo.toml"),
 ];
 
-/// Returns the version of the bundle that this program is from.
+/// Returns the version of the bundle that this program comes from.
 pub fn bundle_version() -> Option<&'static str> {
     metadata(env!("CARGO_PKG_VERSION"))
 }
 
-/// Returns a note if folders of the workspace are from another version than this program.
+/// Returns a note if folders of the workspace come from a different version than this program.
 pub fn mixed_versions(workspace: &Workspace) -> Option<String> {
     let version_of = |(folder, manifest): (&'static str, &str)| {
         let text = fs::read_to_string(workspace.root().join(manifest)).ok()?;
@@ -46,8 +46,8 @@ fn mixed(grader: Option<&str>, folders: &[(&str, Option<String>)]) -> Option<Str
     })
 }
 
-/// Returns the bundle's version in the version of a package, or `None` if the package has none. The
-/// outer `None` means that the manifest has no version of its own.
+/// Returns the bundle's version in a package's version, or `None` if there is none. The outer
+/// `None` means that the manifest doesn't contain a version.
 fn manifest_version(text: &str) -> Option<Option<String>> {
     let manifest: toml::Table = text.parse().ok()?;
     let version = manifest.get("package")?.get("version")?.as_str()?;

@@ -1,8 +1,8 @@
-//! The given code that is compiled into the grader itself: whether it is as it was handed out.
+//! Checks whether the given code that is compiled into the grader itself is unmodified.
 //!
-//! The grader replaces other given files by its own, but not these. If a student changes one, for example
-//! to print something, their own results are those of the changed code, while the real grading uses the
-//! given one.
+//! The grader replaces other given files with its own, but not these. If a student changes one,
+//! e.g. to print something, their own results come from the changed code, while the real grading
+//! uses the original.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,7 +11,7 @@ use judging::content_hash::file_hash;
 
 use crate::machine::files;
 
-/// The list of these files in a bundle, with their hashes. There is none in this repository.
+/// The list of these files in a bundle, with their hashes. It doesn't exist in this repository.
 pub const LIST: &str = "grader/given-files.txt";
 
 /// The folders of these files.
@@ -19,7 +19,7 @@ const FOLDERS: [&str; 2] = ["student/framework/", "student/protocol/"];
 /// The number of files that a note names.
 const MAX_NAMES: usize = 3;
 
-/// Returns the text of the list, given the contents of all files of a bundle, by their paths.
+/// Returns the text of the list, given the contents of all files in a bundle, by path.
 pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
     let files = bundle.iter();
     let given = files.filter(|(path, _)| FOLDERS.iter().any(|folder| path.starts_with(folder)));
@@ -28,8 +28,8 @@ pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
         .collect()
 }
 
-/// Returns a note if files of the workspace in this folder differ from the list. A missing file does not
-/// compile, so it needs no note.
+/// Returns a note if files of the workspace in this folder differ from the list. A missing file
+/// doesn't compile, so it needs no note.
 pub fn changed(root: &Path) -> Option<String> {
     let list = files::read_to_string(root.join(LIST)).ok()?;
     let listed = list.lines().filter_map(|line| line.split_once("  "));
@@ -57,7 +57,8 @@ fn note(changed: &[&str]) -> Option<String> {
     })
 }
 
-/// Returns the hash of a file, whatever its line ends: Git and editors change these.
+/// Returns the hash of a file, ignoring the style of line endings, because Git and editors change
+/// it.
 fn hash(contents: &[u8]) -> String {
     let mut contents = contents.to_owned();
     contents.retain(|byte| *byte != b'\r');

@@ -1,4 +1,4 @@
-//! The location of the workspace, and of the files that the grader writes.
+//! The location of the workspace and of the files that the grader writes.
 
 pub mod book;
 pub mod bundle_version;
@@ -28,8 +28,8 @@ pub fn display_path(path: &Path) -> String {
 }
 
 impl Workspace {
-    /// Finds the workspace around the current folder, or else the one in which this program was
-    /// built.
+    /// Finds the workspace around the current folder or, failing that, the one where this program
+    /// was built.
     pub fn find() -> Result<Self, Error> {
         let here = env::current_dir().unwrap_or_default();
         let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
@@ -39,7 +39,7 @@ impl Workspace {
                 folder.join("student/framework/Cargo.toml").is_file()
                     && folder.join("Cargo.lock").is_file()
             })
-            // The path is not canonicalised: on Windows, that would give a path such as
+            // The path isn't canonicalised: on Windows, that would give a path such as
             // `\\?\C:\...`, which looks odd in messages.
             .map(|root| Workspace {
                 root: root.to_owned(),
@@ -63,8 +63,8 @@ impl Workspace {
         folder.is_dir().then_some(folder)
     }
 
-    /// Returns the folder for everything that the grader writes by default. `cargo clean` removes
-    /// it. Each subfolder is named after a submission, except for the caches.
+    /// Returns the folder for everything the grader writes by default. `cargo clean` removes it.
+    /// Each subfolder is named after a submission, except for the caches.
     pub fn output_folder(&self) -> PathBuf {
         self.root.join("target/grade")
     }
@@ -76,7 +76,7 @@ impl Workspace {
         self.output_folder().join(".cache")
     }
 
-    /// Returns the path as given if it exists, or else resolves it relative to the workspace.
+    /// Returns the path as given if it exists. Otherwise, resolves it relative to the workspace.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         if path.exists() {
             path.to_owned()

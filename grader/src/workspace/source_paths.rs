@@ -1,4 +1,5 @@
-//! The paths of the task files on this machine, so that an editor can jump to what a report names.
+//! The paths of the task files on this machine, so that an editor can jump to the lines in a
+//! report.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -6,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::handed_out::HandedOut;
 use crate::workspace::display_path;
 
-/// The folder of a submission's task files, if it is a folder in which the assignment expects them.
+/// The folder of a submission's task files, if it is where the assignment expects them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourcePaths {
     folder: Option<PathBuf>,
@@ -14,7 +15,7 @@ pub struct SourcePaths {
 }
 
 impl SourcePaths {
-    /// Finds the folder of the task files of a submission.
+    /// Finds the folder of a submission's task files.
     pub fn of(submission: &Path, handed_out: &'static HandedOut) -> Self {
         let below = handed_out.folders_in(submission).next();
         SourcePaths {
@@ -23,8 +24,8 @@ impl SourcePaths {
         }
     }
 
-    /// Returns the text with the path of each task file whose line it names: `sphere.rs:7` becomes
-    /// `student/src/sphere.rs:7`.
+    /// Returns the text with the path added to each task file with a line number: `sphere.rs:7`
+    /// becomes `student/src/sphere.rs:7`.
     pub fn in_text<'a>(&self, text: &'a str) -> Cow<'a, str> {
         let Some(folder) = &self.folder else {
             return Cow::Borrowed(text);
@@ -41,7 +42,7 @@ impl SourcePaths {
     }
 }
 
-/// Replaces the name in each `mention`, such as `sphere.rs:`, that precedes a line number and is not
+/// Replaces the name in each `mention`, such as `sphere.rs:`, that precedes a line number and isn't
 /// already part of a path.
 fn with_path(text: &str, mention: &str, path: &str) -> String {
     let mut replaced = String::new();

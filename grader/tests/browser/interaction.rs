@@ -1,4 +1,4 @@
-//! Interaction with the page: by mouse, by keyboard, and with reduced motion.
+//! Interaction with the page: by mouse, by keyboard and with reduced motion.
 
 use test_support::{Chromium, DESKTOP, Tab, Viewer};
 
@@ -9,7 +9,7 @@ const FLICKER: &str = "document.querySelector('#triangle\\\\.picture .flicker')"
 const CLIP_PATH: &str =
     "document.querySelector('#triangle\\\\.picture .stage .got').style.clipPath";
 
-/// Opens the page on which all pictures are wrong, with all pictures unfolded.
+/// Opens the page where all pictures are wrong, with all pictures unfolded.
 fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, reader);
@@ -174,7 +174,7 @@ fn a_watched_page_reloads_and_keeps_open_sections(chromium: &Chromium) {
         .map(|id| format!("document.getElementById('{id}').open"));
     tab.eval(&format!("{opened} = true; {folded} = false; 0"));
     std::fs::write(&path, watched.replace("<h1>", "<h1>newer ")).unwrap();
-    // Simulates a reader who is in the editor, so that the page does not have the focus.
+    // Simulate a reader who is using the editor, so that the page doesn't have the focus.
     tab.eval("document.hasFocus = () => false; 0");
     tab.wait_until_loaded();
     let title = tab.eval("document.querySelector('h1').textContent");

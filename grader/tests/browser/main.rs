@@ -1,5 +1,5 @@
-//! Tests of the report page in headless Chromium, which is controlled over the DevTools protocol.
-//! If Chromium is not installed, the tests print a notice and pass, or fail if `CI` is set.
+//! Tests of the report page in headless Chromium, controlled over the DevTools protocol. If
+//! Chromium isn't installed, the tests print a notice and pass, or fail if `CI` is set.
 
 mod accessibility;
 mod interaction;

@@ -7,24 +7,24 @@ use std::sync::LazyLock;
 
 use grader::handed_out::RAYS;
 
-/// Unfolds everything on a page. Of each task, only the first failed item is unfolded at first.
+/// Unfolds everything on a page. Initially, only the first failed item of each task is unfolded.
 pub const OPEN_ALL: &str =
     "for (const details of document.querySelectorAll('details')) details.open = true; 0";
 
-/// The page of a submission in which everything is correct.
+/// The page of a submission where everything is correct.
 pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", |_| {}));
 
-/// The page of a submission in which nothing is written yet.
+/// The page of a submission where nothing has been written yet.
 pub static STARTER: LazyLock<PathBuf> = LazyLock::new(|| {
     page("starter", |source| {
         copy(&workspace().join("grader/starter"), source);
     })
 });
 
-/// The largest page: every quantity in every picture is wrong, and differs from pixel to pixel.
+/// The largest page: every quantity in every picture is wrong and differs from pixel to pixel.
 pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", add_noise));
 
-/// The page of a submission that fails in many ways, and tries to take over the page.
+/// The page of a submission that fails in many ways and tries to take over the page.
 pub static HOSTILE: LazyLock<PathBuf> = LazyLock::new(|| page("broken", add_hostile_text));
 
 /// Returns all four pages.
@@ -69,8 +69,8 @@ fn add_hostile_text(source: &Path) {
     replace(source, "bbox.rs", "let inverse =", print);
 }
 
-/// Grades a copy of the reference after `prepare` has changed it, and returns the path of the page.
-/// The page stays in the target folder until the next run.
+/// Grades a copy of the reference after `prepare` has changed it. Returns the path of the page. The
+/// page stays in the target folder until the next run.
 fn page(name: &str, prepare: impl FnOnce(&Path)) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("pages")
@@ -101,7 +101,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Replaces text in a file, and panics if the file does not contain it.
+/// Replaces text in a file. Panics if the file doesn't contain it.
 fn replace(source: &Path, file: &str, from: &str, to: &str) {
     let path = source.join(file);
     let text = fs::read_to_string(&path).unwrap();

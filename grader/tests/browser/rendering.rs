@@ -1,4 +1,4 @@
-//! Rendering of the page: at any width, in light and dark mode, in print, and with hostile content.
+//! Rendering of the page: at any width, in light and dark mode, in print and with hostile content.
 
 use test_support::{Chromium, DESKTOP, Viewer};
 

@@ -1,4 +1,4 @@
-//! Secrets that no submission may find, and listeners that no submission may contact.
+//! Secrets that submissions must not find, and listeners that they must not contact.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -20,7 +20,7 @@ pub struct Canaries {
     key: String,
     /// A secret in the grader's environment.
     secret: String,
-    /// Part of the names of all files that entries leave behind on purpose.
+    /// Part of the names of all files that entries deliberately leave behind.
     pub mark: String,
     tcp: TcpListener,
     udp: UdpSocket,
@@ -59,7 +59,7 @@ impl Canaries {
         &self.secret
     }
 
-    /// Returns the folder for the grader's output files, which is beside the key.
+    /// Returns the folder for the grader's output files, which is next to the key.
     pub fn out(&self) -> PathBuf {
         self.folder.path().join("out")
     }
@@ -84,8 +84,7 @@ impl Canaries {
         ]
     }
 
-    /// Returns the names of the secrets that a text contains, whether unchanged, reversed, or in
-    /// base 64.
+    /// Returns the names of the secrets that a text contains, unchanged, reversed or in base 64.
     pub fn secrets_in(&self, text: &str) -> Vec<&'static str> {
         let is_in_text = |secret: &str| {
             let reversed: String = secret.chars().rev().collect();

@@ -10,15 +10,15 @@ use crate::canary::Canaries;
 use crate::entry::Entry;
 use crate::run::GraderRun;
 
-/// The maximum amount of memory that the grader itself may use, in bytes.
+/// The maximum memory that the grader itself may use, in bytes.
 const MAX_MEMORY: u64 = 256 << 20;
 /// The maximum number of files that the grader may have open at once: three streams, three for each
-/// program that it has started, and those that it is reading or writing.
+/// program it has started, and the files it is reading or writing.
 const MAX_OPEN_FILES: usize = 32;
 /// Markup that entries print, which must never be on the page unescaped.
 const MARKUP: &str = "<b id=forged>";
 
-/// The start of the line that entries print if they reach something that they should not.
+/// The start of the line that entries print if they reach something they shouldn't.
 const REACHED_PREFIX: &str = "reached: ";
 
 /// A check that failed.
@@ -30,13 +30,13 @@ pub struct Violation {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViolationKind {
-    /// The submission got points that it did not earn.
+    /// The submission got points it didn't earn.
     Forged,
     /// A secret was found in the output, or a listener was contacted.
     Leaked,
-    /// The system is not in the same state as before.
+    /// The system isn't in the same state as before.
     LeftBehind,
-    /// The grader did not work correctly.
+    /// The grader didn't work correctly.
     Harmed,
 }
 
@@ -103,7 +103,7 @@ fn leaks(run: &GraderRun, canaries: &Canaries) -> Vec<String> {
     contacted.chain(secrets).chain(reached).collect()
 }
 
-/// Returns a message for each limit of time, memory and open files that the grader has exceeded.
+/// Returns a message for each limit on time, memory or open files that the grader exceeded.
 fn excesses(entry: &Entry, run: &GraderRun) -> Vec<String> {
     let mut excesses = Vec::new();
     if run.elapsed > entry.wall() {
@@ -142,7 +142,7 @@ fn report_problems(run: &GraderRun) -> Vec<String> {
     problems
 }
 
-/// Returns whether a text has no control characters other than line breaks.
+/// Returns whether a text contains no control characters other than line breaks.
 fn has_no_control_characters(text: &str) -> bool {
     !text.contains(|c: char| c.is_control() && c != '\n')
 }

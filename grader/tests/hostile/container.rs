@@ -16,8 +16,8 @@ const NAMESPACES: i32 = libc::CLONE_NEWCGROUP
     | libc::CLONE_NEWUSER
     | libc::CLONE_NEWUTS;
 
-/// Forbids namespaces and mounts for this process and all processes that it starts. The error codes
-/// are the same as those of Docker's filter, which also makes `clone3` appear not to exist.
+/// Forbids namespaces and mounts for this process and all processes it starts. The error codes are
+/// the same as those of Docker's filter, which also makes `clone3` appear not to exist.
 pub fn enter() {
     let refused = [
         libc::SYS_unshare,

@@ -1,4 +1,4 @@
-//! Runs the entries one after the other, and prints a summary.
+//! Runs the entries one after the other and prints a summary.
 
 use std::fs;
 use std::path::Path;
@@ -77,8 +77,7 @@ pub fn main() -> ExitCode {
         .levels
         .iter()
         .map(|level| run_at_level(&entries, *level));
-    // The results are collected first, so that every level is run even if an earlier one does not
-    // hold.
+    // Collect the results first, so that every level is run even if an earlier one fails.
     if !held.collect::<Vec<bool>>().contains(&false) {
         ExitCode::SUCCESS
     } else {
@@ -95,7 +94,7 @@ fn assert_listed(entries: &[Entry], list: &Path) {
     }
 }
 
-/// Runs all entries at one level, and returns whether the grader withstood all of them.
+/// Runs all entries at one level. Returns whether the grader withstood all of them.
 fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     let reference = Entry::reference();
     // The first run compiles the dependencies that all later runs share.
@@ -141,7 +140,7 @@ fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
     tally.held == here.len() && forbidden_calls_fail(level)
 }
 
-/// Returns whether all system calls that no submission may make are refused.
+/// Returns whether all forbidden system calls are refused.
 fn forbidden_calls_fail(level: Isolation) -> bool {
     if level == Isolation::None {
         return true;
@@ -174,7 +173,7 @@ impl Tally {
     }
 }
 
-/// Grades one entry and returns the run, or the violations that the checks found. If there is a
+/// Grades one entry. Returns the run, or the violations found by the checks. If there is a
 /// `baseline`, the score must equal the baseline's.
 fn grade_and_check(
     entry: &Entry,

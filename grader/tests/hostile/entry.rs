@@ -1,4 +1,4 @@
-//! One hostile submission: its changes to a correct one, and its permitted results.
+//! One hostile submission: its changes to a correct submission, and its permitted results.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,15 +12,15 @@ use serde::Deserialize;
 use crate::canary::Canaries;
 use crate::packaging::{Packaging, pack};
 
-/// The file of an entry with several files whose text is appended to a task file. All others, but its
-/// description, are put beside the task files, or replace them.
+/// In an entry with several files, the file whose text is appended to a task file. All others
+/// except the description are added to the task files or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
-/// The file with the descriptions of the entries that have no files.
+/// The file with the descriptions of the entries without files.
 const PACKAGED_FILE: &str = "packaged.toml";
-/// The beginning of the lines in which a file describes its entry.
+/// The prefix of the lines where a file describes its entry.
 const DESCRIPTION: &str = "//!";
-/// A function that turns a value of one type into another one, by a soundness hole of the language.
+/// A function that converts a value to a different type via a soundness hole in the language.
 const HOLE: &str = include_str!("hole.rs");
 
 /// A hostile submission, which is read from `entries/`.
@@ -43,10 +43,10 @@ pub struct Expectation {
     /// levels.
     #[serde(default = "Expectation::any_level")]
     pub least: Isolation,
-    /// The task files to which the attack is added.
+    /// The task files that the attack is added to.
     #[serde(default)]
     base: Base,
-    /// The task file to which the attack is appended.
+    /// The task file that the attack is appended to.
     into: Option<String>,
     /// Other task files that get the same text and the same calls.
     #[serde(default)]
@@ -54,17 +54,17 @@ pub struct Expectation {
     /// Whether the attack calls the function in `hole.rs`.
     #[serde(default)]
     uses_hole: bool,
-    /// The methods of that file that begin with `call`.
+    /// The methods of that file where `call` is inserted at the beginning.
     #[serde(default)]
     within: Vec<String>,
-    /// The statement that is inserted at the beginning of these methods.
+    /// The statement to insert at the beginning of these methods.
     #[serde(default = "Expectation::default_call")]
     call: String,
-    /// The form in which the entry is submitted; `None` for a plain folder.
+    /// The form the entry is submitted in. `None` for a plain folder.
     pack: Option<Packaging>,
     /// Part of the error message, if the entry is rejected without being graded.
     pub refused: Option<String>,
-    /// The maximum number of points for each task that the attack affects. All other tasks must get
+    /// The maximum number of points for each task affected by the attack. All other tasks must get
     /// the same points as without the attack.
     #[serde(default)]
     pub points: BTreeMap<String, u64>,
@@ -76,7 +76,7 @@ pub struct Expectation {
     /// The maximum wall time, in seconds.
     #[serde(default = "default_wall_seconds")]
     wall: u64,
-    /// Whether the entry runs only with `--all` or if it is named on the command line.
+    /// Whether the entry only runs with `--all` or if it is named on the command line.
     #[serde(default)]
     pub slow: bool,
     #[serde(default)]
@@ -102,7 +102,7 @@ impl Expectation {
 }
 
 /// Returns the default wall time limit: about ten times as long as an entry takes on an idle
-/// machine, so that entries do not fail on a busy one.
+/// machine, so that entries don't fail on a busy one.
 fn default_wall_seconds() -> u64 {
     240
 }
@@ -142,7 +142,7 @@ impl Entry {
         }
     }
 
-    /// Reads the entries that have no files.
+    /// Reads the entries without files.
     fn packaged(descriptions: &str) -> Vec<Self> {
         let descriptions: BTreeMap<String, Expectation> =
             toml::from_str(descriptions).unwrap_or_else(|error| panic!("{PACKAGED_FILE}: {error}"));
@@ -179,8 +179,8 @@ impl Entry {
         tasks.map(move |task| (task.id, full(task.points)))
     }
 
-    /// Writes the submission into a new folder, and returns the path to submit. Placeholders
-    /// `@NAME@` in its text are filled in.
+    /// Writes the submission into a new folder. Returns the path to submit. Placeholders `@NAME@`
+    /// in its text are filled in.
     pub fn write(&self, folder: &Path, canaries: &Canaries) -> PathBuf {
         self.write_folder(folder, &canaries.placeholders());
         match self.expect.pack {

@@ -22,8 +22,8 @@ fn exchange<A: 'static, B: 'static>(either: &mut Either<A, B>, value: A) -> B {
     *old.take().unwrap()
 }
 
-/// Turns a value of one type into another one, without a line of unsafe code (rust-lang issue
-/// 25860): the reference to the old variant outlives it.
+/// Converts a value to a different type without a line of unsafe code (rust-lang issue 25860): the
+/// reference to the old variant outlives it.
 fn transmuted<A: 'static, B: 'static>(value: A) -> B {
     exchange(std::hint::black_box(&mut Either::B(None)), value)
 }

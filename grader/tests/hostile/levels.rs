@@ -4,7 +4,7 @@ use std::process::Command;
 
 use grader::sandbox::Isolation;
 
-/// Returns the best isolation level that works here according to `--doctor`. If none does, returns
+/// Returns the best isolation level that works here according to `--doctor`. If none works, returns
 /// [`Isolation::None`], or panics if `CI` is set.
 pub fn best_level() -> Isolation {
     let output = Command::new(env!("CARGO_BIN_EXE_grader"))

@@ -1,5 +1,5 @@
-//! The corpus of hostile submissions. Each is graded by the real program, with a correct submission
-//! before and after it, and nothing may be forged, leaked or left behind.
+//! The corpus of hostile submissions. Each one is graded by the real program, with a correct
+//! submission before and after it. Nothing may be forged, leaked or left behind.
 //!
 //! ```text
 //! cargo test -p grader --test hostile                runs the quick entries
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! TOML describes each entry and its permitted results: at the beginning of `entries/ID-NAME.rs`,
-//! in `expect.toml` beside several files, or in `packaged.toml`. `README.md` lists all known attacks
-//! and where each is tested.
+//! in `expect.toml` next to several files, or in `packaged.toml`. `README.md` lists all known
+//! attacks and where each is tested.
 
 #[cfg(target_os = "linux")]
 mod canary;
@@ -41,7 +41,7 @@ fn main() -> ExitCode {
     corpus::main()
 }
 
-/// Skips the corpus: without `/proc`, leftover processes cannot be found.
+/// Skips the corpus, because leftover processes cannot be found without `/proc`.
 #[cfg(not(target_os = "linux"))]
 fn main() -> ExitCode {
     eprintln!("SKIPPED: the hostile corpus needs Linux");

@@ -1,5 +1,5 @@
-//! Submissions that are not five plain files in a folder: archives that no ordinary program makes,
-//! and folders with unusual files.
+//! Submissions that aren't five plain files in a folder: archives that an ordinary program would
+//! never make, and folders with unusual files.
 
 use std::fs::{self, File, Permissions};
 use std::io::{Cursor, Write};
@@ -14,7 +14,7 @@ use tar::{Builder, EntryType, Header};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-/// The form in which a folder of task files is submitted.
+/// The form that a folder of task files is submitted in.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Packaging {
@@ -22,7 +22,7 @@ pub enum Packaging {
     Climbing,
     /// A zip with an absolute path.
     Absolute,
-    /// A zip with another spelling of a path that it already has.
+    /// A zip with two spellings of the same path.
     TwoSpellings,
     /// A tar with a symbolic link to the key in place of a file.
     LinkToTheKey,
@@ -50,7 +50,7 @@ pub enum Packaging {
     OtherKind,
     /// A folder with a sparse file of 10 GB.
     Sparse,
-    /// A folder in which one file has all permissions, and another has none.
+    /// A folder with a file that grants all permissions and a file that grants none.
     OddModes,
     /// A folder with a named pipe in place of a file.
     PipeOnDisk,
@@ -64,7 +64,7 @@ pub enum Packaging {
     LinkedOnlyFolderOnDisk,
 }
 
-/// Packs the folder, and returns the path to submit.
+/// Packs the folder. Returns the path to submit.
 pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     let files = read_files(folder);
     let tar_with =
@@ -150,7 +150,7 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     folder.to_owned()
 }
 
-/// Moves the files into the subfolder `below` of a new folder beside this one, as if they were
+/// Moves the files into the subfolder `below` of a new folder next to this one, as if they were
 /// another student's. Returns the new folder. This folder is empty afterwards.
 fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     let others = folder.with_extension("others");
@@ -161,7 +161,7 @@ fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     others
 }
 
-/// Creates a link, and its folder.
+/// Creates a link and its folder.
 fn link(original: &Path, path: &Path) {
     let folder = path.parent().expect("it has a parent");
     fs::create_dir_all(folder).expect("the folder can be created");
@@ -229,7 +229,7 @@ fn write_tar(folder: &Path, files: &[(String, Vec<u8>)], others: &[Member]) -> P
     write_archive(folder, "tar.gz", &bytes.expect("the archive is complete"))
 }
 
-/// Returns a header with exactly this name. The method of the crate `tar` rejects some names.
+/// Returns a header with exactly this name. The `tar` crate's own method rejects some names.
 fn header(name: &str, kind: EntryType, size: usize) -> Header {
     let mut header = Header::new_ustar();
     let field = &mut header.as_ustar_mut().expect("it is a ustar header").name;

@@ -1,4 +1,4 @@
-//! Runs the real program, and measures its resource usage from outside.
+//! Runs the real program and measures its resource usage from outside.
 
 use std::fs;
 use std::io::Read;
@@ -16,7 +16,7 @@ use crate::entry::Entry;
 
 /// The result of one run of the grader.
 pub struct GraderRun {
-    /// The exit code; `None` if the grader took too long and was killed.
+    /// The exit code. `None` if the grader took too long and was killed.
     pub exit_code: Option<i32>,
     pub elapsed: Duration,
     /// The peak memory of the grader itself, in bytes.

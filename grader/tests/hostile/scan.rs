@@ -1,9 +1,8 @@
-//! Makes system calls that no submission may make, one after the other, with `unsafe` code, which
-//! the compiler would not allow in a submission. `syscalls.rs` compiles it and runs it in place of
-//! a submission.
+//! Makes forbidden system calls, one after the other, with `unsafe` code, which the compiler
+//! wouldn't allow in a submission. `syscalls.rs` compiles it and runs it in place of a submission.
 //!
-//! Prints a line for each call that was not refused. The arguments are chosen so that a call that
-//! gets through does no harm.
+//! Prints a line for each call that was not refused. The arguments are chosen so that a successful
+//! call does no harm.
 
 use std::io::Error;
 
@@ -93,7 +92,7 @@ fn main() {
         ("ioctl TIOCSTI", 16, [0, 0x5412, buffer, 0, 0]),
         ("fcntl F_SETOWN", 72, [0, 8, parent, 0, 0]),
         ("setpriority", 141, [0, 0, 0, 0, 0]),
-        // Both processes print a line if this succeeds; the child then exits.
+        // If this succeeds, both processes print a line and the child exits.
         ("fork", 57, [0, 0, 0, 0, 0]),
     ];
     for (what, number, [a, b, c, d, e]) in calls {

@@ -1,5 +1,5 @@
-//! Makes system calls in place of a submission, with a program that has `unsafe` code: the sandbox
-//! must hold even if a submission gets around the compiler's ban on `unsafe`.
+//! Makes system calls in place of a submission, with a program that contains `unsafe` code. The
+//! sandbox must be safe even if a submission gets around the compiler's ban on `unsafe`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,7 +21,7 @@ const WALL_LIMIT: Duration = Duration::from_secs(60);
 /// The last line that the program prints.
 const END_LINE: &str = "end";
 
-/// Returns the system calls that are not refused at this level. Do not call it at level `none`,
+/// Returns the system calls that aren't refused at this level. Don't call this at level `none`,
 /// where the system calls succeed and leave something behind.
 pub fn allowed_calls(level: Isolation) -> Vec<String> {
     if !cfg!(target_arch = "x86_64") {

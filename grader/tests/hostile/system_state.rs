@@ -40,7 +40,7 @@ impl SystemState {
     }
 }
 
-/// Returns the lines of a kernel table, without the fields that change by themselves.
+/// Returns the lines of a kernel table, without the fields that change spontaneously.
 fn kernel_table(list: &str) -> Vec<String> {
     let text = fs::read_to_string(Path::new("/proc").join(list)).unwrap_or_default();
     // The second to fourth words of a key are its flags, usage count and remaining lifetime.
@@ -80,7 +80,7 @@ fn running_children() -> Vec<String> {
     names.collect()
 }
 
-/// Returns the files that an entry has left behind on purpose, in folders where it might be able to
+/// Returns the files that an entry deliberately left behind, in folders where it might be able to
 /// write.
 fn marked_files(mark: &str) -> Vec<String> {
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -1,4 +1,4 @@
-//! Invalid exams are rejected before grading starts, with the position of the error and a remedy.
+//! Invalid exams are rejected before grading starts, with the position of the error and advice.
 
 use std::io::Write;
 use std::process::Stdio;

@@ -1,5 +1,5 @@
-//! Submissions that compile and then misbehave: they panic, do not end, crash, or answer nonsense. Each gets
-//! a report, and the points of other tasks do not change.
+//! Submissions that compile and then misbehave: they panic, hang, crash or answer nonsense. Each
+//! gets a report, and the points of other tasks don't change.
 
 use insta::assert_snapshot;
 
@@ -12,8 +12,8 @@ fn before_box_test(name: &str, statement: &str) -> Submission {
     Submission::reference(name).with_replaced("bbox.rs", test, &format!("{statement} {test}"))
 }
 
-/// Asserts that an item of a task has this verdict, and that the report, which has the points of all
-/// tasks, is as in the snapshot.
+/// Asserts that an item of a task has this verdict, and that the report, which includes the points
+/// of all tasks, matches the snapshot.
 fn assert_costs_its_own_task(graded: &GradeRun, task: &str, verdict: &str) {
     let verdicts = graded.verdicts(task);
     assert!(verdicts.contains(&verdict.to_owned()), "{verdicts:?}");
@@ -22,7 +22,7 @@ fn assert_costs_its_own_task(graded: &GradeRun, task: &str, verdict: &str) {
 
 #[test]
 fn a_panic_a_crash_and_nonsense_cost_the_items_that_trigger_them() {
-    // One point of `traverse` is for a tree that contains spheres.
+    // One point in `traverse` is for a tree that contains spheres.
     assert_costs_its_own_task(&PANICKING, "sphere", "panicked");
     assert_costs_its_own_task(&EXITING, "camera", "crashed");
     let not_a_number = Submission::not_a_number().grade();
@@ -116,7 +116,7 @@ fn two_crashes_stop_a_task() {
     assert_eq!(boxes.last().unwrap(), not_run);
 }
 
-/// Sleeps at each new triangle, sphere and box, below the limit of an item.
+/// Sleeps for each new triangle, sphere and box, but not as long as an item's limit.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slow_submission_has_a_budget_and_keeps_the_points_before() {
@@ -138,7 +138,7 @@ fn a_slow_submission_has_a_budget_and_keeps_the_points_before() {
         submission.with_replaced(file, head, &format!("{head} {slow}"))
     });
     let graded = slow.grade();
-    // Forty seconds in all.
+    // The total is forty seconds.
     let points = graded.points();
     assert_eq!(points["camera"], FULL_POINTS["camera"], "{points:?}");
     let not_run = "not run, because the items before it have used up the time of the whole \

@@ -1,5 +1,5 @@
-//! Submissions whose files are missing, do not compile or use each other: each gets a report, and the points
-//! of other tasks do not change.
+//! Submissions whose files are missing, don't compile or use each other. Each gets a report, and
+//! the points of other tasks don't change.
 
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
@@ -7,7 +7,7 @@ use insta::assert_snapshot;
 use crate::cases::NOT_COMPILING;
 use crate::harness::{FULL_POINTS, GradeRun, Submission, full_points_except, no_points, without};
 
-/// Asserts that a submission has no points for spheres and full points for every other task except
+/// Asserts that a submission gets no points for spheres and full points for every other task except
 /// `traverse`.
 #[track_caller]
 fn assert_other_tasks_keep_their_points(graded: &GradeRun) {
@@ -19,8 +19,8 @@ fn assert_other_tasks_keep_their_points(graded: &GradeRun) {
     );
 }
 
-/// Asserts that a submission's spheres do not compile, that this costs no other task's points, and that
-/// the report is as in the snapshot. One item of `traverse` needs spheres.
+/// Asserts that a submission's spheres don't compile, that this costs no other task's points, and
+/// that the report matches the snapshot. One item of `traverse` needs spheres.
 fn assert_costs_spheres_only(name: &str, graded: &GradeRun) {
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"], "{name}");
     assert_other_tasks_keep_their_points(graded);
@@ -100,7 +100,7 @@ fn an_error_in_ones_own_code_is_not_laid_to_a_changed_declaration() {
     assert!(!report.contains("Given code calls"), "{report}");
 }
 
-/// The file has no `struct Sphere` then, but the compiler's message says more.
+/// The file then contains no `struct Sphere`, but the compiler's message is more helpful.
 #[test]
 fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
     let (right, wrong) = ("pub struct Sphere {", "pub strct Sphere {");
@@ -119,7 +119,7 @@ fn a_typo_in_a_declaration_is_reported_with_the_compilers_words_and_line() {
     let begin = format!("{}:{line}: error: ", sphere.display());
     assert!(graded.error().starts_with(&begin), "{}", graded.error());
 
-    // A declaration that is written differently is no error.
+    // A declaration with unusual formatting isn't an error.
     let spaced = grade_sphere_with(&[(right, "pub struct\n    Sphere {")]);
     assert_eq!(spaced.verdicts("sphere"), ["pass"]);
 }
@@ -201,8 +201,8 @@ fn unsafe_code_does_not_compile() {
 
 #[test]
 fn does_not_reuse_a_build_of_files_with_the_same_modification_time() {
-    // Archives restore old modification times. A build that compares these would reuse the program
-    // of the other submission.
+    // Archives restore old modification times. A build that compared these would reuse the other
+    // submission's program.
     let old = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(315_532_800);
     let points_of_aged = |submission: Submission| {
         for file in RAYS.file_names() {

@@ -1,4 +1,4 @@
-//! The cached report: an unchanged submission is graded once, unless `--fresh` is given.
+//! The cached report: an unchanged submission is only graded once, unless `--fresh` is given.
 
 use std::fs;
 use std::path::PathBuf;
@@ -35,12 +35,12 @@ fn prints_the_cached_report_if_nothing_changed() {
     let second = grade_output(&submission, &[]);
     assert!(!first.contains(NOTICE), "{first}");
     assert!(second.contains(NOTICE), "{second}");
-    // Otherwise the output is the same.
+    // The rest of the output is the same.
     assert_eq!(lines_of_grading(&second), lines_of_grading(&first));
     assert_eq!(fs::read(folder.join("score.json")).unwrap(), score);
     assert!(!grade_output(&submission, &["--fresh"]).contains(NOTICE));
 
-    // `--require` does not affect the score, so the cached report is printed.
+    // `--require` doesn't affect the score, so the cached report is printed.
     assert!(grade_output(&submission, &["--require", "1"]).contains(NOTICE));
     fs::remove_dir_all(folder).unwrap();
 }

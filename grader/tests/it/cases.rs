@@ -1,5 +1,5 @@
-//! Submissions that several tests grade: the reference, the starter, and the reference with a small
-//! change. A run that several tests look at is a static, so that it is graded once.
+//! Submissions graded by several tests: the reference, the starter, and the reference with small
+//! changes. A run used by several tests is a static, so that it is only graded once.
 
 use std::sync::LazyLock;
 
@@ -12,14 +12,14 @@ pub static NOT_COMPILING: LazyLock<GradeRun> =
 pub static PANICKING: LazyLock<GradeRun> = LazyLock::new(|| Submission::panicking().grade());
 pub static EXITING: LazyLock<GradeRun> = LazyLock::new(|| Submission::exiting().grade());
 
-/// Compiles the dependencies, unless an earlier run has, so that the runs after it start the work
-/// of the submission at once.
+/// Compiles the dependencies, unless an earlier run already has, so that later runs start working
+/// on the submission immediately.
 pub fn compile_dependencies() {
     LazyLock::force(&REFERENCE);
 }
 
 impl Submission {
-    /// Uses a field of `Ray` that does not exist, so `sphere.rs` does not compile.
+    /// Uses a field of `Ray` that doesn't exist, so `sphere.rs` doesn't compile.
     pub fn not_compiling() -> Self {
         Submission::reference("not_compiling").with_replaced(
             "sphere.rs",
@@ -38,7 +38,7 @@ impl Submission {
         )
     }
 
-    /// Computes forever if a ray misses the sphere.
+    /// Loops forever if a ray misses the sphere.
     pub fn looping() -> Self {
         Submission::reference("looping").with_replaced(
             "sphere.rs",
@@ -61,7 +61,7 @@ impl Submission {
         )
     }
 
-    /// Takes the far root of a sphere first, which is a known mistake.
+    /// Uses a sphere's far root first, which is a known mistake.
     pub fn far_first(name: &str) -> Self {
         let submission = Submission::reference(name);
         submission.with_replaced("sphere.rs", "[near, far]", "[far, near]")

@@ -37,7 +37,7 @@ fn help_for_staff_lists_every_option() {
     let help = help("--help-staff");
     let start = help.find("Formats: ").unwrap();
     let end = start + help[start..].find("\n\n").unwrap();
-    // The snapshot does not depend on the formats: adding one changes only its own files.
+    // The snapshot doesn't depend on the formats, so that adding one only changes its own files.
     let listed: Vec<&str> = help[start..end].split_whitespace().skip(1).collect();
     let known = FORMATS.map(|format| format.id).join(", ");
     assert_eq!(listed.join(" "), known);
@@ -212,7 +212,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
                 "sphere.near_side needs this file: correct it, and run the same command again\n",
             ],
         ),
-        // Another task's file does not matter.
+        // A different task's file doesn't matter.
         (
             "camera.rs",
             "use protocol::",
@@ -233,7 +233,8 @@ fn replay_says_what_is_wrong_with_an_answer() {
     }
 }
 
-/// A question that ends the program takes the answers of the others with it, which are not to blame.
+/// A question that ends the program loses the answers to the other questions too, which aren't to
+/// blame.
 #[test]
 fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let submission = Submission::reference("exiting").with_replaced(
@@ -297,7 +298,7 @@ fn a_name_that_is_unknown_leads_to_the_known_ones() {
     }
 }
 
-/// Runs on Linux only, since other systems always have a desktop.
+/// Only runs on Linux, since other systems always have a desktop.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_desktop_prints_the_path_of_the_page_and_succeeds() {

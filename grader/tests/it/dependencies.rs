@@ -31,15 +31,15 @@ fn dependencies(package: &str) -> BTreeSet<String> {
     others.map(str::to_owned).collect()
 }
 
-/// The packages, a dependency that each has, and those that it must not have.
+/// The packages, each with a dependency it must have and dependencies it must not have.
 const RULES: [(&str, &str, &str); 9] = [
-    // Of the students' crates, the grader links only the protocol.
+    // The protocol is the only one of the students' crates that the grader links.
     (
         "grader",
         "protocol",
         "framework student reference author view",
     ),
-    // Nothing in this crate knows processes, sandboxes and terminals.
+    // Nothing in this crate knows about processes, sandboxes or terminals.
     (
         "judging",
         "protocol",

@@ -1,4 +1,4 @@
-//! `cargo handin` makes an archive that the grader reads, and says what it holds.
+//! `cargo handin` makes an archive that the grader can read and describes its contents.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ fn hand_in(folder: &Path, out: &Path) -> Output {
     command.arg(folder).arg("--out").arg(out).output().unwrap()
 }
 
-/// Makes an archive beside the submission, and returns the exit code and the text.
+/// Makes an archive next to the submission. Returns the exit code and the text.
 fn hand_in_beside(submission: &Submission) -> (Option<i32>, String) {
     let out = submission.path().with_extension("zip");
     let output = hand_in(&submission.path(), &out);
@@ -83,7 +83,7 @@ fn an_archive_with_work_that_is_gone_is_kept() {
     let archive = submission.path().with_extension("zip");
     let good = fs::read(&archive).unwrap();
 
-    // The assignment was unpacked again, over one's own work.
+    // The assignment was unpacked again over the student's own work.
     let starter = Submission::starter("fresh");
     let text = |file: &str| fs::read(starter.path().join(file)).unwrap();
     let lost = submission
@@ -97,7 +97,7 @@ fn an_archive_with_work_that_is_gone_is_kept() {
     let kept = archive.with_extension("zip.bak-1");
     assert!(fs::read(&kept).unwrap() == good);
 
-    // The new archive holds all that there is, so it is replaced.
+    // The new archive contains everything, so the old one is replaced.
     let (_, text) = hand_in_beside(&lost);
     assert!(!text.contains("is kept"), "{text}");
     assert!(!archive.with_extension("zip.bak-2").exists());
@@ -125,7 +125,7 @@ fn without_arguments_packs_ones_own_work_into_the_assignments_folder() {
     fs::create_dir(&below).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_handin"));
     let output = command.current_dir(&below).output().unwrap();
-    // The workspace has the starter, unless its owner has solved a task.
+    // The workspace contains the starter, unless its owner has solved a task.
     assert!(matches!(output.status.code(), Some(0 | 1)), "{output:?}");
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("handin.zip: 5 files"), "{text}");

@@ -1,4 +1,4 @@
-//! The test harness: builds a submission, runs the grader on it, and reads the results.
+//! The test harness: builds a submission, runs the grader on it and reads the results.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -27,7 +27,7 @@ pub fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Creates a workspace with the files of this one, into which a test can write more.
+/// Creates a workspace with the files of this one, where a test can write more files.
 #[cfg(unix)]
 pub fn linked_workspace() -> TempDir {
     let folder = TempDir::new().unwrap();
@@ -83,7 +83,7 @@ impl Submission {
         self
     }
 
-    /// Replaces text in a file, and panics unless the file contains it exactly once.
+    /// Replaces text in a file. Panics unless the file contains it exactly once.
     pub fn with_replaced(self, file: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.path().join(file)).unwrap();
         let count = text.matches(from).count();
@@ -91,7 +91,7 @@ impl Submission {
         self.with(file, text.replace(from, to))
     }
 
-    /// Writes a file beside the task files and returns the option that names it.
+    /// Writes a file next to the task files. Returns the option that names it.
     pub fn file_option(&self, option: &str, file: &str, text: impl AsRef<[u8]>) -> [String; 2] {
         let path = self.path().join(file);
         fs::write(&path, text).unwrap();
@@ -113,7 +113,7 @@ impl Submission {
         self.run(&mut grade_into(&self.path(), &self.out()))
     }
 
-    /// Grades with the reference and without it, and stops what takes longer than a second.
+    /// Grades with and without the reference. Items that take longer than a second are stopped.
     pub fn grade_impatiently(&self) -> [GradeRun; 2] {
         let mut with_reference = grade_into(&self.path(), &self.out());
         let limit = ["--cpu-limit", "1"];
@@ -138,7 +138,7 @@ impl Submission {
         self.results(command.output().unwrap())
     }
 
-    /// Reads the results of a run of [`Submission::command`].
+    /// Reads the results of running [`Submission::command`].
     pub fn results(&self, output: Output) -> GradeRun {
         GradeRun {
             output,
@@ -156,14 +156,14 @@ pub fn grader() -> Command {
     command
 }
 
-/// Returns a command that grades a folder or an archive, and writes the outputs into a folder.
+/// Returns a command that grades a folder or an archive and writes the outputs into a folder.
 pub fn grade_into(submission: &Path, out: &Path) -> Command {
     let mut command = grader();
     command.arg(submission).arg("--out").arg(out);
     command
 }
 
-/// Returns a command's program and arguments as a line for a shell.
+/// Returns a command's program and arguments as a shell command line.
 #[cfg(unix)]
 pub fn shell_line(command: &Command) -> String {
     let words = [command.get_program()]
@@ -186,9 +186,9 @@ pub struct GradeRun {
     pub output: Output,
     /// The folder of the submission.
     submission: PathBuf,
-    /// The contents of the score file, if there is one.
+    /// The contents of the score file, if any.
     pub score: Option<Vec<u8>>,
-    /// The text of the page, if there is one.
+    /// The text of the page, if any.
     page: Option<String>,
 }
 
@@ -218,13 +218,13 @@ impl GradeRun {
         self.page.as_deref().expect("a page was written")
     }
 
-    /// Returns the score of a run that has succeeded.
+    /// Returns the score of a successful run.
     pub fn score(&self) -> Value {
         assert_eq!(self.exit_code(), 0, "{}", self.error());
         self.written_score()
     }
 
-    /// Returns the score that was written, even if the run has failed.
+    /// Returns the score that was written, even if the run failed.
     pub fn written_score(&self) -> Value {
         let score = self.score.as_ref().expect("a score was written");
         serde_json::from_slice(score).unwrap()
@@ -257,7 +257,7 @@ impl GradeRun {
         self.tasks().into_iter().flat_map(items).collect()
     }
 
-    /// Returns the texts with this key of a task's items.
+    /// Returns the texts with this key in a task's items.
     pub fn texts(&self, task: &str, key: &str) -> Vec<String> {
         let text = |item: &Value| item[key].as_str().unwrap().to_owned();
         self.items(task).iter().map(text).collect()
@@ -272,7 +272,7 @@ impl GradeRun {
     }
 }
 
-/// Returns the full points of each task, but 0 for these tasks.
+/// Returns the full points of each task, except 0 for these tasks.
 pub fn full_points_except(zero: &[&str]) -> Points {
     let mut points = FULL_POINTS.clone();
     for task in zero {
@@ -281,7 +281,7 @@ pub fn full_points_except(zero: &[&str]) -> Points {
     points
 }
 
-/// Returns no points for each task.
+/// Returns 0 points for each task.
 pub fn no_points() -> Points {
     let ids: Vec<&str> = RAYS.assignment.tasks.iter().map(|task| task.id).collect();
     full_points_except(&ids)

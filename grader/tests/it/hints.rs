@@ -1,4 +1,4 @@
-//! Hints: a known mistake gets its hint, and an unknown one gets none.
+//! Hints: a known mistake gets its hint. An unknown mistake gets none.
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -11,8 +11,8 @@ fn grade_with(name: &str, file: &str, from: &str, to: &str) -> GradeRun {
     submission.with_replaced(file, from, to).grade()
 }
 
-/// Returns a solution that takes the far root first, but with other formulas than in the catalogue
-/// of mistakes.
+/// Returns a solution that takes the far root first, but with different formulas than in the
+/// catalogue of mistakes.
 fn far_first() -> Submission {
     Submission::reference("far-first").with_replaced(
         "sphere.rs",
@@ -25,7 +25,7 @@ fn far_first() -> Submission {
     )
 }
 
-/// Grades one task of it, where one hint explains several items.
+/// Grades a single task where one hint explains several items.
 #[test]
 fn a_hint_that_explains_several_items_is_shown_once() {
     let graded = far_first().grade_with(&["--task", "sphere"]);
@@ -105,7 +105,7 @@ fn code_that_hits_nothing_is_told_what_to_compare_for_every_ray() {
         "if enter > times.min { enter } else { times.min },",
         "if leave > times.min { leave } else { times.min } + 1e6,",
     );
-    // With hits among the misses, something else is wrong than with every ray.
+    // If some rays hit, the mistake is different from one that makes every ray miss.
     let some_hit = (
         "sphere.rs",
         "let t = [near, far].into_iter().find(|&t| ray.range.contains(t))?;",

@@ -1,5 +1,5 @@
-//! Untrusted code, graded by the real binary: every attempt to do something forbidden succeeds
-//! without isolation, and fails at every isolation level.
+//! Untrusted code, graded by the real binary. Every attempt to do something forbidden succeeds
+//! without isolation and fails at every isolation level.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
@@ -12,8 +12,8 @@ use test_support::processes::{children, eventually, is_running};
 use crate::cases::PANICKING;
 use crate::harness::{FULL_POINTS, GradeRun, Submission, grader};
 
-/// Every isolation level. If a machine does not support a level, the tests at that level are
-/// skipped with a message, or fail if `CI` is set.
+/// Every isolation level. If a machine doesn't support a level, the tests at that level are skipped
+/// with a message, or fail if `CI` is set.
 const LEVELS: [&str; 2] = ["full", "no-namespaces"];
 const SECRET: &str = "the final exam";
 
@@ -35,7 +35,7 @@ fn running(what: &str) -> Submission {
     )
 }
 
-/// Returns what the submission printed during the camera task.
+/// Returns the submission's output during the camera task.
 fn camera_output(graded: &GradeRun) -> String {
     let printed = &graded.score()["tasks"][0]["printed"];
     printed.as_str().unwrap_or_default().to_owned()
@@ -144,7 +144,7 @@ fn no_process_survives_a_killed_grader() {
     }
 }
 
-/// Returns whether the process is a probe, and neither the launcher nor the compiler.
+/// Returns whether the process is a probe, rather than the launcher or the compiler.
 fn is_probe(pid: u32) -> bool {
     let arguments = fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default();
     let mut words = arguments.split(|byte| *byte == 0);

@@ -1,5 +1,5 @@
-//! Tests that run the real binary on real submissions, most of which are the reference with a small
-//! change. Each module tests one promise to users.
+//! Tests that run the real binary on real submissions. Most of them are the reference with a small
+//! change. Each module tests one promise made to users.
 
 mod bad_exams;
 mod bad_programs;

@@ -1,4 +1,4 @@
-//! After a success, the report says what to do next, and links to the built handout.
+//! After a success, the report says what to do next and links to the built handout.
 
 use std::fs;
 use std::process::Command;
@@ -8,7 +8,7 @@ use grader::handed_out::RAYS;
 use crate::cases::{REFERENCE, STARTER};
 use crate::harness::{GradeRun, Submission, grade_into, linked_workspace, shell_line, workspace};
 
-/// The starter with these files of the reference.
+/// Returns the starter with these files replaced by the reference's.
 fn with_solved(files: &[&str]) -> Submission {
     let submission = Submission::starter("evening");
     files.iter().fold(submission, |submission, file| {
@@ -90,7 +90,7 @@ fn what_to_read_is_a_link_if_there_is_a_book() {
     assert!(page.contains(&format!("<a href=\"{url}")), "{page}");
     assert!(!page.contains("sphere.html"), "the book has no such page");
 
-    // `script` runs a command on a terminal of its own.
+    // `script` runs a command in its own terminal.
     let mut script = Command::new("script");
     script.args(["-qec", &shell_line(&grade), "/dev/null"]);
     script.current_dir(folder.path());

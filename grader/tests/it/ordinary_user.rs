@@ -51,7 +51,7 @@ fn toolchain_folder() -> PathBuf {
     cargo.ancestors().nth(2).unwrap().to_owned()
 }
 
-/// Grades as the user `nobody`. Returns `None` if this system does not allow that.
+/// Grades as the user `nobody`. Returns `None` if this system doesn't allow that.
 fn grade_as_nobody(submission: &Submission, arguments: &[&str]) -> Option<Value> {
     let copy = WorkspaceCopy::with_dependencies();
     let grade = copy.path().join("target/grade");
@@ -105,8 +105,8 @@ fn an_unprivileged_user_grades_untrusted_code_as_well_as_root() {
     fs::write(key.path().join("key"), "the final exam").unwrap();
     let key = key.path().join("key");
 
-    // The submission attempts things that its user may do outside the sandbox, and is correct
-    // otherwise.
+    // The submission attempts things that its user may do outside the sandbox. Otherwise, it is
+    // correct.
     let attempt = format!(
         "if std::fs::read({key:?}).is_ok() || std::net::UdpSocket::bind(\"127.0.0.1:0\").is_ok() {{ \
          println!(\"done\"); }}"

@@ -32,7 +32,7 @@ const OTHER_FILES: [(&str, &str); 6] = [
     ),
 ];
 
-/// Returns a zip with these files, which all have this mode.
+/// Returns a zip with these files, all with this mode.
 fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
@@ -65,8 +65,7 @@ fn check_path(path: &Path) -> String {
     lines.collect::<String>().replace(&folder, "")
 }
 
-/// Returns the files of a complete package, but without the file `name`, or with `file` in its
-/// place.
+/// Returns the files of a complete package without the file `name`, or with `file` in its place.
 fn package_except<'a>(
     exam: &'a str,
     name: &str,
@@ -119,8 +118,8 @@ fn reports_each_problem_with_a_remedy() {
             make_zip(&package_except(&good, "", None), 0o644),
         ),
         ("practice exam", with(exam, &practice)),
-        // The exam is truncated before any answer, so that the error position does not depend on
-        // its contents.
+        // Truncate the exam before any answer, so that the error position doesn't depend on its
+        // contents.
         ("truncated exam", with(exam, &good[..100])),
         ("no exam, no crates", zip(&[SETUP, RUN, POLICY])),
         ("no grading script", without(GRADE.0)),

@@ -1,4 +1,4 @@
-//! Course policies: how points count, and how mistakes in a policy file are reported.
+//! Course policies: how final points are computed, and how mistakes in a policy file are reported.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! `cargo grade --reset` starts a task afresh, and loses nothing that a student wrote.
+//! `cargo grade --reset` resets a task without losing anything a student wrote.
 
 use std::fs;
 use std::path::Path;
@@ -32,7 +32,7 @@ fn starter(file: &str) -> &'static str {
     RAYS.task_file(file).unwrap().starter
 }
 
-/// The reference with a helper of a student's own.
+/// Returns the reference with a student's own helper.
 fn solved() -> Submission {
     let helper = "impl Node {\n    fn mine(&self) -> char {\n        '}'\n    }\n}\n\n#[cfg(test)]";
     Submission::reference("solved").with_replaced("bvh.rs", "#[cfg(test)]", helper)
@@ -58,13 +58,13 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     let points = graded.points();
     assert_eq!(points["build"], FULL_POINTS["build"]);
     assert!(points["traverse"] < FULL_POINTS["traverse"], "{points:?}");
-    // The old file is in the folder, and is named, but does not matter.
+    // The old file is in the folder and is mentioned, but doesn't matter.
     let report = graded.report();
     let note = "note: bvh.rs.bak-1 differs from bvh.rs, and is ignored";
     assert_eq!(report.matches("note:").count(), 1, "{report}");
     assert!(report.contains(note), "{report}");
 
-    // The second copy has another name, also if nothing but the name is left of the first.
+    // The second copy gets a different name, even if the first copy is now empty.
     fs::write(submission.path().join("bvh.rs.bak-1"), "").unwrap();
     assert!(reset(&submission, &["build,bbox"]).status.success());
     assert_eq!(text(&submission, "bvh.rs.bak-1"), "");
@@ -112,7 +112,7 @@ fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
         let submission = Submission::reference("lost").with_replaced("sphere.rs", from, to);
         let files = || fs::read_dir(submission.path()).unwrap().count();
         let (before, count) = (text(&submission, "sphere.rs"), files());
-        // The other task could start afresh, but nothing changes if there is an error.
+        // The other task could be reset, but nothing changes if there is an error.
         let output = reset(&submission, &["bbox,sphere"]);
         let why = format!("cannot find Sphere::hit in sphere.rs: {reason}");
         let remedy = "`cargo grade --reset sphere.rs` replaces the whole";
@@ -157,7 +157,7 @@ fn links_are_not_followed() {
         assert_refused(&reset_at(&path, &["bvh"]), "is a link");
     }
     assert_eq!(text(&other, "bvh.rs"), before);
-    // A link with the name of a copy is not followed either.
+    // A link with a copy's name isn't followed either.
     symlink(linked.path().join("new"), other.path().join("bvh.rs.bak-1")).unwrap();
     assert!(reset(&other, &["bvh"]).status.success());
     assert_eq!(text(&other, "bvh.rs.bak-2"), before);

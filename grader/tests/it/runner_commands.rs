@@ -1,4 +1,5 @@
-//! A CI system executes commands in a log. Nothing that a student chooses may become one.
+//! A CI system executes commands found in a log. Nothing a student chooses may become such a
+//! command.
 
 use std::io::{Cursor, Write};
 use std::process::{Command, Output};
@@ -9,11 +10,11 @@ use zip::ZipWriter;
 
 use crate::harness::{Submission, grader, workspace};
 
-/// A command of each kind. It is also a name of a file.
+/// A command of each kind. The text is also a valid file name.
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
 
-/// Returns what a command prints on a CI system. Panics if the text is not printed, or as a command.
-/// A line that begins with `own` is the grader's.
+/// Returns a program's output on a CI system. Panics if the text is missing, or printed as a
+/// command. A line that begins with `own` is the grader's.
 fn checked_output(command: &mut Command, own: &str) -> String {
     let Output { stdout, stderr, .. } = command.env("GITHUB_ACTIONS", "true").output().unwrap();
     let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());
@@ -26,7 +27,7 @@ fn checked_output(command: &mut Command, own: &str) -> String {
     text
 }
 
-/// Returns a submission that has commands wherever it can.
+/// Returns a submission with commands everywhere it can put them.
 fn hostile_submission() -> Submission {
     let printed = format!("\\n{COMMANDS}\\n  {COMMANDS}\\r{COMMANDS}\\u{{1b}}[1m{COMMANDS}");
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
@@ -50,7 +51,7 @@ fn nothing_of_a_submission_is_a_command_in_a_log() {
     let log = run(&["--format", "github", "--out", "out"], "::error ");
     let annotations = log.lines().filter(|line| line.starts_with("::error "));
     assert!(annotations.count() >= 2, "{log}");
-    // The earlier report.
+    // Print the cached report.
     run(&["--out", "graded"], "");
     run(&["--out", "graded"], "");
     run(&["--replay", "sphere.from_inside#1"], "");

@@ -20,7 +20,8 @@ fn the_reference_gets_full_points() {
     assert_eq!(score["points"], 100);
     assert_eq!(score["max_points"], 100);
     assert_eq!(score["complete"], true);
-    // Its variants have files of the same names, which must not count as copies.
+    // The reference's variants contain files with the same names, which must not be treated as
+    // copies.
     assert_eq!(score["build"]["notes"], serde_json::json!([]));
 }
 

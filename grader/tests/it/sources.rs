@@ -1,4 +1,4 @@
-//! Rules for the sources themselves: phrases, layers, and what only one module may do.
+//! Rules for the sources themselves: phrases, layers, and things that only one module may do.
 
 use std::fs;
 use std::path::Path;
@@ -8,8 +8,8 @@ use crate::harness::workspace;
 /// A file, by its path below the workspace with `/`, and its text.
 type Source = (String, String);
 
-/// Paths that are not read: generated files, files by others, and this file, which quotes what it looks
-/// for.
+/// Paths that aren't read: generated files, files by others, and this file, which quotes the
+/// phrases it looks for.
 const SKIPPED: [&str; 9] = [
     "target",
     ".git",
@@ -52,7 +52,7 @@ fn sources(folders: &[&str]) -> Vec<Source> {
     folders.flat_map(|folder| files(folder, &["rs"])).collect()
 }
 
-/// Returns the places of the lines of code that match, before the tests of each file.
+/// Returns the locations of matching lines of code, excluding the tests at the end of each file.
 fn lines_with(sources: &[Source], is_found: impl Fn(&str) -> bool) -> Vec<String> {
     let found = sources.iter().flat_map(|(path, text)| {
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
@@ -81,7 +81,7 @@ struct Rule {
 }
 
 const RULES: [Rule; 4] = [
-    // Files are used through the seam `grader::disk`, so that tests can make every operation fail.
+    // Files are accessed through `grader::disk`, so that tests can make every operation fail.
     Rule {
         folders: &[
             "grader/class/src",
@@ -93,16 +93,16 @@ const RULES: [Rule; 4] = [
         ],
         is_found: is_call_of_std_fs,
         exceptions: &[
-            // lists with `disk::before`, and asks for the kind of each entry
+            // lists with `disk::before` and checks the kind of each entry
             "grader/class/src/listing.rs",
-            // ask only whether the input is a file or a folder, and how large
+            // only check whether the input is a file or a folder, and its size
             "grader/class/src/input.rs",
             "grader/class/src/unpack.rs",
-            // asks only whether a new folder is empty
+            // only checks whether a new folder is empty
             "grader/class/src/similarity.rs",
-            // asks before each of the operations of which a write consists
+            // calls `disk::before` for each operation of a write
             "grader/src/report/atomic_write.rs",
-            // opens archives after asking, and the same file again to read it
+            // opens archives after `disk::before`, and the same file again to read it
             "grader/src/submission/archive/mod.rs",
         ],
         instead: "use grader::files instead",
@@ -115,7 +115,7 @@ const RULES: [Rule; 4] = [
         exceptions: &["grader/src/build/toolchain.rs"],
         instead: "points do not depend on time",
     },
-    // Only one type adds a path to the error of the system.
+    // Only one type adds a path to a system error.
     Rule {
         folders: &[
             "grader/src",
@@ -136,7 +136,7 @@ const RULES: [Rule; 4] = [
             "grader/judging/src",
         ],
         is_found: |line| contains_any(line, &["print!(", "println!(", "dbg!(", ".exit()"]),
-        // The sandbox prints no text of students.
+        // The sandbox doesn't print students' text.
         exceptions: &["grader/src/machine/printing.rs", "grader/src/sandbox/"],
         instead: "use grader::printing",
     },
@@ -185,14 +185,14 @@ fn the_search_finds_lines_of_code_only() {
     assert_eq!(found(text, is_error_of_the_system), ["a.rs:1", "a.rs:2"]);
 }
 
-/// Returns the names that stand in backticks in the table of layers.
+/// Returns the names in backticks in the table of layers.
 fn modules_in_order(text: &str) -> Vec<&str> {
     let rows = text.lines().filter(|line| line.starts_with("//! | "));
     let names = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
     names.map(|name| name.trim_start_matches("mod@")).collect()
 }
 
-/// The modules use each other only in the order of the table in `src/lib.rs`.
+/// Modules only use each other in the order of the table in `src/lib.rs`.
 #[test]
 fn modules_use_only_those_below_them() {
     let text = fs::read_to_string(workspace().join("grader/src/lib.rs")).unwrap();
@@ -216,8 +216,8 @@ fn modules_use_only_those_below_them() {
     }
 }
 
-/// Phrases that are always wrong here (see "Language" in `.github/CONTRIBUTING.md`), each as a list of
-/// words, with the text to write instead. The other rules of that section are left to reviewers.
+/// Phrases that are always wrong here (see "Language" in `.github/CONTRIBUTING.md`), each as a list
+/// of words with the text to write instead. The other rules in that section are left to reviewers.
 const PHRASES: [(&[&str], &str); 9] = [
     (&["can", "not"], "cannot"),
     (&["whoever"], "the person meant, such as \"the caller\""),
@@ -230,7 +230,7 @@ const PHRASES: [(&[&str], &str); 9] = [
     (&["orphans"], "unreferenced primitives"),
 ];
 
-/// Beginnings of doc comments that do not say what the item is or does.
+/// Beginnings of doc comments that don't say what the item is or does.
 const FIRST_WORDS: [&str; 5] = ["What ", "Which.", "Where.", "Whoever ", "Said of "];
 
 /// Extensions of files that people read.
@@ -255,7 +255,7 @@ fn words(text: &str, is_markdown: bool) -> Vec<(usize, String)> {
     words
 }
 
-/// Returns a message for each phrase to avoid, and for each doc comment that begins with a wrong
+/// Returns a message for each phrase to avoid and for each doc comment that begins with a wrong
 /// word.
 fn complaints(name: &str, text: &str) -> Vec<String> {
     let mut complaints = Vec::new();

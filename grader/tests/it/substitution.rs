@@ -1,4 +1,4 @@
-//! A mistake costs points only once: items that depend on a failed task are graded again with the
+//! A mistake only costs points once: items that depend on a failed task are graded again with the
 //! reference's parts.
 
 use insta::assert_snapshot;
@@ -8,17 +8,17 @@ use crate::harness::{FULL_POINTS, GradeRun, Submission};
 /// An interval that begins and ends at the origin of a ray.
 const NEVER: &str = "protocol::Interval::new(0.0, 0.0)";
 
-/// The condition under which the left child is visited first.
+/// The condition for visiting the left child first.
 const LEFT_FIRST: &str = "if in_l.min <= in_r.min {";
 
-/// Returns a submission whose box test works only for rays with positive directions, since it does
-/// not swap entry and exit.
+/// Returns a submission whose box test only works for rays with positive directions, since it
+/// doesn't swap entry and exit.
 fn without_swap() -> Submission {
     let (swapped, kept) = ("at_min.min(at_max).max_element()", "at_min.max_element()");
     Submission::reference("no-swap").with_replaced("bbox.rs", swapped, kept)
 }
 
-/// Asserts that so many items of `traverse` are blocked, and all others pass.
+/// Asserts that this many items of `traverse` are blocked and all others pass.
 #[track_caller]
 fn assert_costs_blocked_items(graded: &GradeRun, count: usize) {
     let items = graded.items("traverse");
@@ -59,7 +59,7 @@ fn a_wrong_traversal_with_a_wrong_box_test_costs_both() {
 
 #[test]
 fn finds_two_mistakes_that_hide_each_other() {
-    // The box test ignores `times`, and the traversal passes an interval to it that nothing is in.
+    // The box test ignores `times`, and the traversal passes it an empty interval.
     let graded = Submission::reference("hiding")
         .with_replaced(
             "bbox.rs",
@@ -84,7 +84,7 @@ fn finds_two_mistakes_that_hide_each_other() {
     assert!(4 * graded.grade().points()["traverse"] > 3 * FULL_POINTS["traverse"]);
 }
 
-/// The tree has cycles, so that the traversal of the submission's own trees never ends.
+/// The tree contains cycles, so traversing the submission's own trees never ends.
 #[test]
 fn a_tree_without_end_does_not_cost_traversal_points() {
     let (right, cyclic) = ("interior(bbox, l, r)", "interior(bbox, start, middle)");
@@ -97,8 +97,8 @@ fn a_tree_without_end_does_not_cost_traversal_points() {
     assert_costs_blocked_items(&alone, 2);
 }
 
-/// A triangle without area lets the triangles' task hang, and its last items are not run. An item of
-/// another task that depends on one of them is not run either, even if it would not hang itself.
+/// A triangle without area makes the triangle task hang, so its last items aren't run. An item of
+/// another task that depends on one of them isn't run either, even if it wouldn't hang itself.
 #[test]
 fn what_depends_on_a_stopped_task_is_not_run() {
     let hanging = Submission::reference("hanging").with_replaced(
@@ -111,8 +111,8 @@ fn what_depends_on_a_stopped_task_is_not_run() {
     let points = graded.points();
     assert!(points["triangle"] < FULL_POINTS["triangle"], "{points:?}");
     assert_eq!(points["traverse"], FULL_POINTS["traverse"]);
-    // Without the reference, the items that judge whole traces, the pictures and the radiance cannot be
-    // judged.
+    // Without the reference, the items that judge complete traces, the pictures and the radiance
+    // cannot be judged.
     assert_costs_blocked_items(&alone, 5);
 }
 

@@ -1,4 +1,4 @@
-//! Tests of `--watch` with an output that is not a terminal.
+//! Tests of `--watch` with output that isn't a terminal.
 
 use std::fs;
 
@@ -30,8 +30,8 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(report.contains("100 / 100"), "{report}");
     assert_eq!(score(), (Some(100), Some(true)));
 
-    // The file is missing for a while, as it is when an editor moves the old file away before it
-    // writes the new one.
+    // The file is missing for a while, as when an editor moves the old file away before writing the
+    // new one.
     let aside = submission.path().join("sphere.away");
     fs::rename(&sphere, &aside).unwrap();
     let report = watching.report();
@@ -40,7 +40,7 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(watching.report().contains("100 / 100"));
 }
 
-/// Runs on Linux only, where the program that opens a page is found by its name.
+/// Only runs on Linux, where the program that opens a page is found by its name.
 #[cfg(target_os = "linux")]
 #[test]
 fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
@@ -54,7 +54,8 @@ fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
     command.arg("--open").env("DISPLAY", ":99");
     let mut watching = WatchProcess::start(command.env("PATH", path_with(&programs)));
     watching.report();
-    // Twice, so that a page that is opened after every grading has been opened when we look.
+    // Save twice. If the page were opened after every grading, it would have been opened again by
+    // the time of the check.
     for comment in ["// one save", "// another save"] {
         let sphere = submission.path().join("sphere.rs");
         let code = fs::read_to_string(&sphere).unwrap();

@@ -1,4 +1,5 @@
-//! Tests of `--watch` in a terminal. `tmux` is the terminal: it says what is on the screen.
+//! Tests of `--watch` in a terminal. The terminal is `tmux`, which can report the contents of the
+//! screen.
 
 use std::fs;
 use std::process::Command;
@@ -14,8 +15,8 @@ struct Terminal {
 }
 
 impl Terminal {
-    /// Starts the grader in a terminal with this many rows of 80 columns. Returns `None` without
-    /// tmux, which is required in CI.
+    /// Starts the grader in a terminal with this many rows of 80 columns. Returns `None` if there
+    /// is no tmux, which is required in CI.
     fn watch(submission: &Submission, rows: u32, options: &[&str]) -> Option<Self> {
         if Command::new("tmux").arg("-V").output().is_err() {
             assert!(std::env::var_os("CI").is_none(), "tmux is not installed");
@@ -43,7 +44,7 @@ impl Terminal {
     fn tmux(&self) -> Command {
         let mut command = Command::new("tmux");
         command.args(["-L", &self.server]);
-        // The tests look at colours.
+        // The tests check colours.
         command.env("TERM", "xterm-256color").env_remove("NO_COLOR");
         command
     }
@@ -61,7 +62,7 @@ impl Terminal {
         String::from_utf8(captured.unwrap().stdout).unwrap()
     }
 
-    /// Waits until the screen has the text, and returns the screen.
+    /// Waits until the screen contains the text. Returns the screen.
     fn wait_for(&self, text: &str) -> String {
         let deadline = Instant::now() + Duration::from_secs(100);
         loop {
@@ -74,7 +75,7 @@ impl Terminal {
         }
     }
 
-    /// Waits until the grader is waiting, and returns the lines of the screen without colours.
+    /// Waits until the grader is waiting. Returns the lines of the screen without colours.
     fn lines_of_the_report(&self) -> Vec<String> {
         let screen = self.wait_for("save a file");
         let plain = anstream::adapter::strip_str(&screen).to_string();
@@ -135,7 +136,7 @@ fn the_report_is_arranged_again_when_the_terminal_is_resized() {
 fn a_save_interrupts_an_endless_loop_and_old_results_are_grey() {
     let camera = fs::read_to_string(wrong_camera("x").path().join("camera.rs")).unwrap();
     let submission = wrong_camera("hanging");
-    // With this limit, the loop takes five minutes.
+    // With this limit, the loop would take five minutes.
     let Some(terminal) = Terminal::watch(&submission, 24, &["--cpu-limit", "300"]) else {
         return;
     };

@@ -1,6 +1,6 @@
-//! Decides which requests are answered. The page shows and controls a program of the user, so only
-//! the user's browser may talk to it, although every user and every web page of this machine can
-//! open connections to it.
+//! Decides which requests to answer. The page shows and controls the user's program, so only the
+//! user's browser may talk to it, although any user of this machine and any web page opened on it
+//! can connect to it.
 
 use std::env;
 
@@ -8,24 +8,25 @@ use crate::http::Request;
 
 /// Names that always mean this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
-/// The header with the token, in lower case. A page of another site or port cannot send it, because
-/// a browser first asks this server whether it may, and the server never agrees.
+/// The header with the token, in lower case. A page from another site or port cannot send it,
+/// because a browser first asks this server for permission, which the server never gives.
 pub const HEADER: &str = "view-token";
 
-/// The secret and the names that a request must know.
+/// The secret and the names that a request must contain.
 #[derive(Clone, Debug)]
 pub struct Access {
-    /// The secret in the address that is printed. The page keeps it in the storage of its origin. A
-    /// cookie would not do: a browser sends the cookies of one port to all ports of the same host.
+    /// The secret in the printed address. The page keeps it in its origin's storage. A cookie
+    /// wouldn't be safe, because browsers send the cookies of one port to all ports of the same
+    /// host.
     token: String,
-    /// The names of hosts that lead here.
+    /// The host names that lead here.
     hosts: Vec<String>,
-    /// The name that a codespace gives to the port.
+    /// The name given to the port by a codespace.
     forwarded: Option<String>,
 }
 
 impl Access {
-    /// Draws a new secret, for a server at this port that is also reached by these names.
+    /// Creates a new secret, for a server at this port that can also be reached by these names.
     pub fn new(port: u16, allowed_hosts: &[String]) -> Result<Self, getrandom::Error> {
         let hosts = LOOPBACK.map(str::to_owned).into_iter();
         let forwarded = forwarded_host(port);
@@ -49,11 +50,11 @@ impl Access {
         format!("/?token={}", self.token)
     }
 
-    /// Returns why a request is not answered, if it is not. The files of the page are public: they
-    /// are the same for everyone, and contain no secret.
+    /// Returns why a request isn't answered, or `None` if it is. The page's files are public,
+    /// because they are the same for everyone and contain no secrets.
     pub fn refusal(&self, request: &Request, is_public: bool) -> Option<&'static str> {
-        // A page of another site can send requests here by giving its own name this address. It
-        // cannot change the name in `Host`.
+        // A page from another site can send requests here by resolving its own name to this
+        // address, but it cannot change the name in `Host`.
         let host = request.header("host").map(without_port);
         if !host.is_some_and(|host| self.hosts.contains(&host.to_lowercase())) {
             return Some(
@@ -68,14 +69,15 @@ impl Access {
     }
 }
 
-/// Returns the public name of this port in a GitHub codespace, if the environment is that of one.
+/// Returns the public name of this port if the environment is a GitHub codespace's.
 fn forwarded_host(port: u16) -> Option<String> {
     let name = env::var("CODESPACE_NAME").ok()?;
     let domain = env::var("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN").ok()?;
     Some(format!("{name}-{port}.{domain}"))
 }
 
-/// Returns a host without its port. The port is not compared, because a tunnel can have another one.
+/// Returns a host without its port. The port isn't compared, because a tunnel can use a different
+/// port.
 fn without_port(host: &str) -> &str {
     match host.rsplit_once(':') {
         Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,
@@ -83,7 +85,7 @@ fn without_port(host: &str) -> &str {
     }
 }
 
-/// Compares two secrets. The time does not depend on the number of equal characters.
+/// Compares two secrets. The time doesn't depend on the number of equal characters.
 fn same(given: &str, secret: &str) -> bool {
     let pairs = given.bytes().zip(secret.bytes());
     given.len() == secret.len() && pairs.fold(0, |different, (a, b)| different | (a ^ b)) == 0

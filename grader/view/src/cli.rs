@@ -7,7 +7,7 @@ use glam::UVec2;
 use grader::handed_out::HandedOut;
 use grader::question_ref::QuestionRef;
 
-/// The port that is used if it is free.
+/// The default port, used if it is free.
 pub const DEFAULT_PORT: u16 = 8420;
 
 /// Shows your tracer at work in a browser

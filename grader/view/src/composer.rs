@@ -1,4 +1,4 @@
-//! Composes the picture on the page from the values of its pixels.
+//! Composes the page's picture from the values of its pixels.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -14,8 +14,8 @@ use crate::model::layer::{Layer, Shown};
 use crate::session::{Session, View};
 use crate::shared_session::SharedSession;
 
-/// The time between two pictures, at first and later. A picture that is nearly complete changes
-/// little, and composing it takes time from drawing it.
+/// The time between two pictures, initially and later. A nearly complete picture changes little,
+/// and composing it takes time away from drawing it.
 const INTERVALS: [(Duration, Duration); 3] = [
     (Duration::from_millis(600), Duration::from_millis(100)),
     (Duration::from_secs(4), Duration::from_millis(500)),
@@ -39,7 +39,7 @@ pub fn run(shared: &SharedSession) {
             .iter()
             .find(|(until, _)| age < *until)
             .map_or(Duration::ZERO, |(_, interval)| *interval);
-        // The first picture after a change is shown at once, and so is the last.
+        // Show the first picture after a change and the last one immediately.
         let is_new = shown != Some(shared.read(|session, _| session.key()));
         let wait = interval.saturating_sub(last.elapsed());
         if !is_new && !is_complete && !wait.is_zero() {
@@ -58,8 +58,8 @@ pub fn run(shared: &SharedSession) {
     }
 }
 
-/// Returns a function that returns the size of the picture and its colours. It has a copy of the
-/// values, so that drawing goes on while it composes them.
+/// Returns a function that returns the size of the picture and its colours. It owns a copy of the
+/// values, so that drawing continues while it composes them.
 fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
     let data = |colour| Tone::Data.to_bytes(colour);
     let mode = match session.shown.view {
@@ -107,8 +107,8 @@ fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
     })
 }
 
-/// Returns the size of a layer, and the colours of its pixels, row by row from the top. `colour`
-/// returns that of a pixel with its value and number of samples.
+/// Returns the size of a layer and the colours of its pixels, row by row from the top. `colour`
+/// returns a pixel's colour, given its value and number of samples.
 fn paint<T: Copy + Default>(
     layer: &Layer<T>,
     colour: impl Fn(UVec2, T, u32) -> [u8; 3],
@@ -124,8 +124,8 @@ fn paint<T: Copy + Default>(
     (film, colours.collect())
 }
 
-/// Returns the colour of a hit as if everything were made of clay, and lit from the camera: the more
-/// the surface is turned away, the darker. A normal that points away is shown in blue.
+/// Returns the colour of a hit as if everything was made of clay and lit from the camera: the more
+/// the surface is turned away, the darker. Normals that point away are shown in blue.
 fn clay(hit: Trace, eye: Vec3) -> Vec3 {
     let toward_eye = (eye - hit.position).normalize_or_zero();
     let cosine = hit.normal.normalize_or_zero().dot(toward_eye);
@@ -137,10 +137,10 @@ fn clay(hit: Trace, eye: Vec3) -> Vec3 {
     (0.12 + 0.88 * cosine.abs()) * colour
 }
 
-/// The conversion of radiance to bytes, as [`Tone::Light`] does it, but with a table: powers take
-/// most of the time of composing a picture.
+/// Converts radiance to bytes like [`Tone::Light`], but with a table, because computing powers
+/// would take most of the time of composing a picture.
 struct ToneTable {
-    /// For each byte but 0, the smallest radiance that becomes it.
+    /// For each byte except 0, the smallest radiance that maps to it.
     thresholds: Vec<f32>,
 }
 
@@ -148,7 +148,7 @@ impl ToneTable {
     fn new(stops: f32) -> Self {
         let tone = Tone::Light { stops };
         let byte = |bits: u32| tone.to_bytes(Vec3::splat(f32::from_bits(bits)))[0];
-        // Floats that are not negative are in the order of their bits.
+        // Non-negative floats are in the order of their bits.
         let threshold = |wanted: u8| {
             let (mut low, mut high) = (0, f32::INFINITY.to_bits());
             while low < high {

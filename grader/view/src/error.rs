@@ -8,7 +8,7 @@ pub enum ViewError {
     /// An error that the user can fix.
     #[error("{0}")]
     Usage(String),
-    /// An error of the viewer or the machine.
+    /// An error caused by the viewer or the machine.
     #[error("{0}")]
     Machine(String),
 }
@@ -19,7 +19,7 @@ impl ViewError {
         ViewError::Usage(error.to_string())
     }
 
-    /// Converts an error of the viewer or the machine.
+    /// Converts an error caused by the viewer or the machine.
     pub fn machine(error: impl Display) -> Self {
         ViewError::Machine(error.to_string())
     }

@@ -1,5 +1,5 @@
-//! Questions of the practice exam as scenes. Only the exam that is embedded in the grader is shown:
-//! a final exam is never in a file that this program reads.
+//! Questions of the practice exam as scenes. Only the exam embedded in the grader is shown, so this
+//! program never reads a file that could contain a final exam.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::error::ViewError;
 use crate::model::viewpoint::Viewpoint;
 use crate::subject::{ExamRay, Subject, bounds};
 
-/// The film on which a question is drawn.
+/// The film for drawing a question.
 const FILM: UVec2 = UVec2::new(480, 360);
 /// The vertical field of view, in degrees.
 const FOV: f32 = 35.0;
@@ -98,7 +98,7 @@ fn subject(
     };
     let boxes: Vec<[Vec3; 2]> = corners.into_iter().collect();
     let ray = scene::ray(&question.question, element);
-    // The ray is left out, since it may begin far away.
+    // Leave out the ray, since it may start far away.
     let boxes_seen = boxes.iter().map(|[min, max]| Bounds {
         min: min.as_dvec3(),
         max: max.as_dvec3(),
@@ -140,7 +140,7 @@ fn subject(
     })
 }
 
-/// Returns a viewpoint that sees the ray from the side, a little from behind and above.
+/// Returns a viewpoint that shows the ray from the side, slightly from behind and above.
 fn viewpoint(bounds: &Bounds, ray: Option<&Ray>) -> Viewpoint {
     let along = ray.map_or(Vec3::new(-0.4, -0.3, -1.0), |ray| ray.dir);
     let up = if along.y.abs() < 0.9 {

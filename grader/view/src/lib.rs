@@ -1,9 +1,9 @@
 //! Shows a submission's tracer at work in a browser: the picture while it is drawn, the tree, and
-//! the tests that the submission's traversal makes for one ray.
+//! the tests made by the submission's traversal for one ray.
 //!
 //! The submission's files are compiled as for grading, but with the crate `view_probe` instead of
-//! the grader's probe. This crate starts the programs, keeps the state of the page, and serves the
-//! page on the loopback address.
+//! the grader's probe. This crate starts the programs, keeps the page's state and serves the page
+//! on the loopback address.
 //!
 //! Layers, from top to bottom. A module imports only from layers below its own:
 //!

@@ -1,4 +1,4 @@
-//! A running program of the submission, and the exchange of requests and responses with it.
+//! A running program of the submission, and the requests and responses exchanged with it.
 
 use std::time::{Duration, Instant};
 
@@ -9,10 +9,10 @@ use view_probe::messages::{Request, Response};
 
 use crate::program::Program;
 
-/// The maximum CPU time of a program. It only ends one that has been forgotten: each request has a
-/// limit of its own.
+/// The maximum CPU time of a program. It only ends forgotten programs, because each request has its
+/// own limit.
 const CPU_LIMIT: Duration = Duration::from_secs(24 * 3600);
-/// The wall time that each request has in addition to a multiple of its CPU time.
+/// The wall time allowed for each request in addition to a multiple of its CPU time.
 const WALL_RESERVE: Duration = Duration::from_secs(5);
 
 /// A running program.
@@ -24,7 +24,7 @@ pub struct Probe {
     _program: Program,
 }
 
-/// A reason why work has no result.
+/// Why work didn't produce a result.
 #[derive(Debug, thiserror::Error)]
 pub enum Stop {
     /// The result is no longer wanted, or the reason has been reported.
@@ -33,13 +33,13 @@ pub enum Stop {
     /// The program failed.
     #[error("{0}")]
     Fault(Fault),
-    /// The program could not be started, or its response is not of use.
+    /// The program could not be started, or its response is unusable.
     #[error("{0}")]
     Invalid(String),
 }
 
 impl Probe {
-    /// Starts a program with this limit of memory, in bytes.
+    /// Starts a program with this memory limit, in bytes.
     pub fn start(program: &Program, memory: u64) -> std::io::Result<Self> {
         let (path, sandbox) = program.executable();
         let limits = Limits {
@@ -55,8 +55,8 @@ impl Probe {
         })
     }
 
-    /// Sends a request and waits for the response, for at most `limit` of CPU time, or until it
-    /// `is_abandoned`. After an error, the program must not be asked again.
+    /// Sends a request and waits for the response, for at most `limit` of CPU time or until it
+    /// `is_abandoned`. After an error, the program must not be used again.
     pub fn ask(
         &mut self,
         request: &Request,
@@ -70,10 +70,10 @@ impl Probe {
         self.running.send(batch);
         let started_at = Instant::now();
         let cpu_before = self.running.process.cpu_time();
-        // Generous: on a busy machine, wall time says nothing about the code.
+        // This is generous, because on a busy machine, wall time says nothing about the code.
         let wall_limit = 4 * limit + WALL_RESERVE;
         let frame = loop {
-            // The first part of the time is spent waiting for the pipe alone, which costs nothing.
+            // The first part of the time is only spent waiting for the pipe, which costs nothing.
             if let Some(frame) = self.running.next_frame()? {
                 break frame;
             }
@@ -101,7 +101,7 @@ impl Probe {
 
 impl From<Fault> for Stop {
     fn from(fault: Fault) -> Self {
-        // Unlike the grader, the viewer does not run a program again to tell who has killed it.
+        // Unlike the grader, the viewer doesn't rerun a program to find out why it was killed.
         let is_killed = fault == Fault::Crashed(Crash::Killed);
         Stop::Fault(if is_killed {
             Fault::Crashed(Crash::Signal(9))

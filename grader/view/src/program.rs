@@ -1,4 +1,4 @@
-//! Builds a submission's two programs: the one that draws, and the one that records tests.
+//! Builds a submission's two programs: one that draws, and one that records tests.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,7 +36,7 @@ pub struct Programs {
     is_package: bool,
 }
 
-/// A program, or the reason why there is none.
+/// A program, or why there is none.
 #[derive(Clone, Debug, Default)]
 pub enum BuildState {
     /// The compiler is at work.
@@ -44,7 +44,7 @@ pub enum BuildState {
     Compiling,
     /// The program is ready.
     Ready(Program),
-    /// The submission does not compile.
+    /// The submission doesn't compile.
     Failed(Vec<FileError>),
     /// The compiler could not be run.
     Broken(String),
@@ -97,7 +97,7 @@ impl Programs {
         &self.folder
     }
 
-    /// Reads the submission's files as they are now.
+    /// Reads the current version of the submission's files.
     pub fn collect(&self) -> Result<Submission, SubmissionError> {
         if self.is_package {
             Submission::collect_package(&self.folder, self.drawing)
@@ -147,7 +147,7 @@ impl Programs {
 }
 
 impl Program {
-    /// Returns the path of the program, and the sandbox to start it in.
+    /// Returns the path of the program and the sandbox to start it in.
     pub fn executable(&self) -> (PathBuf, Sandbox) {
         let Program(build) = self;
         let launcher = build.launcher(&build.probe.clone().unwrap_or_default());
@@ -169,8 +169,8 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
     files.map(error).collect()
 }
 
-/// Returns the assignment with the viewer's `main` function, and with changed given files. It exists
-/// as long as the process.
+/// Returns the assignment with the viewer's `main` function and changed given files. It exists as
+/// long as the process.
 fn with_probe(
     handed_out: &HandedOut,
     given: impl Fn(&GivenFile) -> GivenFile,
@@ -184,7 +184,7 @@ fn with_probe(
     }))
 }
 
-/// Returns a given file in which calls are recorded.
+/// Returns a given file with recording of calls added.
 fn with_recording(file: &GivenFile) -> GivenFile {
     let mut methods = RECORDED.iter().filter(|method| method.file == file.name);
     let text = methods.next().and_then(|method| method.apply(file.text));

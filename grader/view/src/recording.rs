@@ -1,8 +1,8 @@
-//! Makes a submission's `BBox::hit` and `Primitive::hit` report their calls, without a change in the
-//! traversal, which calls them.
+//! Makes a submission's `BBox::hit` and `Primitive::hit` report their calls without changing the
+//! traversal that calls them.
 //!
 //! The method is renamed, and a method with its old name calls it and reports the result. Types and
-//! line numbers stay as they are.
+//! line numbers stay unchanged.
 
 use grader::handed_out::find_method;
 
@@ -13,7 +13,7 @@ pub struct RecordedMethod {
     pub file: &'static str,
     /// The type.
     type_name: &'static str,
-    /// The parameters and the body of the method that takes the name.
+    /// The parameters and the body of the method that takes over the name.
     wrapper: &'static str,
 }
 
@@ -38,8 +38,8 @@ pub const RECORDED: [RecordedMethod; 2] = [
 ];
 
 impl RecordedMethod {
-    /// Returns the text of the file in which calls of the method are recorded, or `None` if it has
-    /// no such method.
+    /// Returns the file's text with recording of the method's calls added, or `None` if the method
+    /// doesn't exist.
     pub fn apply(&self, text: &str) -> Option<String> {
         let name = find_method(text, self.type_name, "hit").ok()?.name_start;
         let (before, after) = (&text[..name], &text[name + "hit".len()..]);

@@ -18,12 +18,12 @@ use crate::session::Command;
 use crate::shared_session::SharedSession;
 use crate::subject::{SceneList, Subject};
 
-/// The time for which a request for news waits. Tunnels end connections that are silent for longer
-/// than a minute.
+/// How long a request for news waits. Tunnels close connections that are silent for more than a
+/// minute.
 const POLL_TIMEOUT: Duration = Duration::from_secs(25);
-/// The maximum number of boxes that are drawn over the picture: 400 boxes have 4,800 edges.
+/// The maximum number of boxes to draw over the picture. 400 boxes have 4,800 edges.
 const MAX_BOXES: usize = 400;
-/// The number of nodes in the list of the worst.
+/// The number of nodes in the list of worst nodes.
 const WORST: usize = 12;
 /// The narrowest bar of the strip, as a share of its width.
 const NARROWEST: f32 = 1.0 / 600.0;
@@ -33,7 +33,7 @@ const FILES: [(&str, &str, &str); 10] = [
     ("/", HTML, include_str!("page/index.html")),
     ("/style.css", CSS, include_str!("page/style.css")),
     ("/icon.svg", "image/svg+xml", ICON),
-    // Browsers ask for this one if a page names no icon, like the errors.
+    // Browsers request this if a page specifies no icon, as with errors.
     ("/favicon.ico", "image/svg+xml", ICON),
     ("/main.js", SCRIPT, include_str!("page/main.js")),
     ("/server.js", SCRIPT, include_str!("page/server.js")),
@@ -58,8 +58,7 @@ pub struct Routes {
     pub scenes: SceneList,
     /// The settings of paths.
     pub settings: PathSettings,
-    /// The file that leads the browser here. It contains the secret, so it is deleted when it has
-    /// been used.
+    /// The file that leads the browser here. It contains the secret, so it is deleted after use.
     pub redirection: Mutex<Option<NamedTempFile>>,
 }
 
@@ -92,7 +91,7 @@ impl Site for Routes {
             return Response::text(Status::FORBIDDEN, why);
         }
         if file.is_none() {
-            // The page has the token, so the file that contains it is no longer needed.
+            // The page now knows the token, so the file that contains it is no longer needed.
             let mut redirection = self.redirection.lock();
             drop(redirection.as_deref_mut().map(Option::take));
         }
@@ -145,7 +144,7 @@ impl Routes {
         match applied {
             Err(why) => return bad(&why),
             Ok(None) => {}
-            // Large meshes take some time to load, during which the page stays usable.
+            // Large meshes take some time to load. The page stays usable in the meantime.
             Ok(Some(name)) => match self.scenes.load(&name) {
                 Ok(scene) => {
                     let subject = Subject::of_scene(&name, &scene, self.settings);
@@ -215,7 +214,8 @@ impl Formatter for Sanitizing {
         to: &mut W,
         fragment: &str,
     ) -> io::Result<()> {
-        // Quotes and backslashes are no fragments. Those of an escape are text of the string.
+        // Fragments don't contain quotes or backslashes from the JSON syntax. Any that come from an
+        // escape are part of the text.
         let text = sanitize(fragment, usize::MAX).replace('\\', "\\\\");
         to.write_all(text.as_bytes())
     }

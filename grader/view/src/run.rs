@@ -1,4 +1,4 @@
-//! Starts everything.
+//! Starts the server, the threads and the browser.
 
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
@@ -53,11 +53,11 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     let listener = listen(arguments.port)?;
     let port = listener.local_addr().map_err(cannot_listen)?.port();
     let programs = programs(arguments, &workspace, handed_out)?;
-    // A missing submission is reported before the server starts.
+    // Report a missing submission before starting the server.
     let submission = programs.collect().map_err(ViewError::usage)?;
 
     let cores = arguments.threads.map_or_else(available_cores, usize::from);
-    // Half of it is left for other programs, such as the browser.
+    // Leave half of it for other programs, such as the browser.
     let memory = available_memory().map_or(u64::MAX, |bytes| bytes / 2);
     let session = Session::new(
         subject,
@@ -129,7 +129,7 @@ fn cannot_listen(error: io::Error) -> ViewError {
     ViewError::Machine(format!("cannot listen on 127.0.0.1: {error}"))
 }
 
-/// Listens on this port, or on the usual one or any other if none is given.
+/// Listens on this port. If none is given, listens on the default port or any free one.
 fn listen(port: Option<u16>) -> Result<TcpListener, ViewError> {
     let bind = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     match port {

@@ -8,9 +8,9 @@ use std::{io, thread};
 use crate::session::{Key, Session};
 
 /// The number of pages that may wait for news at the same time. A browser opens six connections to
-/// one server, and others are needed for pictures.
+/// one server and needs the rest for pictures.
 const MAX_WAITING: usize = 4;
-/// The time for which a page waits if more pages are open.
+/// How long a page waits if more pages are open.
 const SHORT_WAIT: Duration = Duration::from_millis(500);
 
 /// The session, shared by threads.
@@ -55,7 +55,7 @@ impl SharedSession {
         Ok(())
     }
 
-    /// Runs `change` on the session, and wakes the threads that wait for work or news.
+    /// Runs `change` on the session and wakes the threads that wait for work or news.
     pub fn update<T>(&self, change: impl FnOnce(&mut Session, Instant) -> T) -> T {
         let value = change(&mut self.lock().session, Instant::now());
         self.changed.notify_all();
@@ -67,7 +67,7 @@ impl SharedSession {
         read(&self.lock().session, Instant::now())
     }
 
-    /// Waits until `find` finds something in the session, such as work, and returns it.
+    /// Waits until `find` finds something in the session, such as work. Returns it.
     pub fn wait_for<T>(&self, mut find: impl FnMut(&mut Session, Instant) -> Option<T>) -> T {
         let mut shared = self.lock();
         loop {
@@ -79,8 +79,8 @@ impl SharedSession {
         }
     }
 
-    /// Waits until the session has another version than `known`, or until the time is over. Returns
-    /// whether it has. If many pages wait, none waits for long.
+    /// Waits until the session's version differs from `known` or the time is up. Returns whether it
+    /// differs. If many pages are waiting, none of them waits long.
     pub fn wait_for_news(&self, known: u64, limit: Duration) -> bool {
         let mut shared = self.lock();
         shared.session.watch(Instant::now());
@@ -100,7 +100,7 @@ impl SharedSession {
         shared.session.shown.version != known
     }
 
-    /// Replaces the picture by one of pixels with this key, of all samples or of some.
+    /// Replaces the picture with one made for this key, with all samples or some of them.
     pub fn show_picture(&self, png: Vec<u8>, key: Key, is_complete: bool) {
         let mut shared = self.lock();
         shared.session.show_picture(key, is_complete);

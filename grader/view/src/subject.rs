@@ -1,4 +1,4 @@
-//! The things that can be viewed: scenes, and questions of the practice exam.
+//! The subjects that can be viewed: scenes and questions of the practice exam.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use crate::model::viewpoint::Viewpoint;
 /// The folder of scenes.
 const SCENES: &str = "scenes";
 
-/// A scene, or a question of the exam, ready to be sent to a program.
+/// A scene or a question of the exam, ready to be sent to a program.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The name on the page.
@@ -36,14 +36,14 @@ pub struct Subject {
     pub camera: Camera,
     /// The viewpoint of the scene's own camera.
     pub viewpoint: Viewpoint,
-    /// The question of the exam, if the subject is one.
+    /// The exam's question, if the subject is one.
     pub question: Option<ExamRay>,
 }
 
-/// A ray of the exam, and the texts of its question.
+/// A ray of the exam and the texts of its question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExamRay {
-    /// The ray, if the question is about one. The page sees only whether it is.
+    /// The ray, if the question is about one. The page only sees whether it exists.
     #[serde(rename = "has_ray", serialize_with = "is_some")]
     pub ray: Option<Ray>,
     /// Boxes to draw, as corners: for questions about boxes.
@@ -79,7 +79,7 @@ impl Subject {
         }
     }
 
-    /// Returns why a tree is not read, if it is much larger than a correct one can be.
+    /// Returns why a tree isn't read, or `None` if it isn't much larger than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
         let own = match &self.data.tree {
@@ -105,8 +105,8 @@ impl Subject {
     }
 }
 
-/// Returns the box around all boxes that are finite. Without any, returns a box of size one around
-/// the origin.
+/// Returns the box around all finite boxes. If there are none, returns a box of size one around the
+/// origin.
 pub fn bounds(boxes: impl Iterator<Item = Bounds>) -> Bounds {
     let finite = boxes.filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());
     let all = finite.reduce(|mut all, bounds| {
@@ -120,7 +120,7 @@ pub fn bounds(boxes: impl Iterator<Item = Bounds>) -> Bounds {
     })
 }
 
-/// The scenes that the page may name: those in the workspace's folder, and the one on the command
+/// The scenes that the page may open: those in the workspace's folder and the one on the command
 /// line.
 #[derive(Clone, Debug)]
 pub struct SceneList {
@@ -144,8 +144,8 @@ impl SceneList {
         SceneList { scenes }
     }
 
-    /// Returns the name of a scene that the command line gives by its name or as a path. A file from
-    /// elsewhere is added to the list.
+    /// Returns the name of a scene given by name or path on the command line. A file from elsewhere
+    /// is added to the list.
     pub fn name_of(&mut self, scene: &str) -> Result<String, ViewError> {
         let stem = Path::new(scene)
             .file_stem()
@@ -161,7 +161,7 @@ impl SceneList {
             self.scenes.push((stem.to_owned(), path));
             return Ok(stem.to_owned());
         }
-        // From another folder of the workspace, `scenes/flat.json` is not a path.
+        // In a subfolder of the workspace, `scenes/flat.json` isn't an existing path.
         if self.scenes.iter().any(|(name, _)| name == stem) {
             Ok(stem.to_owned())
         } else {

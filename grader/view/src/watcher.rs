@@ -1,5 +1,5 @@
-//! The threads that compile: one watches the files and builds the program that draws, the other
-//! builds the program that records, when it is wanted.
+//! The threads that compile. One watches the files and builds the program that draws. The other
+//! builds the program that records when it is needed.
 
 use std::fs;
 use std::path::PathBuf;
@@ -12,18 +12,18 @@ use grader::watch::save_watcher::SaveWatcher;
 use crate::program::{BuildState, FileError, Programs};
 use crate::shared_session::SharedSession;
 
-/// The folders of a submission in which its files usually are.
+/// The folders that usually contain a submission's files.
 const USUAL_FOLDERS: [&str; 3] = ["", "src", "student/src"];
 /// The polling interval for the times and sizes of the files.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
-/// The time after which the files are read again even if none of them seems to have changed.
+/// The time after which the files are read again even if they don't seem to have changed.
 const READ_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Notices saves by the times and sizes of the files. Reading and comparing the texts takes half a
-/// millisecond, which is too long for fifty times a second while nothing happens.
+/// Detects saves by the files' times and sizes. Reading and comparing the texts takes half a
+/// millisecond, which is too long to do fifty times a second while nothing happens.
 struct Stamps<'a> {
     programs: &'a Programs,
-    /// The usual folders that have files of the submission.
+    /// The usual folders that contain files of the submission.
     folders: Vec<PathBuf>,
     last: Vec<Option<(SystemTime, u64)>>,
     at: Instant,
@@ -41,7 +41,7 @@ impl<'a> Stamps<'a> {
         stamps
     }
 
-    /// Notes the present times and sizes.
+    /// Records the current times and sizes.
     fn renew(&mut self) {
         let all = USUAL_FOLDERS
             .iter()
@@ -55,8 +55,8 @@ impl<'a> Stamps<'a> {
         self.at = Instant::now();
     }
 
-    /// Waits until a file seems to have changed, or for a while: a file can be replaced by one of
-    /// the same time and size, and an archive or another folder is not looked at.
+    /// Waits until a file seems to have changed, but not too long: a file can be replaced by one
+    /// with the same time and size, and archives and other folders aren't checked.
     fn wait(&mut self) {
         while self.at.elapsed() < READ_INTERVAL && self.read() == self.last {
             thread::sleep(POLL_INTERVAL);
@@ -77,7 +77,7 @@ impl<'a> Stamps<'a> {
     }
 }
 
-/// Builds the submission, and again after each save, until the process ends.
+/// Builds the submission, then again after each save, until the process ends.
 pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
     let watcher = SaveWatcher::new(|| programs.collect().ok());
     let mut stamps = Stamps::new(programs);
@@ -85,7 +85,7 @@ pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
     loop {
         shared.update(|session, _| session.compiling(submission.clone()));
         let report = |errors: Vec<FileError>| {
-            // The errors are shown at once. The compiler may find more in other files.
+            // Show the errors immediately. The compiler may find more in other files.
             shared.update(|session, now| session.built(BuildState::Failed(errors), now));
         };
         let state = programs.build(&submission, report);
@@ -98,7 +98,7 @@ pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
     }
 }
 
-/// Builds programs that record, whenever one is wanted, until the process ends.
+/// Builds recording programs whenever one is needed, until the process ends.
 pub fn build_recordings(shared: &SharedSession, programs: &Programs) {
     loop {
         let (version, submission) = shared.wait_for(|session, _| session.wanted_recording());

@@ -1,1 +1,1 @@
-//! Nothing but the features in `Cargo.toml`.
+//! This crate is empty. It only exists for the features in `Cargo.toml`.

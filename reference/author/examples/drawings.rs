@@ -1,4 +1,4 @@
-//! Writes a page with the drawings that the report shows for every known mistake, for inspection.
+//! Writes a page with the report's drawings for every known mistake, for inspection.
 //!
 //! `cargo run --release -p author --example drawings -- target/drawings.html [WORD]` draws the
 //! first wrong answer of every mistake. With a `WORD`, it draws the first wrong answer to every
@@ -82,7 +82,7 @@ fn run() -> Result<(), Box<dyn error::Error>> {
     Ok(fs::write(file, page)?)
 }
 
-/// Returns the location of the first wrong element in the answers to an item, and the drawing of
+/// Returns the location of the first wrong element in the answers to an item and the drawing of
 /// this element.
 fn first_failure(item: &Item, answers: &[Answer]) -> Option<(String, Option<Drawing>)> {
     let numbered = item.questions.iter().zip(answers).enumerate();

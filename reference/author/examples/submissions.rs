@@ -1,5 +1,5 @@
-//! Writes known mistakes and variants as submissions: a class of any size, to measure how fast a class
-//! is graded, or the solutions with these ids, to grade them one by one.
+//! Writes known mistakes and variants as submissions: either a class of any size, to measure how
+//! fast a class is graded, or the solutions with given ids, to grade them one by one.
 //!
 //! ```text
 //! cargo run --release -p author --example submissions -- target/class 200

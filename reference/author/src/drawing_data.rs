@@ -1,5 +1,5 @@
 //! Data for a report's drawings: the intermediate results of a correct solution, which are drawn
-//! beside a wrong answer. The data is added to an exam after its questions have been generated.
+//! next to a wrong answer. The data is added to an exam after its questions have been generated.
 
 use judging::drawing_data::{DrawingData, TraversalStep};
 use judging::exam::Exam;
@@ -10,8 +10,8 @@ use crate::oracle::{Ray64, scan, sweep};
 use crate::tree::Tree;
 use crate::tree::traversal::{Traversal, TraversalRule};
 
-/// The rule of the traversal that is drawn: of all correct traversals, the one that a student would
-/// most likely write.
+/// The rule of the drawn traversal. Of all correct traversals, it is the one a student is most
+/// likely to write.
 const RULE: TraversalRule = TraversalRule {
     left_first: true,
     tests_on_entry: false,
@@ -54,7 +54,7 @@ fn drawing_data(question: &Question) -> DrawingData {
     DrawingData::None
 }
 
-/// Returns, for each axis, the interval in which the ray's line is between the box's two planes.
+/// Returns, for each axis, the interval where the ray's line is between the box's two planes.
 fn slabs(bounds: &Bounds, ray: &Ray) -> [Interval; 3] {
     let line = Ray64::from(ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
     [0, 1, 2].map(|axis| match bounds.slab(axis).span(&line) {

@@ -23,14 +23,14 @@ pub fn generated_file(authoring: &'static Authoring) -> Result<GeneratedFile> {
     Ok(GeneratedFile::new(authoring.practice_exam, practice))
 }
 
-/// Reads the practice exam that is committed in the workspace at `root`.
+/// Reads the committed practice exam of the workspace at `root`.
 pub fn load_practice(root: &Path, authoring: &Authoring) -> Result<Exam, Error> {
     let file = ExamSource::File(root.join(authoring.practice_exam));
     Ok(file.load(authoring.handed_out)?.exam)
 }
 
-/// Generates the text of a final exam. Its questions are about the same ideas as those of the
-/// practice exam, with other numbers.
+/// Generates the text of a final exam. Its questions test the same ideas as the practice exam, with
+/// different numbers.
 pub fn final_exam_text(authoring: &'static Authoring, seed: u64) -> Result<String> {
     if Seed(seed) == Seed::PRACTICE {
         bail!("the seed {seed} is that of the practice exam; choose another one");
@@ -50,8 +50,8 @@ pub fn generate(id: &str, seed: Seed, solutions: &Solutions) -> Result<Exam> {
     solutions.recorder.record(exam)
 }
 
-/// Assembles an exam without hints and without recorded pictures, in which each item comes after
-/// the items that it needs.
+/// Assembles an exam without hints and without recorded pictures, with each item after the items it
+/// needs.
 pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Exam {
     let assignment = authoring.handed_out.assignment;
     Exam::new(assignment, id, items::items(authoring.tasks, seed))
@@ -60,7 +60,7 @@ pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Exam {
 /// Writes the exam as JSON with one item per line, so that a diff shows which items changed.
 fn to_text(exam: &Exam) -> Result<String, serde_json::Error> {
     let (mistakes, items) = (json_lines(&exam.mistakes)?, json_lines(&exam.items)?);
-    // The fields before the two lists are written as the format defines them.
+    // Let serde write the fields before the two lists.
     let empty = Exam {
         mistakes: Vec::new(),
         ..exam.filter_items(|_| false)

@@ -59,7 +59,7 @@ pub fn write_or_check(
 }
 
 fn differs(file: &GeneratedFile, root: &Path) -> bool {
-    // A file that cannot be read also counts as different.
+    // A file that cannot be read is treated as different.
     let found = fs::read(root.join(&file.path));
     !found.is_ok_and(|found| found == file.contents.as_bytes())
 }

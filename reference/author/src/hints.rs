@@ -1,5 +1,6 @@
-//! Adds the signatures of known mistakes, on which the grader's hints are based, to an exam. To get
-//! these signatures, every mistake is built and asked the exam's questions, like any submission.
+//! Adds the signatures of known mistakes to an exam. The grader's hints are based on them. To
+//! record the signatures, every mistake is built and answers the exam's questions like any
+//! submission.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +17,7 @@ use crate::solutions::workbench::Answers;
 /// The maximum number of an item's elements that a signature records.
 const MAX_ELEMENTS: usize = 24;
 /// The minimum number of recorded elements, even if fewer distinguish all known mistakes. The
-/// additional elements help to recognise that a mistake is none of the known ones.
+/// additional elements help to recognise unknown mistakes.
 const MIN_ELEMENTS: usize = 12;
 
 /// Returns the exam with every known mistake's answers to some of its questions.
@@ -54,9 +55,9 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     Ok(exam)
 }
 
-/// Returns whether all questions of an item are tables or trees. Pictures have no signatures, and
-/// neither have trees that the submission builds and then traverses: there, a wrong answer depends
-/// on the order of the submission's own nodes.
+/// Returns whether all questions of an item are tables or trees. Pictures don't have signatures,
+/// and neither do trees that the submission both builds and traverses, because a wrong answer then
+/// depends on how the submission orders its own nodes.
 fn is_table(item: &Item) -> bool {
     item.questions
         .iter()
@@ -70,7 +71,7 @@ fn is_table(item: &Item) -> bool {
         })
 }
 
-/// Returns what is observed of the answers to each element of an item.
+/// Returns the observation for each element of an item.
 pub fn observed_answers(item: &Item, answers: &Answers) -> Vec<ObservedAnswer> {
     match answers {
         Ok(answers) => observe(item, answers),
@@ -80,7 +81,7 @@ pub fn observed_answers(item: &Item, answers: &Answers) -> Vec<ObservedAnswer> {
     }
 }
 
-/// Returns the signatures of an item, given the correct answers and those of each mistake.
+/// Returns the signatures of an item, given the correct answers and each mistake's answers.
 fn signatures(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
@@ -126,8 +127,8 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
 }
 
 /// Returns the elements that best distinguish the mistakes from each other and from correct
-/// answers. The choice is greedy: each further element is the one that distinguishes the largest
-/// number of the remaining pairs.
+/// answers. The choice is greedy: each step adds the element that distinguishes the most remaining
+/// pairs.
 fn choose_elements(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
@@ -144,13 +145,13 @@ fn choose_elements(
         let left = (0..correct.len()).filter(|element| !chosen.contains(element));
         let gain = |element| pairs.iter().filter(|pair| differ(element, pair)).count();
         let gains = left.map(|element| (gain(element), element));
-        // If gains are equal, the first element is chosen, so that the result is deterministic.
+        // For equal gains, choose the first element, so that the result is deterministic.
         let Some((gain, best)) = gains.min_by_key(|(gain, element)| (usize::MAX - gain, *element))
         else {
             break;
         };
-        // An element without a gain only helps to tell unknown mistakes from known ones, so such
-        // elements are added only up to the minimum.
+        // Elements without a gain only help to tell unknown mistakes from known ones, so add them
+        // only up to the minimum.
         if gain == 0 && chosen.len() >= MIN_ELEMENTS {
             break;
         }

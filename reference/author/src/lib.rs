@@ -1,11 +1,11 @@
-//! Generates everything in this repository that is not written by hand: the starter, the exams, and
-//! the bundles and packages that are handed out. Also tests the exam, by grading many solutions
+//! Generates everything in this repository that isn't written by hand: the starter, the exams, and
+//! the bundles and packages that are handed out. Also tests the exam by grading many solutions
 //! ([`proof`]).
 //!
-//! This crate never links the reference. Keys are computed from the definitions, in double
-//! precision, in [`oracle`]. Grading the reference then shows that the reference and the keys agree.
+//! This crate never links the reference. Keys are computed in [`oracle`] from the definitions, in
+//! double precision. Grading the reference then shows that the reference and the keys agree.
 //!
-//! The modules form layers. A module uses only modules of the layers below its own:
+//! The modules form layers. A module only uses modules from layers below its own:
 //!
 //! | layer | modules |
 //! |---|---|

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 use std::process::Command;
 
-/// Replaces the row of a run by its result, with today's date and the commit. `exams` are the seeds of
+/// Replaces a run's row with its result, with today's date and the commit. `exams` are the seeds of
 /// the final exams, or the practice exam. `.ci/record` keeps the table.
 pub fn record(root: &Path, run: &str, exams: &str, result: &str) -> io::Result<()> {
     let script = Command::new("bash")

@@ -1,5 +1,5 @@
-//! The program `cargo author`: writes every generated file, and tests the exam. Its option `--help`
-//! lists all commands.
+//! The program `cargo author`, which writes every generated file and tests the exam.
+//! `cargo author --help` lists all commands.
 
 use std::process::ExitCode;
 

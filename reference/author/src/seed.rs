@@ -4,22 +4,22 @@ use glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// The seed from which all questions of an exam are drawn.
+/// The seed that all questions of an exam are drawn from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seed(pub u64);
 
 impl Seed {
-    /// The seed of the practice exam. It is not secret, because the practice exam is handed out with
+    /// The seed of the practice exam. It isn't secret, because the practice exam is handed out with
     /// its keys.
     pub const PRACTICE: Seed = Seed(2025);
 
-    /// Returns a seed that depends only on this one, to draw an item again.
+    /// Returns a seed derived from this one, for redrawing an item.
     pub fn next(self) -> Seed {
         Seed(self.rng("next").numbers.random())
     }
 
     /// Returns the random numbers of one item. Each item has its own sequence, so that changing one
-    /// item leaves the others as they are.
+    /// item doesn't affect the others.
     pub fn rng(self, item: &str) -> Rng {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&self.0.to_le_bytes());
@@ -118,7 +118,7 @@ impl Rng {
         list
     }
 
-    /// Calls `attempt` up to `most` times, until it returns `Some`.
+    /// Calls `attempt` until it returns `Some`, up to `most` times.
     pub fn attempt<T>(
         &mut self,
         most: usize,
@@ -127,7 +127,7 @@ impl Rng {
         (0..most).find_map(|_| attempt(self))
     }
 
-    /// Calls `attempt` until it returns `Some`, and returns that value.
+    /// Calls `attempt` until it returns `Some`. Returns that value.
     ///
     /// Questions are found by rejection sampling: a question is drawn again if a correct answer in
     /// single precision could differ from the key.

@@ -9,8 +9,8 @@ use grader::handed_out::HandedOut;
 
 use crate::generated_file::GeneratedFile;
 
-/// Generates every file of an assignment's starter from its reference in the workspace at `root`:
-/// for the folder that students edit, and for the copy that is embedded in the grader.
+/// Generates every file of an assignment's starter from its reference in the workspace at `root`,
+/// both for the folder that students edit and for the copy embedded in the grader.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let folders = [
         format!("{}/src", handed_out.student),

@@ -1,4 +1,4 @@
-//! The contenders: each builds a tree over the same triangles, and finds closest hits.
+//! The contenders. Each builds a tree over the same triangles and finds closest hits.
 
 use std::hint::black_box;
 use std::rc::Rc;
@@ -25,7 +25,7 @@ pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree over the triangles, which finds closest hits.
 pub trait Contender {
-    /// Returns the distance to the closest hit of each ray, or infinity if there is none.
+    /// Returns the distance to the closest hit of each ray, or infinity if it hits nothing.
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 
@@ -43,7 +43,8 @@ impl Contender for wide::Bvh {
     }
 }
 
-/// Returns the distances of complete hits, which the compiler cannot reduce to their distances.
+/// Returns the distances of complete hits. The compiler cannot optimise the hits down to their
+/// distances.
 fn trace_distances(rays: &[Ray], hit: impl Fn(&Ray) -> Option<Trace>) -> Vec<f32> {
     let distance = |ray| black_box(hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
     rays.iter().map(distance).collect()
@@ -58,7 +59,7 @@ impl Contender for EmbreeScene<'_> {
 /// The binary tree of the crate `obvhs`, built with `medium_build`.
 pub struct Obvhs {
     bvh: Bvh2,
-    /// The triangles in the order of the leaves, as the crate's documentation recommends.
+    /// The triangles in leaf order, as recommended by the crate's documentation.
     triangles: Vec<Triangle>,
 }
 
@@ -95,7 +96,7 @@ impl Contender for Obvhs {
     }
 }
 
-/// A tree built by the crate `bvh`. The crate has two ways to traverse it, and which one is faster
+/// A tree built by the crate `bvh`. The crate has two ways to traverse it. Which one is faster
 /// depends on the rays.
 pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,
@@ -112,7 +113,7 @@ impl CrateBvhTree {
         CrateBvhTree { bvh, triangles }
     }
 
-    /// Returns the distance to the closest hit. Traverses in order of distance, and stops at the
+    /// Returns the distance to the closest hit. Traverses in order of distance and stops at the
     /// first box that is farther away than the closest hit.
     fn closest_ordered(&self, ray: &Ray) -> f32 {
         let query = query(ray);
@@ -140,7 +141,7 @@ impl CrateBvhTree {
 /// The crate `bvh`, with one of its ways to traverse a tree.
 pub struct Traversed {
     pub tree: Rc<CrateBvhTree>,
-    /// Whether to traverse in order of distance, or to test every triangle whose box is hit.
+    /// Whether to traverse in order of distance instead of testing every triangle whose box is hit.
     pub is_ordered: bool,
 }
 
@@ -164,7 +165,7 @@ fn query(ray: &Ray) -> ::bvh::ray::Ray<f32, 3> {
     )
 }
 
-/// A triangle that implements the traits that the crate `bvh` requires.
+/// A triangle that implements the traits required by the crate `bvh`.
 struct Corners {
     corners: [Vec3; 3],
     node: usize,
@@ -172,7 +173,7 @@ struct Corners {
 
 impl Corners {
     /// Returns the distance to the hit, or infinity. This is Möller and Trumbore's test for both
-    /// sides; the crate's own test culls back faces.
+    /// sides. The crate's own test culls back faces.
     fn distance(&self, ray: &Ray) -> f32 {
         let [p0, p1, p2] = self.corners;
         let (e1, e2) = (p1 - p0, p2 - p0);

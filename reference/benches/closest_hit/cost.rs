@@ -1,9 +1,9 @@
-//! Measures the CPU time of this process. Unlike wall time, it does not include the time that other
-//! processes take on a shared machine.
+//! Measures the CPU time of this process. Unlike wall time, it doesn't include time taken by other
+//! processes on a shared machine.
 
 use std::time::Duration;
 
-/// Runs `work`, and returns its result and its CPU time.
+/// Runs `work`. Returns its result and its CPU time.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let start = cpu_time();
     let result = work();
@@ -20,7 +20,7 @@ fn cpu_time() -> Duration {
     Duration::new(seconds, nanos)
 }
 
-/// Returns the wall time on other systems. It is meaningful only if the machine is otherwise idle.
+/// Returns the wall time on other systems. It is only meaningful if the machine is otherwise idle.
 #[cfg(not(unix))]
 fn cpu_time() -> Duration {
     use std::sync::LazyLock;

@@ -1,8 +1,8 @@
-//! Embree 4, loaded at run time from the library that the variable `EMBREE` names. The library is
-//! not part of this project; the Python package `embreex` contains one.
+//! Embree 4, loaded at run time from the library named by the variable `EMBREE`. The library isn't
+//! part of this project. The Python package `embreex` contains one.
 //!
-//! This is the only `unsafe` code outside the sandbox: functions of a C library cannot be called in
-//! any other way. The declarations follow Embree 4's `rtcore.h`.
+//! This is the only `unsafe` code outside the sandbox, because functions of a C library cannot be
+//! called in any other way. The declarations follow Embree 4's `rtcore.h`.
 #![allow(
     unsafe_code,
     reason = "a C library that is loaded at run time, for comparison only"
@@ -28,7 +28,7 @@ const MEDIUM: c_uint = 1;
 /// One thread, the caller's. Embree detects the processor's instruction set itself.
 const CONFIGURATION: &[u8] = b"threads=1,user_threads=1\0";
 
-/// `RTCRayHit`. The last fields differ between builds of the library; the structure is large enough
+/// `RTCRayHit`. The last fields differ between builds of the library. The structure is large enough
 /// for both forms.
 #[repr(C, align(16))]
 struct RayHit {
@@ -60,7 +60,7 @@ pub struct Embree {
     commit_scene: unsafe extern "C" fn(Handle),
     release_scene: unsafe extern "C" fn(Handle),
     intersect: unsafe extern "C" fn(Handle, *mut RayHit, *mut c_void),
-    // Dropped last, since dropping it unloads the functions.
+    // Declared last so that it is dropped last, since dropping it unloads the functions.
     _library: Library,
 }
 
@@ -71,11 +71,11 @@ pub struct EmbreeScene<'a> {
 }
 
 impl Embree {
-    /// Loads the library that the variable `EMBREE` names; returns `None` if it is not set.
+    /// Loads the library named by the variable `EMBREE`. Returns `None` if it isn't set.
     pub fn open() -> Option<Self> {
         let path = std::env::var_os("EMBREE")?;
         // SAFETY: by setting the variable, the user promises that the file is Embree 4, whose
-        // start-up code is safe to run; the types are those of its header.
+        // start-up code is safe to run. The types match its header.
         unsafe {
             let library = Library::new(&path)
                 .unwrap_or_else(|error| panic!("cannot open EMBREE={}: {error}", path.display()));
@@ -110,8 +110,8 @@ impl Embree {
     /// Builds a tree over a mesh.
     pub fn build(&self, mesh: &Mesh) -> EmbreeScene<'_> {
         let count = mesh.corners.len();
-        // SAFETY: handles come from the library and are released once; both buffers are filled with
-        // the size and format that were requested, before they are committed.
+        // SAFETY: handles come from the library and are released once. Both buffers are filled with
+        // the requested size and format before they are committed.
         unsafe {
             let scene = (self.new_scene)(self.device);
             (self.set_quality)(scene, MEDIUM);
@@ -147,7 +147,7 @@ impl Embree {
 }
 
 impl EmbreeScene<'_> {
-    /// Returns the distance to the closest hit, or infinity if there is none.
+    /// Returns the distance to the closest hit, or infinity if the ray hits nothing.
     pub fn distance(&self, ray: &Ray) -> f32 {
         let mut hit = RayHit {
             origin: ray.origin.to_array(),

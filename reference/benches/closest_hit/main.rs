@@ -1,7 +1,7 @@
-//! Measures closest hits per second and build times of the reference, the variant `wide`, the crates
-//! `obvhs` and `bvh`, and Embree, if its library is available. These contenders take turns on one
-//! thread, and must find the same hits. Only CPU time counts. ../README.md describes how to run this
-//! benchmark, and lists the results.
+//! Measures closest hits per second and build times of the reference, the variant `wide`, the
+//! crates `obvhs` and `bvh`, and Embree, if its library is available. These contenders take turns
+//! on one thread and must find the same hits. Only CPU time is measured. ../README.md describes how
+//! to run this benchmark and lists the results.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -26,8 +26,8 @@ mod numbers;
 mod rays;
 mod report;
 
-/// The default number of rounds, in each of which every contender builds its tree and traces all
-/// rays; the variable `ROUNDS` overrides it.
+/// The default number of rounds. In each round, every contender builds its tree and traces all
+/// rays. The variable `ROUNDS` overrides it.
 const ROUNDS: usize = 5;
 
 /// The width and height of the picture, in pixels.
@@ -35,13 +35,13 @@ const SIDE: u32 = 512;
 /// The same in the short form.
 const SHORT_SIDE: u32 = 32;
 
-/// The number of rays that a contender traces before it is the next contender's turn. The number is
-/// small enough (some milliseconds) that a slow moment of the machine affects all contenders, and
-/// large enough that the caches fill with the contender's own data.
+/// The number of rays a contender traces before it is the next one's turn. The number is small
+/// enough (a few milliseconds) that a slow moment of the machine affects all contenders, and large
+/// enough that the caches fill with the contender's own data.
 const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
-    // In the short form, only the agreement of the hits is of interest.
+    // In the short form, only the agreement of the hits matters.
     let is_short = std::env::args().any(|argument| argument == "--check");
     let (rounds, side) = if is_short {
         (1, SHORT_SIDE)
@@ -88,7 +88,7 @@ impl Trees<'_> {
     }
 }
 
-/// Builds all trees once per round, reports the times, and returns the trees of the last round.
+/// Builds all trees once per round and reports the times. Returns the trees of the last round.
 fn build_trees<'a>(
     mesh: &Mesh,
     embree: Option<&'a Embree>,
@@ -135,7 +135,7 @@ fn build_trees<'a>(
     trees.expect("there is at least one round")
 }
 
-/// Traces the same rays with all contenders, in turns, and compares their hits.
+/// Traces the same rays with all contenders in turns and compares their hits.
 fn measure_rays(
     contenders: &[(&'static str, &dyn Contender)],
     rays: &Rays,
@@ -169,7 +169,7 @@ fn measure_rays(
 }
 
 /// Checks that a contender finds the same hits as the reference. The last bits of a distance may
-/// differ, and a few rays may have different hits, such as exactly on an edge.
+/// differ, and a few rays may have different hits, e.g. exactly on an edge.
 fn check_agreement(
     name: &'static str,
     kind: &str,

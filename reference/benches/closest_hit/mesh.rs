@@ -1,5 +1,5 @@
 //! Loads the meshes: well-known ones if the environment variable `MESHES` is set to the folder with
-//! their files, and otherwise a mesh from this project's scenes.
+//! their files, otherwise a mesh from this project's scenes.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Read};
@@ -26,8 +26,8 @@ const FILES: [(&str, &str, bool); 3] = [
     ("dragon", "dragon871k.obj.gz", false),
 ];
 
-/// Returns the meshes in the folder that the variable `MESHES` names. If it is not set, returns a
-/// mesh of this project. The variable `ONLY` selects one mesh in the folder by its name.
+/// Returns the meshes in the folder named by the variable `MESHES`. If it isn't set, returns one of
+/// this project's meshes. The variable `ONLY` selects one mesh in the folder by name.
 pub fn meshes() -> Vec<Mesh> {
     let only = std::env::var("ONLY").ok();
     match std::env::var_os("MESHES").map(PathBuf::from) {
@@ -79,7 +79,7 @@ fn read_gzip(path: &Path) -> String {
     text
 }
 
-/// Parses the vertices and triangles of an OBJ file, and ignores everything else.
+/// Parses the vertices and triangles of an OBJ file. Ignores everything else.
 fn parse_obj(text: &str, path: &Path) -> Vec<[Vec3; 3]> {
     let number = |word: &str| word.parse::<f32>().expect("coordinates are numbers");
     let index = |word: &str| {

@@ -14,8 +14,8 @@ pub struct Rays {
     pub rays: Vec<Ray>,
 }
 
-/// Returns the rays of all three kinds. There are about as many rays of each kind as there are pixels
-/// in a picture whose width and height are `side`.
+/// Returns the rays of all three kinds. Each kind has about as many rays as a picture with the
+/// width and height `side` has pixels.
 pub fn all_kinds(mesh: &Mesh, bvh: &Bvh, side: u32) -> [Rays; 3] {
     let primary = primary(mesh, side);
     let bounce = bounce(mesh, bvh, &primary);
@@ -40,8 +40,8 @@ fn primary(mesh: &Mesh, side: u32) -> Vec<Ray> {
     (0..side * side).map(ray).collect()
 }
 
-/// Returns rays that start at the hits of the primary rays, in random directions of the hemisphere,
-/// then rays that start at the hits of those rays, and so on.
+/// Returns rays that start at the hits of the primary rays in random directions of the hemisphere,
+/// then rays that start at the hits of those rays and so on.
 fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
     let mut numbers = SplitMix64(1);

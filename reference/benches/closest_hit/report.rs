@@ -1,18 +1,18 @@
-//! The tables for one mesh: the measurements, and the ratios.
+//! The tables for one mesh: the measurements and the ratios.
 
 use std::fmt;
 
 use crate::cost::Spread;
 
-/// The measurements, in the order in which they were made.
+/// The measurements, in the order they were made.
 #[derive(Default)]
 pub struct Report {
     names: Vec<&'static str>,
     columns: Vec<&'static str>,
     /// For each name and column, one value per round.
     cells: Vec<(&'static str, &'static str, Vec<f64>)>,
-    /// The fraction of rays for which a contender and the reference found different hits: the
-    /// maximum over all contenders and rounds.
+    /// The fraction of rays where a contender and the reference found different hits: the maximum
+    /// over all contenders and rounds.
     differing: f64,
     most_differing: &'static str,
 }
@@ -51,7 +51,7 @@ impl Report {
     }
 
     /// Returns the median, over all rounds, of the ratio of two contenders. The ratio of their
-    /// medians would be less reliable, since in a slow round all contenders are slow.
+    /// medians would be less reliable, since all contenders are slow in a slow round.
     fn ratio(&self, column: &str, name: &str, other: &str) -> Option<f64> {
         let rounds = self.rounds(name, column)?.iter();
         let ratios = rounds.zip(self.rounds(other, column)?).map(|(a, b)| a / b);

@@ -1,5 +1,5 @@
-//! Counts the intersection tests of a traversal that is ordered and pruned like the reference's. The
-//! reference itself counts nothing, since its files are those that students read.
+//! Counts the intersection tests of a traversal that is ordered and pruned like the reference's.
+//! The reference itself doesn't count anything, since students read its files.
 
 use protocol::{Ray, Trace};
 use reference::bvh::{Bvh, Node};
@@ -11,8 +11,7 @@ pub struct Count {
     pub primitives: u64,
 }
 
-/// Traces rays and returns the numbers of tests. Panics if a hit is not the one that the reference
-/// finds.
+/// Traces rays. Returns the numbers of tests. Panics if a hit differs from the reference's.
 pub fn count_tests(bvh: &Bvh, rays: &[Ray]) -> Count {
     let mut count = Count::default();
     for ray in rays {
@@ -42,7 +41,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Tests the box of a node; returns the distance at which the ray enters it.
+    /// Tests the box of a node. Returns the distance where the ray enters it.
     fn entry(&mut self, node: &Node) -> Option<f32> {
         self.count.boxes += 1;
         Some(node.bbox.hit(&self.ray, self.ray.range)?.min)

@@ -1,7 +1,7 @@
-//! Shows how the work grows with the number of triangles: plots how many boxes and triangles a ray
-//! is tested with, and how many build calls a triangle is part of. The work is counted, not timed,
-//! so the plot is the same on every machine. It is written to `reference/benches/scaling.svg`, or
-//! compared with that file if the argument is `--check`.
+//! Shows how the work grows with the number of triangles: plots the number of boxes and triangles
+//! each ray is tested with and the number of build calls each triangle is part of. The work is
+//! counted rather than timed, so the plot is the same on every machine. It is written to
+//! `reference/benches/scaling.svg`, or compared with that file if the argument is `--check`.
 
 use std::fs;
 use std::path::Path;
@@ -24,7 +24,7 @@ const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";
 const RAYS: usize = 2000;
 /// The maximum number of triangles in a leaf.
 const MAX_LEAF_SIZE: usize = 4;
-/// The numbers of pieces into which an edge of the cube is divided, one for each mesh. With n
+/// The numbers of pieces that an edge of the cube is divided into, one for each mesh. With n
 /// pieces, the mesh has 12 n² triangles. From one mesh to the next, the number of triangles grows
 /// by a factor of about √10.
 const PIECES: [u32; 9] = [3, 5, 9, 16, 29, 51, 91, 162, 289];
@@ -89,8 +89,8 @@ fn measure(pieces: u32) -> Row {
     row
 }
 
-/// The number of triangles below a node, and the sum of this number over the node and all nodes
-/// below it.
+/// The number of triangles below a node, and the sum of this number over the node and all of its
+/// descendants.
 struct SubtreeCounts {
     triangles: usize,
     handled: usize,

@@ -5,7 +5,7 @@ use protocol::{Ray, Shape};
 
 use crate::numbers::SplitMix64;
 
-/// Returns a ball with bumps, made from a cube of 12 · pieces² triangles. It is computed only with
+/// Returns a ball with bumps, made from a cube of 12 · pieces² triangles. It is computed with only
 /// the four basic arithmetic operations and square roots, whose results are the same on every
 /// machine.
 pub fn bumpy_ball(pieces: u32) -> Vec<Shape> {

@@ -1,5 +1,5 @@
 //! Draws the plot. The left panel compares the tests per ray with brute force. The right panel has
-//! a linear vertical axis, so that counts that grow with the logarithm of the number of triangles
+//! a linear vertical axis, so that counts that grow logarithmically with the number of triangles
 //! are straight lines.
 
 use maud::{Markup, html};
@@ -17,7 +17,7 @@ const DECADES: std::ops::RangeInclusive<i32> = 2..=6;
 /// The upper end of the right panel's vertical axis.
 const MAX_COUNT: f64 = 60.0;
 
-/// A curve: its colour, its label, and the function that returns its value for a row.
+/// A curve: its colour, its label and the function that returns its value for a row.
 type Curve<'a> = (&'a str, &'a str, fn(&Row) -> f64);
 
 const BRUTE: Curve = ("#b3261e", "every triangle", |row| row.triangles as f64);
@@ -42,7 +42,7 @@ pub fn plot(rows: &[Row]) -> String {
             @for line in [BOXES, PRIMITIVES, HANDLED] { (curve(LEFT[1], rows, line, linear)) }
         }
     };
-    // One element per line, so that a diff shows what moved.
+    // Write one element per line, so that a diff shows what moved.
     markup.into_string().replace("><", ">\n<") + "\n"
 }
 
@@ -76,7 +76,7 @@ fn frame(left: f64, title: &str, marks: impl Iterator<Item = (f64, String)>) -> 
     }
 }
 
-/// Returns where a triangle count is on the logarithmic x axis, from 0 (left) to 1 (right).
+/// Returns the position of a triangle count on the logarithmic x axis, from 0 (left) to 1 (right).
 fn x_fraction(triangles: f64) -> f64 {
     let (first, last) = (f64::from(*DECADES.start()), f64::from(*DECADES.end()));
     (triangles.log10() - first) / (last - first)
@@ -108,7 +108,7 @@ fn curve(left: f64, rows: &[Row], line: Curve, height: impl Fn(f64) -> f64) -> M
     }
 }
 
-/// Formats a count for people.
+/// Formats a count with a readable unit.
 fn format_count(value: f64) -> String {
     if value < 1000.0 {
         format!("{value:.1}")

@@ -1,5 +1,5 @@
-//! The given code of a variant: everything in the reference's file but the solutions, and the items
-//! that the variant defines itself.
+//! The given code of a variant: everything in the reference's file except the solutions and the
+//! items that the variant defines itself.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use crate::marks::{Line, MarkError, lines_without_solutions};
 /// The indentation of the items in an `impl` block.
 const IN_IMPL: &str = "    ";
 
-/// The reason why there is no given code for a variant.
+/// Why there is no given code for a variant.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GivenCodeError {
     /// The marks in the reference are wrong.
@@ -22,10 +22,10 @@ pub enum GivenCodeError {
     Missing(String),
 }
 
-/// Returns the code that completes a variant: with it, the variant is a solution of the reference's
-/// task file. `reference` is the marked text of that file. An item that the variant defines
-/// replaces the item of the same name, be it a method to write, a given method, or a given struct
-/// to which the variant adds private fields.
+/// Returns the code that completes a variant, so that it can replace the reference's task file.
+/// `reference` is the marked text of that file. An item defined by the variant replaces the item of
+/// the same name: a method to write, a given method, or a given struct that the variant adds
+/// private fields to.
 ///
 /// The given code follows the variant's own, so that the compiler's errors have the line numbers of
 /// the variant's file.
@@ -36,7 +36,7 @@ pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeErr
             Line::Given(line) => Some(line),
             Line::Starter(..) => None,
         })
-        // These comments are allowed only at the top of a file.
+        // These comments are only allowed at the top of a file.
         .filter(|line| !line.starts_with("//!"))
         .collect();
     let variant: Vec<&str> = variant.lines().collect();
@@ -52,7 +52,7 @@ pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeErr
             if defined.contains(&(block, item.name)) {
                 is_given[item.lines].fill(false);
             } else if item.is_function() && item.body.is_some_and(|body| body.is_empty()) {
-                // All of its body is a solution.
+                // Its entire body is a solution.
                 return Err(GivenCodeError::Missing(match block {
                     "" => item.name.to_owned(),
                     block => format!("{block} {{ {} }}", item.name),
@@ -68,7 +68,7 @@ pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeErr
     ))
 }
 
-/// Returns the items of each `impl` block with the block's name, and the other items with "".
+/// Returns the items of each `impl` block with the block's name and the other items with "".
 fn blocks<'a>(lines: &[&'a str]) -> Vec<(&'a str, Vec<Item<'a>>)> {
     let mut blocks = Vec::new();
     let mut others = Vec::new();
@@ -82,7 +82,7 @@ fn blocks<'a>(lines: &[&'a str]) -> Vec<(&'a str, Vec<Item<'a>>)> {
     blocks
 }
 
-/// Joins lines, without the blank lines that removed items have left.
+/// Joins lines, without the blank lines left by removed items.
 fn join<'a>(lines: impl Iterator<Item = &'a str>) -> String {
     let mut text = String::new();
     for line in lines {

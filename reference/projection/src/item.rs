@@ -8,9 +8,9 @@ use std::ops::Range;
 pub(crate) struct Item<'a> {
     /// The kind and the name, such as `struct Camera`, `fn hit` or `impl Camera`.
     pub name: &'a str,
-    /// The indices of its lines, among them the blank lines, comments and attributes above it.
+    /// The indices of its lines, including the blank lines, comments and attributes above it.
     pub lines: Range<usize>,
-    /// The indices of the lines between its braces. `None` if it has no braces, or if everything is
+    /// The indices of the lines between its braces. `None` if it has no braces or if everything is
     /// on one line.
     pub body: Option<Range<usize>>,
 }
@@ -29,7 +29,7 @@ impl Item<'_> {
 
 /// Returns the items with this indentation in some of the lines of a file.
 ///
-/// An item begins after the end of the previous one, and ends with the first line of this
+/// An item begins after the end of the previous one. It ends with the first line of this
 /// indentation that ends with a brace or a semicolon.
 pub(crate) fn items<'a>(
     lines: &[&'a str],

@@ -1,10 +1,10 @@
-//! Projects a task file of the reference, in which solutions are marked, to one of two things:
+//! Projects a task file of the reference, where solutions are marked, to one of two things:
 //!
 //! - [`starter`]: the file that students get, with stubs instead of the solutions
 //! - [`Replacement::given_code`]: the given code that a variant, another solution, needs to be a
 //!   complete file
 //!
-//! This is a package of its own because both `author` and the build script of `variants` use it.
+//! This is a separate package because both `author` and the build script of `variants` use it.
 
 mod given_code;
 mod item;

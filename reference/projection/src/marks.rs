@@ -31,14 +31,14 @@ pub enum MarkProblem {
     /// A region is never ended.
     #[error("this `// solution` has no `// end solution`")]
     NotEnded,
-    /// A region has no line for the starter.
+    /// A region contains no line for the starter.
     #[error(
         "this `// solution` has no `// starter:` line: add one with the code that students get"
     )]
     NoStarterLine,
 }
 
-/// A line that is not part of a solution.
+/// A line that isn't part of a solution.
 pub(crate) enum Line<'a> {
     /// A line of given code.
     Given(&'a str),
@@ -67,11 +67,11 @@ fn classify(line: &str) -> LineKind<'_> {
     }
 }
 
-/// Returns the lines of a marked file that are not part of a solution.
+/// Returns the lines of a marked file that aren't part of a solution.
 pub(crate) fn lines_without_solutions(source: &str) -> Result<Vec<Line<'_>>, MarkError> {
     let error = |line, problem| Err(MarkError { line, problem });
     let mut lines = Vec::new();
-    // The first line of the open region, and whether it has a line for the starter.
+    // The first line of the open region, and whether it contains a line for the starter.
     let mut open: Option<(usize, bool)> = None;
     for (number, line) in (1..).zip(source.lines()) {
         match (classify(line), &mut open) {

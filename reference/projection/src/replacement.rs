@@ -1,6 +1,7 @@
-//! The files that a variant consists of. Its own files, the *parts*, are `STEM/…/NAME.rs` in the
-//! folder of the variants. Helpers that several variants use are in `STEM/shared/NAME.rs`: such a file
-//! belongs to each variant whose code has the word `NAME`, and no function of its own with that name.
+//! The files that make up a variant. Its own files, the *parts*, are `STEM/…/NAME.rs` in the folder
+//! of variants. Helpers used by several variants are in `STEM/shared/NAME.rs`. Such a file belongs
+//! to each variant whose code contains the word `NAME` but doesn't define a function with that
+//! name.
 
 use std::fs;
 use std::io;
@@ -13,8 +14,8 @@ use crate::given_code::{GivenCodeError, given_code};
 pub struct Replacement {
     /// The stem of the task file, such as `bvh`.
     pub stem: String,
-    /// The variant's parts, then the shared files, each with its path, relative to the folder of the
-    /// variants, and its text.
+    /// The variant's parts, then the shared files, each with its path (relative to the folder of
+    /// variants) and its text.
     pub files: Vec<(PathBuf, String)>,
 }
 
@@ -24,7 +25,7 @@ pub struct Replacement {
 pub struct ReadError {
     /// The path of the file or folder.
     pub path: PathBuf,
-    /// The reason.
+    /// The system's error.
     pub source: io::Error,
 }
 
@@ -73,7 +74,7 @@ impl Replacement {
         texts.collect()
     }
 
-    /// Adds the shared files that the code uses, also those that only shared files use.
+    /// Adds the shared files used by the code, including those only used by shared files.
     fn add_shared_files(&mut self, folder: &Path) -> Result<(), ReadError> {
         let mut unused = names(folder, &Path::new(&self.stem).join("shared"));
         let is_used = |code: &str, path: &Path| {
@@ -90,14 +91,15 @@ impl Replacement {
     }
 }
 
-/// Returns whether code has a word, such as the name of a function, and no function with that name.
+/// Returns whether code contains a word, such as the name of a function, without defining a
+/// function with that name.
 fn uses(code: &str, name: &str) -> bool {
     let words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
     let words: Vec<&str> = words.collect();
     words.contains(&name) && !words.windows(2).any(|pair| pair == ["fn", name])
 }
 
-/// Returns the paths of the files in a subfolder, sorted, or none if there is no such folder.
+/// Returns the paths of the files in a subfolder, sorted. Empty if there is no such folder.
 fn names(folder: &Path, subfolder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder.join(subfolder)).into_iter().flatten();
     let names = entries.flatten().map(|entry| entry.file_name());

@@ -1,5 +1,5 @@
-//! The crate in which a submission's `bvh.rs` is compiled when it is graded with the reference's
-//! parts. The reference's other files replace those of the submission.
+//! The crate around a submission's `bvh.rs` when it is graded with the reference's parts. The
+//! reference's other files replace the submission's.
 
 pub use parts::*;
 

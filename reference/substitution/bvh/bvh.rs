@@ -1,5 +1,5 @@
-//! The submission's `Bvh` with another builder, so that `Bvh::hit` is graded on correct trees. The
-//! submission's `Bvh::build` is graded in another task.
+//! The submission's `Bvh` with a different builder, so that `Bvh::hit` is graded on correct trees.
+//! The submission's `Bvh::build` is graded in another task.
 
 use std::ops::Deref;
 
@@ -8,7 +8,7 @@ use parts::primitive::Primitive;
 
 pub use submission::bvh::Node;
 
-/// The submission's `Bvh`, with a tree built by splitting at the median.
+/// The submission's `Bvh` with a tree built by splitting at the median.
 pub struct Bvh(submission::bvh::Bvh);
 
 impl Bvh {
@@ -33,8 +33,8 @@ impl Deref for Bvh {
     }
 }
 
-/// Builds the subtree over these primitives, the first of which has the index `start`. Returns the
-/// index of its root.
+/// Builds the subtree over these primitives. The first one is at index `start`. Returns the index
+/// of its root.
 fn split_at_median(
     primitives: &mut [Primitive],
     start: usize,

@@ -1,4 +1,4 @@
-//! The probe for a submission's `bvh.rs` that is graded with the reference's parts. Apart from the
+//! The probe for a submission's `bvh.rs` that is graded with the reference's parts. Except for the
 //! substituted parts, it answers the grader like the usual probe.
 
 use parts::*;

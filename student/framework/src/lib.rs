@@ -10,7 +10,7 @@
 //! hits; [`light`](render::light), which chooses points on light sources; and
 //! [`film`](render::film), which turns light into the colours of a screen.
 //!
-//! Modules use only those in lower rows:
+//! Modules only use modules in lower rows:
 //!
 //! | layer | modules |
 //! |---|---|

@@ -1,6 +1,6 @@
 //! Suggestions for misspelt names.
 
-/// The minimum similarity of a suggested name: 1 is equal, 0 has nothing in common.
+/// The minimum similarity of a suggested name: 1 means equal, 0 means nothing in common.
 const MIN_SIMILARITY: f64 = 0.6;
 
 /// Returns a question to append to a message about an unknown name, such as ` (did you mean red?)`,
@@ -19,7 +19,7 @@ pub(crate) fn suggestion(name: &str, known: &[impl AsRef<str>]) -> String {
     }
 }
 
-/// Returns the share of letters that are not edited. The beginning of a name is as good as the name.
+/// Returns the share of letters that are unchanged. A prefix of a name is as good as the full name.
 fn similarity(name: &str, known: &str) -> f64 {
     if !name.is_empty() && known.starts_with(name) {
         return 1.0;

@@ -1,4 +1,4 @@
-//! Helpers of tests: a scene, a temporary folder and a minimal submission.
+//! Test helpers: a scene, a temporary folder and a minimal submission.
 
 use std::fs;
 use std::path::PathBuf;
@@ -51,7 +51,7 @@ impl Drop for Folder {
     }
 }
 
-/// A submission that intersects rays with spheres only.
+/// A submission that only supports spheres.
 pub(crate) struct SphereSubmission {
     /// Returns the ray through a position on the film, from −1 to 1 in each direction.
     pub(crate) ray: fn(Vec2) -> Ray,

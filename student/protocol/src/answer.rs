@@ -20,7 +20,7 @@ pub enum Answer {
     /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray spends
     /// inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
-    /// The answer to `Reflect`: a direction for each direction.
+    /// The answer to `Reflect`: a reflected direction for each direction.
     Directions(Vec<ElementOutcome<LocalDirection>>),
     /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),
@@ -95,7 +95,7 @@ pub enum ElementOutcome<T> {
 }
 
 impl<T> ElementOutcome<T> {
-    /// Returns the value, or `None` if there is none.
+    /// Returns the value, if any.
     pub fn value(&self) -> Option<&T> {
         match self {
             ElementOutcome::Value(value) => Some(value),
@@ -103,7 +103,7 @@ impl<T> ElementOutcome<T> {
         }
     }
 
-    /// Returns the outcome with another value.
+    /// Returns the outcome with its value replaced.
     pub fn map<'a, U>(&'a self, change: impl FnOnce(&'a T) -> U) -> ElementOutcome<U> {
         match self {
             ElementOutcome::Value(value) => ElementOutcome::Value(change(value)),
@@ -136,7 +136,7 @@ impl Panic {
     pub const MAX_PER_QUESTION: usize = 3;
 
     /// Returns whether the panic came from `todo!` or `unimplemented!`, which means that the task
-    /// is not written yet.
+    /// isn't written yet.
     pub fn is_unimplemented(&self) -> bool {
         self.message.starts_with("not yet implemented")
             || self.message.starts_with("not implemented")

@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub struct Interval {
     /// The smallest number in the interval.
     pub min: f32,
-    /// The largest number in the interval; may be `f32::INFINITY`.
+    /// The largest number in the interval. May be `f32::INFINITY`.
     pub max: f32,
 }
 
@@ -30,8 +30,8 @@ impl Interval {
 
     /// Returns whether the interval contains no number. An interval with a NaN end is empty.
     pub fn is_empty(&self) -> bool {
-        // `min > max` is not enough: it is false for NaN, so an interval with a NaN end would not
-        // count as empty.
+        // `min > max` isn't enough: it is false for NaN, so an interval with a NaN end wouldn't be
+        // empty.
         !matches!(
             self.min.partial_cmp(&self.max),
             Some(std::cmp::Ordering::Less | std::cmp::Ordering::Equal)

@@ -1,8 +1,9 @@
 //! Types shared by the grader, which asks questions, and the probe, the process that runs a
 //! submission and answers them.
 //!
-//! This crate holds plain data and the traits of a submission, and no intersection code. The grader
-//! sends a [`Question`] and receives an [`Answer`]; the module [`wire`] defines how they are encoded.
+//! This crate contains plain data and the traits of a submission, but no intersection code. The
+//! grader sends a [`Question`] and receives an [`Answer`]. The module [`wire`] defines how they are
+//! encoded.
 
 pub mod answer;
 pub mod function;

@@ -1,7 +1,7 @@
 //! Compact serialisation of long lists in text formats such as JSON.
 //!
 //! `#[serde(with = "packed")]` writes a list of more than [`MAX_PLAIN_LEN`] elements as one string:
-//! the base64 form of its binary encoding. Shorter lists stay readable, and binary formats are not
+//! the base64 form of its binary encoding. Shorter lists stay readable, and binary formats aren't
 //! affected.
 
 use std::fmt;
@@ -25,7 +25,7 @@ pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::O
     out.serialize_str(&STANDARD_NO_PAD.encode(bytes))
 }
 
-/// Deserialises a list from either form, whatever its length.
+/// Deserialises a list of any length from either form.
 pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {

@@ -11,7 +11,7 @@ impl Question {
         Question::Hit(Table::of_list(subject, rays))
     }
 
-    /// Returns the question that asks when rays are in the box between these corners.
+    /// Returns the question that asks when rays are inside the box between these corners.
     pub fn boxes(corners: Corners, queries: Vec<Query>) -> Self {
         Question::BBoxHit(Table::of_list(corners, queries))
     }
@@ -30,7 +30,7 @@ impl Question {
     }
 
     /// Returns the maximum number of nodes in a tree over this many primitives. A binary tree with
-    /// one primitive per leaf has `2n - 1`; the limit is higher to allow for unused nodes.
+    /// one primitive per leaf has `2n - 1`. The limit is higher to allow for unused nodes.
     pub fn max_nodes(primitives: usize) -> usize {
         primitives.saturating_mul(4).saturating_add(64)
     }

@@ -10,14 +10,14 @@ pub struct Ray {
     pub origin: Vec3,
     /// The direction, of length one, so that `t` is a distance.
     pub dir: Vec3,
-    /// The distances from `origin` at which hits count; both ends are included, and neither is
-    /// negative.
+    /// The distances from `origin` where the ray can hit something. Both ends are included, and
+    /// neither is negative.
     pub range: Interval,
 }
 
 impl Ray {
     /// Creates the ray from `origin` in the direction `dir`, with range `[0, ∞)`. `dir` may have
-    /// any length except zero; it is normalised.
+    /// any length except zero and is normalised.
     pub fn new(origin: Vec3, dir: Vec3) -> Self {
         Ray {
             origin,

@@ -14,7 +14,7 @@ pub enum Shape {
         /// The number to report as `shape` in the `Trace`.
         shape: u32,
     },
-    /// A triangle given by its corners alone; see [`Shape::flat_triangle_vertices`].
+    /// A triangle given only by its corners. See [`Shape::flat_triangle_vertices`].
     FlatTriangle {
         /// The corners p0, p1, p2.
         corners: [Vec3; 3],
@@ -46,8 +46,8 @@ impl Shape {
         ]
     }
 
-    /// Returns the number to report as `shape` in the `Trace`. In questions about trees, each primitive has
-    /// a different one.
+    /// Returns the number to report as `shape` in the `Trace`. In questions about trees, each
+    /// primitive has a different number.
     pub fn number(&self) -> u32 {
         match *self {
             Shape::Triangle { shape, .. }

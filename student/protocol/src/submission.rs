@@ -1,9 +1,10 @@
 //! The parts of a submission that are created once and called many times.
 //!
 //! These traits and [`Submission`](crate::Submission) are used through `dyn` and are as small as
-//! possible, because their implementations are compiled together with every submission. The names of
-//! the methods differ from the names that students write. Otherwise, if a student's method were
-//! missing, the compiler could resolve the call to the trait's method instead of reporting an error.
+//! possible, because their implementations are compiled together with every submission. The
+//! methods' names differ from those of the students' methods. Otherwise, if a student's method was
+//! missing, the compiler could resolve the call to the trait's method instead of reporting an
+//! error.
 
 use glam::{UVec2, Vec2};
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Trace {
     /// The distance from the ray's origin to the hit, along the ray.
     pub distance: f32,
-    /// The point that was hit.
+    /// The point of the hit.
     pub position: Vec3,
     /// The surface normal at that point.
     pub normal: Vec3,
@@ -21,7 +21,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// Returns the nearer of two hits. A miss counts as farther away than any hit.
+    /// Returns the nearer of two hits. A miss is farther away than any hit.
     pub fn nearer(a: Option<Trace>, b: Option<Trace>) -> Option<Trace> {
         match (a, b) {
             (Some(a), Some(b)) => Some(if b.distance < a.distance { b } else { a }),

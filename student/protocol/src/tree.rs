@@ -8,9 +8,9 @@ pub struct TreeNode {
     pub min: Vec3,
     /// The corner of the node's box with the largest coordinates.
     pub max: Vec3,
-    /// In a leaf, the index of its first primitive; ignored in interior nodes.
+    /// In a leaf, the index of its first primitive. Ignored in interior nodes.
     pub start: u32,
-    /// In a leaf, the number of its primitives; ignored in interior nodes.
+    /// In a leaf, the number of its primitives. Ignored in interior nodes.
     pub size: u32,
     /// In an interior node, the index of one child.
     pub l: u32,
@@ -31,7 +31,7 @@ impl TreeNode {
         }
     }
 
-    /// Converts an index to `u32`. An index that does not fit becomes `u32::MAX`, so that it stays
+    /// Converts an index to `u32`. An index that doesn't fit becomes `u32::MAX`, so that it stays
     /// out of range instead of wrapping around to a valid index.
     pub fn saturating_index(index: usize) -> u32 {
         u32::try_from(index).unwrap_or(u32::MAX)
@@ -43,8 +43,8 @@ impl TreeNode {
     }
 }
 
-/// A bounding volume hierarchy as data. The primitives that the leaves index are listed separately:
-/// as shapes in a question, and by their numbers (`order`) in an answer.
+/// A bounding volume hierarchy as data. The primitives are listed separately: as shapes in a
+/// question, and by their numbers (`order`) in an answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tree {
     /// The nodes, in any order.

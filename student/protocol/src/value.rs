@@ -1,5 +1,5 @@
-//! Fields: the named parts of a function's subject, inputs and outputs. The type of a field decides
-//! how it is compared, moved and printed, whichever function it belongs to.
+//! Fields: the named parts of a function's subject, inputs and outputs. A field's type determines
+//! how it is compared, moved and printed, in all functions.
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -27,7 +27,7 @@ pub enum Value<'a> {
     Range(Interval),
     /// The number of a shape or a node.
     Index(u32),
-    /// A number of things.
+    /// A count.
     Count(u32),
     /// An angle in degrees.
     Angle(f32),
@@ -35,7 +35,7 @@ pub enum Value<'a> {
     Ratio(f32),
     /// The number of pixels, across and up.
     Film(UVec2),
-    /// A pixel; (0, 0) is at the bottom left.
+    /// A pixel. (0, 0) is at the bottom left.
     Pixel(UVec2),
     /// A position in a pixel, each component in `[0, 1)`.
     Offset(Vec2),
@@ -54,14 +54,14 @@ pub trait Record: Debug {
     ///
     /// # Panics
     ///
-    /// If there is no such field.
+    /// If `index` is out of range.
     fn value(&self, index: usize) -> Value<'_>;
 
-    /// Changes the value of the field at `index`. A value of another type is ignored.
+    /// Changes the value of the field at `index`. A value of a different type is ignored.
     ///
     /// # Panics
     ///
-    /// If there is no such field.
+    /// If `index` is out of range.
     fn set(&mut self, index: usize, value: Value<'_>);
 }
 
@@ -80,7 +80,7 @@ impl dyn Record + '_ {
     }
 }
 
-/// The subject of a function that is called on nothing.
+/// The subject of a function without a subject.
 impl Record for () {
     fn names(&self) -> &'static [&'static str] {
         &[]
@@ -93,13 +93,13 @@ impl Record for () {
     fn set(&mut self, _: usize, _: Value<'_>) {}
 }
 
-/// A record whose fields do not depend on its value.
+/// A record whose fields don't depend on its value.
 pub trait Fields: Record {
     /// The names of the fields, in order.
     const NAMES: &'static [&'static str];
 }
 
-/// Declares the fields of a struct, each with its name, its type, and where it is in the struct.
+/// Declares the fields of a struct, each with its name, type and location in the struct.
 macro_rules! fields {
     ($record:ty { $($name:literal: $type:ident = $($part:ident).+,)+ }) => {
         impl $crate::value::Fields for $record {

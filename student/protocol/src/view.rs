@@ -3,13 +3,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::ray::Ray;
 
-/// The parameters from which a submission's `Camera` is created.
+/// The parameters for creating a submission's `Camera`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PinholeCamera {
     /// The full vertical field of view, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height; independent of `film`.
+    /// The width of the sensor divided by its height. Independent of `film`.
     pub aspect_ratio: f32,
     /// The number of pixels, across and up.
     pub film: UVec2,
@@ -18,7 +18,7 @@ pub struct PinholeCamera {
 /// A position on the film: a pixel, and the position within it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
-    /// The pixel; (0, 0) is at the bottom left.
+    /// The pixel. (0, 0) is at the bottom left.
     pub pixel: UVec2,
     /// The position in the pixel, each component in `[0, 1)`.
     pub offset: Vec2,
@@ -36,7 +36,7 @@ impl Sample {
     }
 }
 
-/// The five positions in every pixel at which deterministic pictures are compared.
+/// The five positions in every pixel where deterministic pictures are compared.
 pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.5, 0.5),
     vec2(0.375, 0.125),
@@ -52,7 +52,7 @@ pub fn every_pixel(film: UVec2) -> impl Iterator<Item = Sample> {
         .flat_map(|pixel| PIXEL_OFFSETS.map(|offset| Sample { pixel, offset }))
 }
 
-/// A pinhole camera defined by the exam, so that a picture of shapes does not depend on the
+/// A pinhole camera defined by the exam, so that a picture of shapes doesn't depend on the
 /// submission's camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

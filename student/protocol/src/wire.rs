@@ -5,9 +5,9 @@
 //! ```
 //!
 //! An answer repeats the nonce of its question. A frame without a body marks the end of the
-//! questions. It is sent back unchanged, so that answers that belong to no question are detected. The
-//! reader specifies the maximum length of a body. The length in the header is checked against this
-//! maximum *before* anything is allocated. Decoding fails if there are bytes after the value.
+//! questions. It is sent back unchanged, so that extra answers are detected. The reader specifies
+//! the maximum length of a body. The length in the header is checked against this maximum *before*
+//! anything is allocated. Decoding fails if there are bytes after the value.
 
 use std::io::{self, Read, Write};
 
@@ -33,10 +33,10 @@ pub enum WireError {
         /// The maximum length, in bytes.
         limit: usize,
     },
-    /// The body does not encode a value of the expected type.
+    /// The body doesn't encode a value of the expected type.
     #[error("a frame cannot be decoded: {0}")]
     Malformed(postcard::Error),
-    /// The body has bytes after the end of the value.
+    /// The body contains bytes after the end of the value.
     #[error("unexpected bytes after the value in a frame: {0}")]
     TrailingBytes(usize),
 }
@@ -51,10 +51,10 @@ impl From<io::Error> for WireError {
     }
 }
 
-/// A frame that has been received, but not decoded yet.
+/// A frame that has been received but not yet decoded.
 #[derive(Debug)]
 pub struct Frame {
-    /// A number chosen by the sender of the question; the answer repeats it.
+    /// A number chosen by the sender of the question. The answer repeats it.
     pub nonce: u64,
     /// The encoded value.
     pub body: Vec<u8>,
@@ -66,8 +66,8 @@ impl Frame {
         self.body.is_empty()
     }
 
-    /// Decodes the answer in the frame. This method is not generic, so it is compiled as part of
-    /// this crate, with this crate's optimisation level, whichever crate calls it.
+    /// Decodes the answer in the frame. This method isn't generic, so it is always compiled as part
+    /// of this crate, with this crate's optimisation level.
     pub fn answer(&self) -> Result<Answer, WireError> {
         self.decode()
     }
@@ -108,7 +108,7 @@ pub fn append<T: Serialize>(
     Ok(bytes)
 }
 
-/// Encodes a question as a frame and appends it to `bytes`. This function is not generic, for the
+/// Encodes a question as a frame and appends it to `bytes`. This function isn't generic, for the
 /// same reason as [`Frame::answer`].
 pub fn append_question(
     bytes: Vec<u8>,

@@ -106,7 +106,7 @@ fn answer() -> impl Strategy<Value = Answer> {
     ]
 }
 
-/// Encodes a value. The tests compare bytes instead of values, because NaN is not equal to itself.
+/// Encodes a value. The tests compare bytes rather than values, because NaN isn't equal to itself.
 fn bytes<T: serde::Serialize>(value: &T) -> Vec<u8> {
     wire::encode(0, value).expect("every value can be encoded")
 }
@@ -157,7 +157,7 @@ proptest! {
     }
 }
 
-/// A stream that delivers its bytes in pieces, and is interrupted between them.
+/// A stream that delivers its bytes in pieces and is interrupted between them.
 struct Pieces<'a> {
     bytes: &'a [u8],
     sizes: std::iter::Cycle<std::slice::Iter<'a, usize>>,

@@ -1,7 +1,8 @@
-//! The parts that the benchmarks of the grader and of a class share. `grader/benches/README.md`
+//! The parts shared by the benchmarks of the grader and of a class. `grader/benches/README.md`
 //! explains what they measure.
 //!
-//! On Unix only, like the benchmarks: elsewhere there is no CPU time of child processes.
+//! Unix only, like the benchmarks, because other systems don't report the CPU time of child
+//! processes.
 
 #![cfg(unix)]
 
@@ -154,7 +155,8 @@ pub fn copy(root: &Path, folder: &Path) {
     }
 }
 
-/// Changes a constant in two hot functions of the submission, so that nothing can be reused.
+/// Changes a constant in two hot functions of the submission, so that cached results can't be
+/// reused.
 pub fn change(root: &Path, folder: &Path, round: usize) {
     for (file, text_to_change) in [
         ("sphere.rs", "discriminant < 0.0"),
@@ -174,7 +176,8 @@ pub fn change(root: &Path, folder: &Path, round: usize) {
     }
 }
 
-/// Returns the median, which is not affected by a few slow runs. For an even number of values, this is the larger of the two in the middle.
+/// Returns the median, which isn't affected by a few slow runs. For an even number of values,
+/// returns the larger of the two in the middle.
 pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
@@ -182,12 +185,12 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Returns whether the command line asks for the short form: with `--check`, a benchmark measures
-/// everything once, and so checks that it still works.
+/// everything once to check that it still works.
 pub fn is_short() -> bool {
     std::env::args().any(|argument| argument == "--check")
 }
 
-/// Returns `full`, or in the short form 1.
+/// Returns `full`, or 1 in the short form.
 pub fn repetitions(full: usize) -> usize {
     if is_short() { 1 } else { full }
 }

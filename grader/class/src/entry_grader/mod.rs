@@ -1,4 +1,4 @@
-//! Grades one entry. A failure affects this entry only.
+//! Grades one entry. A failure only affects this entry.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -29,17 +29,17 @@ const MAX_FAULT_CHARS: usize = 2_000;
 
 /// Grades entries and stores their results.
 pub struct EntryGrader<'a> {
-    /// The grader, which grades every entry with the same exam.
+    /// The grader, which uses the same exam for every entry.
     pub grader: &'a dyn SubmissionGrader,
     /// The output folder.
     pub store: &'a Store,
-    /// The run, with the settings that scores depend on.
+    /// The run, which contains the settings that scores depend on.
     pub run: &'a Run,
 }
 
 impl EntryGrader<'_> {
-    /// Grades entries, this many at a time, and shows the progress. Returns the result of each, and the
-    /// time that it took.
+    /// Grades entries, this many at a time, and shows the progress. Returns each entry's result and
+    /// the time it took.
     pub fn grade_all(
         &self,
         entries: &[Entry],
@@ -57,7 +57,7 @@ impl EntryGrader<'_> {
         results.into_iter().collect()
     }
 
-    /// Grades the first entries without a result, two per slot, and measures each.
+    /// Grades the first entries without a result, two per slot, and measures the time for each.
     pub fn estimate(&self, entries: Vec<Entry>, slots: usize) -> Result<Estimate, Error> {
         let is_open = |entry: &Entry| !self.is_done(entry);
         let mut sample: Vec<Entry> = entries.into_iter().filter(is_open).collect();
@@ -70,7 +70,7 @@ impl EntryGrader<'_> {
         })
     }
 
-    /// Returns whether an entry needs no grading: it has a valid result, or nothing to grade.
+    /// Returns whether an entry needs no gradingbecause it has a valid result or nothing to grade.
     fn is_done(&self, entry: &Entry) -> bool {
         match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {
@@ -86,8 +86,8 @@ impl EntryGrader<'_> {
         cache_key(self.run, self.grader.policy(), submission)
     }
 
-    /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one. Also
-    /// returns whether it is new.
+    /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one.
+    /// Also returns whether the result is new.
     fn grade(
         &self,
         entry: &Entry,
@@ -121,10 +121,10 @@ impl EntryGrader<'_> {
             info: entry.info.clone(),
             outcome,
         };
-        // Only a score can be valid in the next run.
+        // Only scores can stay valid in the next run.
         let key = result.score().map_or("", |_| &key);
-        // A stored result is saved again, because the rosters may contain new information about the
-        // people.
+        // Save even a stored result again, because the rosters may contain new information about
+        // the people.
         self.store.save_result(&result, key, self.run.round)?;
         Ok((result, is_new))
     }
@@ -140,7 +140,7 @@ impl EntryGrader<'_> {
         self.store.remove_stamp(&entry.id)?;
         let mut why = String::new();
         for _ in 0..ATTEMPTS {
-            // A bug in the grader that one submission triggers must not affect the others.
+            // A grader bug triggered by one submission must not affect the others.
             let graded = catch_unwind(AssertUnwindSafe(|| {
                 self.grade_once(entry, submission, show_status)
             }));
@@ -153,7 +153,7 @@ impl EntryGrader<'_> {
         Ok(fault(&why))
     }
 
-    /// Grades an entry once. Its score and its pages are written when all items are graded.
+    /// Grades an entry once. Its score and its pages are written once all items are graded.
     fn grade_once(
         &self,
         entry: &Entry,
@@ -173,8 +173,8 @@ fn fault(why: &str) -> EntryOutcome {
 }
 
 /// Returns the cache key: a hash of everything that the output files of an entry depend on. The
-/// only part of the policy that it covers is what students may see, since no other rule affects
-/// these files.
+/// only policy setting it includes is what students may see, since no other rule affects these
+/// files.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hash = ContentHash::default();
     let mut part = |bytes: &[u8]| hash.add(bytes);

@@ -1,4 +1,4 @@
-//! Tests of what is graded, what is taken from earlier runs, and what becomes of faults.
+//! Tests for grading entries, reusing earlier results and handling faults.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -21,9 +21,9 @@ use crate::store::tests::run;
 #[derive(Default)]
 struct FailingGrader {
     policy: Policy,
-    /// How often it was asked.
+    /// The number of times it was called.
     asked: AtomicUsize,
-    /// The store that it searches for a result of entry `a` while grading.
+    /// The store to check for a result of entry `a` while grading.
     watched: Option<Store>,
     has_seen_result: AtomicBool,
 }
@@ -81,7 +81,7 @@ impl Folder {
         }
     }
 
-    /// Calls a function with what grades the folder's entries.
+    /// Calls a function with a grader for the folder's entries.
     fn with<T>(&self, call: impl FnOnce(&EntryGrader) -> T) -> T {
         call(&EntryGrader {
             grader: &self.grader,
@@ -125,8 +125,8 @@ fn a_submission_that_cannot_be_graded_is_tried_again_and_then_a_fault() {
     assert!(!folder.is_done(&entry));
 }
 
-/// Otherwise a run that is killed between two files of an entry would leave an old stamp beside a new
-/// score, which would count if the submission became the old one again.
+/// Otherwise, a run that is killed while writing an entry's files could leave an old stamp next to
+/// a new score. That score would be used if the submission was changed back to the old version.
 #[test]
 fn an_entry_has_no_result_while_it_is_graded_again() {
     let folder = Folder::new();
@@ -157,7 +157,7 @@ fn every_input_of_a_score_changes_its_key() {
     ] {
         assert_ne!(other, usual);
     }
-    // Other rules are applied to finished scores.
+    // Other rules are only applied to finished scores.
     assert_eq!(key(&run, &policy_of("[points]\nout_of = 50")), usual);
     let changes: [fn(&mut Submission); 5] = [
         |changed| changed.name.push('x'),

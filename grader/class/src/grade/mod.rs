@@ -1,4 +1,4 @@
-//! Grades a class: reads a learning platform's export, and writes the files with the scores.
+//! Grades a class: reads a learning platform's export and writes the score files.
 
 use std::num::NonZero;
 use std::path::Path;
@@ -42,12 +42,12 @@ pub fn grade_class(
     grade_class_with(arguments, options, prepare)
 }
 
-/// A function that returns the grader with these options.
+/// A function that returns a grader with these options.
 pub type PrepareGrader<'p> =
     dyn for<'a> Fn(&'a GradeOptions) -> Result<Box<dyn SubmissionGrader + 'a>, Error> + 'p;
 
-/// Like [`grade_class`], with the grader that `prepare` returns. It is called when the input and the
-/// lists have been read.
+/// Like [`grade_class`], with the grader returned by `prepare`, which is called after the input and
+/// the lists have been read.
 pub fn grade_class_with(
     arguments: &ClassArguments,
     options: &GradeOptions,
@@ -148,8 +148,8 @@ pub fn grade_class_with(
     class.finish(results, removed)
 }
 
-/// Returns the lists given on the command line. If no roster is given, the one that classroom50
-/// writes beside its clones is used.
+/// Returns the lists given on the command line. If no roster is given, uses the one that
+/// classroom50 writes next to its clones.
 fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
     let mut lists = lists.clone();
     if lists.roster.is_none() && input.class.layout == Layout::GitHub {
@@ -159,8 +159,8 @@ fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
     lists
 }
 
-/// Returns the run to resume or to start. Scores that depend on other settings are never mixed with
-/// the existing ones, and existing scores are replaced only with `--regrade`.
+/// Returns the run to resume or to start. Scores from different settings are never mixed, and
+/// existing scores are only replaced with `--regrade`.
 fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<Run, Error> {
     match (store.read_run()?, regrade) {
         (None, true) => {
@@ -170,8 +170,8 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             )))
         }
         (None, false) => Ok(Run::first_round(settings)),
-        // A stopped regrade is resumed, with or without `--regrade`. But a round that was finished once
-        // is regraded, even if a later run of it, or an estimate, has not come to its end.
+        // A stopped regrade is resumed, with or without `--regrade`. A round that was finished
+        // once, however, is regraded, even if a later run or estimate in that round was stopped.
         (Some(run), _) if run.settings == settings && (!regrade || !run.was_finished()) => {
             Ok(run.resume())
         }
@@ -185,9 +185,9 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
     }
 }
 
-/// Saves the scores from before a regrade, unless that has been done. The round has already started in
-/// `run.json`, so that a run killed here cannot be resumed as the last round, whose comparison with the
-/// one before it would be lost.
+/// Saves the scores from before a regrade if this hasn't been done. `run.json` already contains the
+/// new round at this point. Otherwise, a run killed here could be resumed as the previous round,
+/// and that round's comparison with the one before it would be lost.
 fn save_previous_scores(store: &Store, mut run: Run) -> Result<Run, Error> {
     if run.state != RoundState::SavesPrevious {
         return Ok(run);
@@ -198,7 +198,7 @@ fn save_previous_scores(store: &Store, mut run: Run) -> Result<Run, Error> {
     Ok(run)
 }
 
-/// Rejects an output folder in the input, and one with the results of another part.
+/// Rejects an output folder that is in the input or contains the results of another shard.
 fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Error> {
     let out = store.folder();
     if input.is_dir() && contains(input, out) {

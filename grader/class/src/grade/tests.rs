@@ -1,5 +1,5 @@
-//! Tests of rounds and of the folders, lists and numbers that a class is graded with. Whole runs are
-//! in `tests/histories`.
+//! Tests for rounds, and for the folders, lists and numbers that a class is graded with. Complete
+//! runs are tested in `tests/histories`.
 
 use std::fs;
 
@@ -24,7 +24,7 @@ fn a_run_is_resumed_and_a_finished_one_regraded_in_a_new_round() {
     // A stopped regrade is resumed.
     assert_eq!(next(Started, true), (1, Started));
     assert_eq!(next(Finished, true), (2, SavesPrevious));
-    // Its second run was stopped, or was an estimate.
+    // The round's second run was stopped or was an estimate.
     assert_eq!(next(Resumed, false), (1, Resumed));
     assert_eq!(next(Resumed, true), (2, SavesPrevious));
 }

@@ -1,6 +1,7 @@
 //! Canvas's gradebook. Canvas's importer accepts any content, creates an assignment for each
-//! unknown title, and silently ignores some columns. So the teacher's own export is the template,
-//! and only the assignment's column and those that identify people are written back.
+//! unknown title, and silently ignores some columns. So the teacher's own export serves as the
+//! template, and only the assignment's column and the columns that identify people are written
+//! back.
 
 use std::path::Path;
 
@@ -14,7 +15,7 @@ use crate::table::{Table, missing_column};
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
 /// The last column that identifies people.
 const SECTION: &str = "Section";
-/// Texts that mark ignored columns: Canvas silently ignores each column whose title contains one of
+/// Texts that mark ignored columns. Canvas silently ignores any column whose title contains one of
 /// them.
 const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
@@ -70,7 +71,7 @@ pub fn fill_canvas(
 }
 
 /// Returns the index of the column with this title or number. If `column` is `None`, returns the
-/// index of the only column that belongs to an assignment.
+/// index of the only assignment's column.
 fn find_target(
     table: &Table,
     section: usize,

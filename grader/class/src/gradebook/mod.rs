@@ -1,8 +1,9 @@
-//! Fills in one column of a copy of a gradebook that was exported from a platform.
+//! Fills in one column in a copy of a gradebook exported from a platform.
 //!
-//! A person who cannot be matched for certain is reported, and the row is left unchanged: a wrong
-//! grade in a gradebook is found weeks later, if ever. All other cells are copied as the platform
-//! wrote them, whatever characters a name has, since the platform matches its rows by them.
+//! If a person cannot be matched with certainty, this is reported and the row stays unchanged,
+//! because a wrong grade in a gradebook is only found weeks later, if ever. All other cells are
+//! copied exactly as the platform wrote them, including any unusual characters in names, because
+//! the platform matches its rows by them.
 
 mod canvas;
 mod gradescope;
@@ -44,14 +45,14 @@ pub struct CellChange {
     pub now: String,
 }
 
-/// A gradebook, with the columns that are read and filled in.
+/// A gradebook and its relevant columns.
 struct Gradebook {
     title: String,
     table: Table,
     /// The column to fill in.
     target: usize,
-    /// The columns that identify people, the most reliable first. A row without the first of them is
-    /// not about a person.
+    /// The columns that identify people, the most reliable first. A row without the first key isn't
+    /// about a person.
     keys: Vec<Key>,
     /// The columns with the parts of a person's name, for messages.
     names: Vec<usize>,
@@ -72,20 +73,22 @@ struct Key {
 /// A kind of text that identifies people.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum KeyKind {
-    /// The platform's own number, which a file name can have by chance: the names must be alike too.
+    /// The platform's own number. A file name can contain the same number by chance, so the names
+    /// must be alike too.
     Number,
-    /// A student id. A person has only one: a row with a different id is somebody else's.
+    /// A student id. A person has only one, so a row with a different id is somebody else's.
     Sid,
-    /// An account name, or the email address in its place. A person may have several.
+    /// An account name, or the email address used as one. A person may have several.
     Login,
     /// An email address. A person may have several.
     Email,
-    /// A name. Two people may have the same one.
+    /// A name. Two people may share one.
     Name,
 }
 
 impl Key {
-    /// Returns the key of a column whose cells are compared unchanged, or by the number at their ends.
+    /// Returns the key of a column. Its cells are compared unchanged, or by the number at their
+    /// end.
     fn new(kind: KeyKind, column: usize) -> Self {
         let text = match kind {
             KeyKind::Number => number_in,
@@ -94,7 +97,7 @@ impl Key {
         Key { kind, column, text }
     }
 
-    /// Returns the keys of those of the columns that the table has.
+    /// Returns the keys of those columns that exist in the table.
     fn of_columns(table: &Table, columns: &[(KeyKind, &str)]) -> Vec<Self> {
         let key = |(kind, name): &(KeyKind, &str)| Some(Key::new(*kind, table.column(name)?));
         columns.iter().filter_map(key).collect()
@@ -116,14 +119,14 @@ impl Key {
         texts.map(fold).collect()
     }
 
-    /// Returns whether the key says for certain that a row is of this person.
+    /// Returns whether the key proves that a row is this person's.
     fn confirms(&self, row: &[String], person: &Person) -> bool {
         let known = self.row_text(row);
         let is_certain = !matches!(self.kind, KeyKind::Number | KeyKind::Name);
         is_certain && !known.is_empty() && self.person_texts(person).contains(&known)
     }
 
-    /// Returns whether the key says that a row is not of this person.
+    /// Returns whether the key proves that a row isn't this person's.
     fn rules_out(&self, row: &[String], person: &Person) -> bool {
         let (known, texts) = (self.row_text(row), self.person_texts(person));
         let differs = !known.is_empty() && !texts.is_empty() && !texts.contains(&known);
@@ -131,7 +134,7 @@ impl Key {
     }
 }
 
-/// Returns `123` for `Participant 123`, in any language of the site.
+/// Returns `123` for `Participant 123`, in any language.
 fn number_in(cell: &str) -> String {
     number_at_end(cell.trim()).to_owned()
 }
@@ -175,7 +178,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
             ));
             continue;
         }
-        // A submission may list a person twice, or two people with one email address.
+        // A submission may list a person twice, or two people with the same email address.
         let is_named = |(_, person, _): &&GradebookMatch| are_alike(&person.name, &who);
         let best = matches.iter().find(is_named).unwrap_or(&matches[0]);
         let (class_row, first, grade) = *best;
@@ -219,10 +222,10 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
     }
 }
 
-/// A submission, a person of it who is in the gradebook, and the person's grade.
+/// A submission, one of its people who is in the gradebook, and that person's grade.
 type GradebookMatch<'c> = (&'c ClassRow, &'c Person, &'c PersonGrade);
 
-/// Finds each person of the class in the gradebook, by the index of the row. Also returns a warning
+/// Finds each person of the class in the gradebook. Returns the matches by row index, and a warning
 /// for each person without exactly one row.
 fn match_rows<'c>(
     gradebook: &Gradebook,
@@ -230,7 +233,7 @@ fn match_rows<'c>(
 ) -> (BTreeMap<usize, Vec<GradebookMatch<'c>>>, Vec<String>) {
     let Gradebook { keys, table, .. } = gradebook;
     let name_in = |row_index: &usize| gradebook.name(&table.rows[*row_index]);
-    // For each key, the indices of the rows with each text. A text that is in several rows
+    // For each key, the indices of the rows with each text. A text that occurs in several rows
     // identifies nobody.
     let index_rows = |key: &Key| {
         let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -247,7 +250,7 @@ fn match_rows<'c>(
     let mut warnings = Vec::new();
     for class_row in &class.rows {
         for (person, grade) in class_row.people() {
-            // The row gets the points of the attempt that counts.
+            // The row gets the points of the valid attempt.
             if matches!(grade.problem, Some(GradeProblem::OtherAttempt(_))) {
                 continue;
             }
@@ -306,8 +309,7 @@ fn cell_equals(cell: &str, points: u32) -> bool {
     number.is_ok_and(|number| number == f64::from(points))
 }
 
-/// Returns a warning if the maximum of the counted points differs from the maximum in the
-/// gradebook.
+/// Returns a warning if the maximum of the final points differs from the gradebook's maximum.
 fn maximum_warning(class: &GradedClass, listed: Option<&str>) -> Option<String> {
     let mut grades = class.rows.iter().flat_map(|class_row| &class_row.grades);
     let counted = grades.find_map(|grade| grade.counted)?;

@@ -1,5 +1,5 @@
-//! Moodle's grading worksheet. Moodle imports only the `Grade` column and the feedback, and matches
-//! rows by the participant's number. Grades that can no longer be changed are left unchanged.
+//! Moodle's grading worksheet. Moodle only imports the `Grade` column and the feedback, and matches
+//! rows by the participant's number. Locked grades are left unchanged.
 
 use std::path::Path;
 
@@ -44,14 +44,15 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     Ok(fill(gradebook, class))
 }
 
-/// Returns whether the table has a worksheet's first column, such as `Teilnehmer/in 123`, whatever its
-/// head is. Moodle writes the heads in the language of the person who downloads it.
+/// Returns whether the table's first column looks like a worksheet's, e.g. `Teilnehmer/in 123`,
+/// regardless of its header. Moodle writes headers in the language of the person who downloads the
+/// worksheet.
 fn is_translated(table: &Table) -> bool {
     let is_numbered = |row: &Vec<String>| {
         let cell = row.first().map_or("", |cell| cell.trim());
         let number = number_at_end(cell);
         let word = cell.strip_suffix(number).unwrap_or_default();
-        // One letter before a number is the beginning of many student ids.
+        // Many student ids begin with one letter before a number.
         !number.is_empty() && word.chars().rev().skip(1).any(char::is_alphabetic)
     };
     table.column("Identifier").is_none()

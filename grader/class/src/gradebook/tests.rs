@@ -1,4 +1,4 @@
-//! Tests that the right rows are filled in, and the others left unchanged.
+//! Tests that the right rows are filled in and the others are left unchanged.
 
 use grader::policy::Policy;
 use serde_json::json;
@@ -59,7 +59,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
     let named = |name: &str| person(name, "", "", "");
     let with_sid = |sid: &str| person("Ann Lee", "", sid, "");
     for (people, expected, warnings) in [
-        // The second number is Jane's, and the name is not.
+        // The second number is Jane's, but the name isn't.
         (
             vec![
                 ("x", person("leeann", "", "", "7002")),
@@ -82,7 +82,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
                 "Doe, Jane has several submissions (b, c): keep one; left unchanged",
             ],
         ),
-        // A namesake with several submissions takes no points away.
+        // A namesake with several submissions doesn't affect Jane's points.
         (
             vec![
                 ("a", with_sid("u2")),
@@ -104,7 +104,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
     assert_eq!(cells(&filled), ["100", "80", "", ""]);
 }
 
-/// A name does not count if a number or a student id says that the row is somebody else's.
+/// A name is ignored if a number or a student id shows that the row is somebody else's.
 #[test]
 fn a_namesake_with_another_id_gets_no_points() {
     let moodles = "Identifier,Full name,ID number,Email address,Grade\n\
@@ -112,7 +112,7 @@ fn a_namesake_with_another_id_gets_no_points() {
     for (person, is_other) in [
         (person("Jane Doe", "", "u9", ""), true),
         (person("Jane Doe", "", "", "9"), true),
-        // She may have another address, or is known by less.
+        // She may use a different address, or less may be known about her.
         (person("Jane Doe", "jane@home.org", "", ""), false),
         (person("Jane Doe", "jane@home.org", "U1", ""), false),
     ] {
@@ -206,7 +206,7 @@ fn every_key_of_a_platform_finds_its_row() {
         ("number", person("", "", "", "7001")),
         ("sid", person("", "", " U1 ", "")),
         ("login", login("jdoe")),
-        // Where people log in with their address, Canvas has it instead of an account name.
+        // If people log in with their address, Canvas uses it instead of an account name.
         ("email", person("", "JDoe", "", "")),
         ("name", person("jane doe", "", "", "")),
     ];
@@ -242,7 +242,7 @@ fn every_key_of_a_platform_finds_its_row() {
 
 #[test]
 fn rows_that_are_not_of_people_match_nobody() {
-    // Canvas's row with the maximum has no number, and neither has the one of its test student.
+    // Neither the row with the maximum nor the test student's row in Canvas has a number.
     let canvases = "Student,ID,SIS User ID,Section,Path (7)\n\
                   Points Possible,7001,u1,,100\nJane,,u1,A,\nJane,7002,u1,A,\n";
     let by_sid = class(&[("x", person("", "", "u1", ""))]);
@@ -255,7 +255,7 @@ fn rows_that_are_not_of_people_match_nobody() {
     let filled = gradescope(gradescopes, &by_sid);
     assert_eq!(cells(&filled), ["", "80"]);
     assert_eq!(filled.changes[0].who, "ann@x.edu", "there is no name");
-    // An empty cell is not the key of people of whom nothing is known.
+    // An empty cell must not match people without identifiers.
     let unknown = class(&[("x", person("", "", "", ""))]);
     let filled = canvas(canvases, &unknown);
     assert_eq!(filled.changes, []);
@@ -283,7 +283,7 @@ fn a_canvas_column_is_named_by_its_title_or_its_number() {
         (two, Some("Section"), "has no column Section: "),
         (two, Some(""), "has no column : "),
         ("Path Final Score (7)", Some("7"), "Canvas ignores columns"),
-        // Without a name, there must be one column of an assignment.
+        // Without a name, there must be exactly one assignment column.
         ("Notes,Path (7)", None, "Canvas, Path (7)"),
         ("Notes,Path (a7)", None, "--column"),
         (two, None, "choose one with --column: Path (7); Quiz (8)"),
@@ -307,7 +307,7 @@ fn only_a_known_maximum_that_differs_needs_a_warning() {
     assert_eq!(warnings(" ", &one), Vec::<String>::new());
     assert_eq!(warnings("99", &one).len(), 1);
     assert_eq!(warnings("99", &class(&[])), Vec::<String>::new());
-    // Canvas has it in the row of possible points.
+    // Canvas lists the maximum in the row of possible points.
     let jane = class(&[("x", person("", "", "", "7001"))]);
     assert_eq!(canvas(CANVAS, &jane).warnings, Vec::<String>::new());
     let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of in the \

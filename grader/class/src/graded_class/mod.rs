@@ -1,4 +1,4 @@
-//! The data of a graded class, from which all files of the class are written.
+//! The data of a graded class. All files of the class are written from it.
 
 use grader::policy::{CountedPoints, Policy};
 
@@ -14,7 +14,7 @@ pub struct GradedClass {
     pub exam: String,
     /// The hash of the exam file.
     pub exam_hash: String,
-    /// The isolation level at which the submissions were graded.
+    /// The isolation level used to grade the submissions.
     pub isolation: String,
     /// The submissions, in the order of their ids.
     pub rows: Vec<ClassRow>,
@@ -27,18 +27,17 @@ pub struct GradedClass {
 pub struct ClassRow {
     /// The result of grading the submission.
     pub result: EntryResult,
-    /// The grade of each person, in the order of `result.info.people`. The people of a group may
-    /// have different extensions and manual points.
+    /// The grade of each person, in the order of `result.info.people`. Members of a group may have
+    /// different extensions and manual points.
     pub grades: Vec<PersonGrade>,
 }
 
 /// One person's grade for a submission.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PersonGrade {
-    /// The final points, after the policy has been applied; `None` if there is no score, or if it
-    /// does not count.
+    /// The final points after applying the policy. `None` if there is no score or it isn't used.
     pub counted: Option<CountedPoints>,
-    /// The reason why a score has no final points.
+    /// Why a score has no final points.
     pub problem: Option<GradeProblem>,
     /// Whether the submission counts as on time because its submission time is unknown.
     pub is_undated: bool,
@@ -46,16 +45,16 @@ pub struct PersonGrade {
     pub manual: Vec<ManualPoints>,
 }
 
-/// The reason why a score has no final points.
+/// Why a score has no final points.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GradeProblem {
     /// It is unclear how late the submission is.
     #[error(transparent)]
     UnclearTime(UnclearTime),
-    /// Another submission of the same person counts.
+    /// Another submission by the same person is used.
     #[error("the submission {0} of the same person counts")]
     OtherAttempt(String),
-    /// Nobody has chosen among several submissions of the same person.
+    /// The teacher hasn't chosen between several submissions by the same person.
     #[error(
         "{} of the same person could count as well: remove one, or set `counts` under [attempts] \
          in the policy",
@@ -65,8 +64,7 @@ pub enum GradeProblem {
 }
 
 impl GradedClass {
-    /// Returns the results that have a score, apart from those of superseded attempts and of Canvas's
-    /// test student.
+    /// Returns the results with a score, except superseded attempts and Canvas's test student.
     pub fn scores(&self) -> impl Iterator<Item = (&EntryResult, &ScoreSummary)> {
         let counts = |row: &&ClassRow| !row.is_superseded() && !row.is_of_test_student();
         let rows = self.rows.iter().filter(counts);
@@ -74,14 +72,14 @@ impl GradedClass {
         results.filter_map(|result| Some((result, result.score()?)))
     }
 
-    /// Returns the tasks of the exam, with the points of the first score; empty without scores.
+    /// Returns the exam's tasks, with the points of the first score. Empty if there are no scores.
     pub fn tasks(&self) -> &[TaskScore] {
         let first = self.rows.iter().find_map(|row| row.result.score());
         first.map_or(&[], |score| score.tasks.as_slice())
     }
 
-    /// Returns the number of submissions that could not be graded because of a fault, and have to
-    /// be graded again.
+    /// Returns the number of submissions that could not be graded because of a fault and have to be
+    /// graded again.
     pub fn fault_count(&self) -> usize {
         let is_fault = |row: &&ClassRow| matches!(row.result.outcome, EntryOutcome::Fault(_));
         self.rows.iter().filter(is_fault).count()
@@ -89,8 +87,8 @@ impl GradedClass {
 }
 
 impl ClassRow {
-    /// Creates the row of a result, and applies the policy to its points. `manual` has the manual
-    /// points of each person, and `max_points` is the maximum of the exam.
+    /// Creates the row of a result and applies the policy to its points. `manual` lists the manual
+    /// points of each person. `max_points` is the exam's maximum.
     pub fn new(
         result: EntryResult,
         policy: &Policy,
@@ -101,7 +99,7 @@ impl ClassRow {
             let sum = manual.iter().map(|points| points.delta).sum();
             let earned = match &result.outcome {
                 EntryOutcome::Graded(score) => Some((score.points, score.max_points)),
-                // Staff have looked at it, and their points count without any others.
+                // Staff have looked at the submission, so their points are the only points.
                 EntryOutcome::NothingToGrade(_) if manual.iter().any(|own| own.delta != 0) => {
                     Some((0, max_points))
                 }
@@ -131,21 +129,21 @@ impl ClassRow {
         self.result.info.people.iter().zip(&self.grades)
     }
 
-    /// Returns sentences about what the score counts towards each person's grade. Those that are the
-    /// same for all people of the submission name nobody.
+    /// Returns sentences that explain how the score contributes to each person's grade. A sentence
+    /// that applies to everyone names nobody.
     pub fn counted_texts(&self) -> Vec<String> {
         self.merge(PersonGrade::explanation)
     }
 
-    /// Returns notes for staff: the reason why there are no final points, or else what counts, the
-    /// manual points, and the files that look like task files and were not graded.
+    /// Returns notes for staff: why there are no final points or else how they were computed, the
+    /// manual points, and the files that look like task files but were not graded.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.merge(|grade| {
             let problem = match self.why(grade) {
                 why if why.is_empty() => None,
                 why => Some(format!("{}: {why}", self.status(grade))),
             };
-            // Without either, the columns of the table say as much.
+            // Without either, the table's columns say it all.
             let needs_words =
                 |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
             let counted = grade.counted.filter(needs_words);
@@ -158,7 +156,7 @@ impl ClassRow {
         notes
     }
 
-    /// Returns the texts about all grades, with names in front if they differ.
+    /// Returns the texts about all grades, prefixed with names if they differ.
     fn merge(&self, texts: impl Fn(&PersonGrade) -> Vec<String>) -> Vec<String> {
         let all: Vec<Vec<String>> = self.grades.iter().map(texts).collect();
         let Some(first) = all.first() else {
@@ -174,7 +172,7 @@ impl ClassRow {
         own.collect()
     }
 
-    /// Returns whether other submissions of all its people count.
+    /// Returns whether other submissions are used for all of its people.
     pub fn is_superseded(&self) -> bool {
         let mut grades = self.grades.iter();
         let is_superseded =
@@ -182,7 +180,7 @@ impl ClassRow {
         !self.grades.is_empty() && grades.all(is_superseded)
     }
 
-    /// Returns whether nobody has handed it in but the test student.
+    /// Returns whether only the test student handed it in.
     fn is_of_test_student(&self) -> bool {
         let people = &self.result.info.people;
         !people.is_empty() && people.iter().all(Person::is_test_student)
@@ -193,7 +191,7 @@ impl ClassRow {
         self.grades.iter().find_map(|grade| grade.problem.as_ref())
     }
 
-    /// Returns the status of one person's grade, as it is shown in tables.
+    /// Returns the status of one person's grade, as shown in tables.
     pub fn status(&self, grade: &PersonGrade) -> &'static str {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => "graded",
@@ -207,8 +205,7 @@ impl ClassRow {
         }
     }
 
-    /// Returns the reason why there is no score or no final points, or an empty string if there are
-    /// both.
+    /// Returns why the score or the final points are missing, or an empty string if neither is.
     pub fn why(&self, grade: &PersonGrade) -> String {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), None) => String::new(),
@@ -222,7 +219,7 @@ impl ClassRow {
 }
 
 impl PersonGrade {
-    /// Returns whether other attempts of the person count, or may still be chosen.
+    /// Returns whether another attempt by the person is used or may still be chosen.
     pub fn is_set_aside(&self) -> bool {
         match &self.problem {
             Some(GradeProblem::OtherAttempt(_) | GradeProblem::SeveralAttempts(_)) => true,
@@ -230,8 +227,8 @@ impl PersonGrade {
         }
     }
 
-    /// Returns sentences about what the score counts towards the grade, and the comments of staff.
-    /// There are none if it counts as it is.
+    /// Returns sentences that explain how the score contributes to the grade, and staff comments.
+    /// Empty if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, self.counted) {
             (Some(problem), _) => Some(format!("No points count: {problem}.")),

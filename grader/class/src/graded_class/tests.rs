@@ -1,4 +1,4 @@
-//! Tests of what counts for each person, and of the words for it.
+//! Tests for the grade of each person and for its explanation.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::list_kind::ListKind;
 use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};
 
-/// Returns the result of a submission by these people, with this outcome.
+/// Returns the result of these people's submission, with this outcome.
 pub(crate) fn result(id: &str, people: &[&str], outcome: EntryOutcome) -> EntryResult {
     EntryResult {
         id: id.to_owned(),
@@ -82,7 +82,7 @@ fn points_by_hand(delta: i32) -> ManualPoints {
     }
 }
 
-/// Returns the row of a submission by these people, who have these manual points.
+/// Returns the row of a submission by these people, with their manual points.
 fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> ClassRow {
     let names: Vec<&str> = people.iter().map(|(name, _)| *name).collect();
     let by_hand = |deltas: &&[i32]| deltas.iter().copied().map(points_by_hand).collect();
@@ -103,7 +103,7 @@ fn problems() -> [GradeProblem; 3] {
     ]
 }
 
-/// Returns a grade that does not count because of this problem.
+/// Returns a grade that isn't used because of this problem.
 fn with_problem(problem: GradeProblem) -> PersonGrade {
     PersonGrade {
         problem: Some(problem),
@@ -247,7 +247,7 @@ fn superseded_submissions_and_faults_are_not_among_the_scores() {
     superseded.grades[0] = with_problem(GradeProblem::OtherAttempt("b".to_owned()));
     let outcomes = [graded(80), nothing(), fault(), graded(70), fault()];
     let rows = outcomes.map(|outcome| row(outcome, "", &[("Ann", &[])]));
-    // Canvas names its test student so in files and in the gradebook.
+    // The names Canvas uses for its test student in files and in the gradebook.
     let tests = ["studenttest", "Student, Test"];
     let tests = tests.map(|name| row(graded(0), "", &[(name, &[])]));
     let class = GradedClass {
@@ -291,14 +291,14 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
     assert!(is_unclear(unclear.problem));
 }
 
-/// Returns the points by hand in a file with this row.
+/// Returns the manual points in a file with this row.
 fn manual_list(row: &str) -> ManualPointsList {
     let text = format!("student,task,delta,comment,author\n{row}\n");
     let (_folder, lists) = lists(&[(ListKind::ManualPoints, &text)]);
     ManualPointsList::read(&lists.manual_points.unwrap(), &RAYS).unwrap()
 }
 
-/// Returns the points that count for each person.
+/// Returns the final points of each person.
 fn counted(rows: &[ClassRow]) -> Vec<Option<u32>> {
     let grades = rows.iter().flat_map(|row| &row.grades);
     grades.map(|grade| Some(grade.counted?.points)).collect()
@@ -320,7 +320,7 @@ fn points_by_hand_are_added_for_their_person_and_checked() {
     assert!(error.contains("+21 points are out of range"), "{error}");
 }
 
-/// Ann's first attempt has 10 points, from which 20 cannot be taken off.
+/// Ann's first attempt got 10 points, so 20 cannot be deducted from it.
 #[test]
 fn points_by_hand_must_fit_the_attempt_that_counts() {
     let manual = manual_list("Ann,sphere,-20,,Lee");

@@ -20,7 +20,7 @@ use crate::run::{RoundState, Run};
 use crate::shard::Shard;
 use crate::store::Store;
 
-/// Copies the shards' results into one folder, and writes the class's files.
+/// Copies the shards' results into one folder and writes the class's files.
 pub fn merge_shards(
     arguments: &MergeArguments,
     handed_out: &HandedOut,
@@ -59,7 +59,7 @@ pub fn merge_shards(
     };
     let mut sources: BTreeMap<String, &Store> = BTreeMap::new();
     for (shard, run) in &shards {
-        // The folder may also have the entries of students who are gone.
+        // The folder may also contain entries of students who have left.
         let current = |id: &String| run.entries.contains(id);
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), shard) {
@@ -111,8 +111,8 @@ pub fn merge_shards(
     class.finish(rows, removed)
 }
 
-/// Rejects an output folder in the results of a shard: each entry would be replaced while it is
-/// copied.
+/// Rejects an output folder inside a shard's results, because each entry would be replaced while it
+/// is being copied.
 fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {

@@ -1,4 +1,4 @@
-//! Tests of which shards belong together, and of what is merged.
+//! Tests for matching and merging shards.
 
 use std::fs;
 
@@ -17,7 +17,7 @@ struct Shards {
 }
 
 impl Shards {
-    /// Ann is in the first shard, and Bob in the second.
+    /// Creates a class with Ann in the first shard and Bob in the second.
     fn new() -> Self {
         let shards = Shards {
             folder: tempfile::tempdir().unwrap(),
@@ -98,7 +98,7 @@ impl Shards {
         fs::read_to_string(self.path("out").join(name)).unwrap()
     }
 
-    /// Merges and returns the points that count for Ann.
+    /// Merges the shards. Returns Ann's final points.
     fn points(&self, arguments: &MergeArguments) -> String {
         merge_shards(arguments, &RAYS).unwrap();
         let grades = self.read("grades.csv");
@@ -178,7 +178,8 @@ fn a_given_policy_counts_instead_of_those_of_the_shards() {
     assert_eq!(shards.points(&tenth), "8");
 }
 
-/// The roster that the shards were graded with has Eve in Ann's group, and another time.
+/// In the roster that the shards were graded with, Eve is in Ann's group and the submission time is
+/// different.
 #[test]
 fn the_groups_and_times_of_a_new_roster_count() {
     let shards = Shards::new();

@@ -15,8 +15,8 @@ use crate::table::{Table, missing_column};
 
 pub use times::set_submission_times;
 
-/// Column names that platforms and people use for a person's full name. The lists below contain
-/// the column names of the other fields.
+/// Column names that platforms and people use for a person's full name. The lists below are for the
+/// other fields.
 const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
 const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
 const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
@@ -39,11 +39,11 @@ const LOGIN: [&str; 7] = [
     "sis login id",
     "login_id",
 ];
-/// The names of the column with the submission times, in classroom50 and in GitHub Classroom.
+/// Column names for submission times in classroom50 and GitHub Classroom.
 const SUBMISSION_TIME: [&str; 4] = [
     "datetime",
     "submission_timestamp",
-    // Gradescope's and Moodle's own lists.
+    // The lists exported by Gradescope and Moodle.
     "submission time",
     "last modified (submission)",
 ];
@@ -56,13 +56,13 @@ pub const POINTS_POSSIBLE: &str = "Points Possible";
 /// A row of a roster or gradebook.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// The list.
+    /// The list that contains the row.
     pub list: ListKind,
-    /// The row, as spreadsheets number it.
+    /// The row number, as in spreadsheets.
     row: usize,
-    /// The person that the row is about.
+    /// The person the row is about.
     pub person: Person,
-    /// The submission time, in the list's format; empty if the list has none.
+    /// The submission time, in the list's format. Empty if the list doesn't contain one.
     pub submitted: String,
     /// Whether the list marks the submission as late.
     pub late: bool,
@@ -72,15 +72,14 @@ pub struct Member {
 }
 
 impl Member {
-    /// Returns whether this row belongs to the person.
+    /// Returns whether this row is about the person.
     pub fn matches(&self, person: &Person) -> bool {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// Returns whether the person's name equals the name or an identifier in this row. This is
-    /// tested only if the person has no email address, student id or account name, as for a folder
-    /// that is named after its student, and if not both the row and the person have a platform
-    /// number.
+    /// Returns whether the person's name equals the name or an identifier in this row. Names are
+    /// only compared if the person's email address, student id and account name are unknown, as in
+    /// a folder named after a student, and if the row or the person lacks a platform number.
     fn matches_by_name(&self, person: &Person) -> bool {
         let known = &self.person;
         let is_bare = person.own_identifiers() == [""; 3];
@@ -122,14 +121,14 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
     // Moodle writes a word in the site's language before the number.
     let identifier = table.column("Identifier");
-    // A list needs one of these columns, since only they can match its rows with submissions.
+    // A list needs one of these columns to match its rows with submissions.
     email.or(sid).or(login).or(name).or(identifier)?;
-    // The platform's own numbers, if the list is recognised as Canvas's or Moodle's.
+    // Use the platform's own numbers if the list is recognised as Canvas's or Moodle's.
     let number = match table.column("Student") {
         Some(_) => table.column("ID"),
         None => identifier.or_else(|| table.column("canvas_user_id")),
     };
-    // In other lists, a status is something else.
+    // In other lists, a status column means something else.
     let status = table.column("Identifier").and(table.column("Status"));
     let member = |(row_number, row): (usize, &Vec<String>)| {
         let cell = |column: Option<usize>| {
@@ -138,7 +137,7 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
         };
         let [name, first, last, email, sid, login, group, extension] = columns.map(cell);
         let parts = format!("{first} {last}").trim().to_owned();
-        // With blind marking, nobody has a name.
+        // With blind marking, the list contains no names.
         let names = [name, parts, cell(identifier)];
         let name = names.into_iter().find(|name| !name.is_empty());
         let person = Person {
@@ -158,7 +157,7 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
             list,
             row: row_number,
             person,
-            // Moodle writes a dash for a participant who handed in nothing.
+            // Moodle writes a dash for participants who submitted nothing.
             submitted: Some(cell(submitted))
                 .filter(|time| time != "-")
                 .unwrap_or_default(),
@@ -184,8 +183,8 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     Some(members)
 }
 
-/// Rejects a roster in which two rows have the same email address, student number or account name,
-/// but differ in something else. A row may be repeated, for example for each attempt or section.
+/// Rejects a roster where two rows share an email address, student id or account name but differ
+/// otherwise. A row may be repeated, e.g. for each attempt or section.
 fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
     let mut rows: BTreeMap<(usize, String), usize> = BTreeMap::new();
     for (index, member) in members.iter().enumerate() {
@@ -207,7 +206,7 @@ fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns whether two rows say the same about a person.
+/// Returns whether two rows contain the same information about a person.
 fn is_repetition(one: &Person, other: &Person) -> bool {
     let [own, others] = [one, other].map(|person| {
         let others = [&person.name, &person.group, &person.extension];
@@ -218,8 +217,8 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
     pairs.all(|(one, other)| are_equal(one, other))
 }
 
-/// Reads the people on all lists. A person has a row in each list that knows them. No two people in
-/// the roster may have the same identifier.
+/// Reads the people on all lists. A person has one row per list they are on. No two people in the
+/// roster may share an identifier.
 pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
     let mut rows = Vec::new();
     if let Some(path) = &lists.roster {
@@ -238,8 +237,8 @@ pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
     Ok(rows)
 }
 
-/// Fills in unknown fields of `people` from the rows of lists. A row may add the identifier by which
-/// another row is found, in whatever order they come.
+/// Fills in unknown fields of `people` from the rows of lists. A row may add an identifier that
+/// matches another row, regardless of their order.
 pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
     for person in people {
         loop {
@@ -256,7 +255,7 @@ pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
     }
 }
 
-/// Returns the people on the lists who match nobody in `people`, each once.
+/// Returns the people on the lists who match nobody in `people`, without duplicates.
 pub fn missing(rows: &[Member], people: &[&Person]) -> Vec<Person> {
     let is_there = |row: &&Member| {
         let is_theirs =

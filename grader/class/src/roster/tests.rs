@@ -1,4 +1,4 @@
-//! Tests of reading rosters, and of matching their rows with people.
+//! Tests for reading rosters and matching their rows with people.
 
 use serde_json::json;
 
@@ -24,7 +24,7 @@ fn an_ambiguous_name_matches_nobody() {
     // A person may be listed in two sections.
     let list = parse_roster("name,email\nAnn Lee,a@x.edu\nAnn Lee,A@x.edu\n");
     assert!(list[0].matches(&ann));
-    // An account belongs to one person, even if names are equal.
+    // An account identifies one person, even if two people have the same name.
     let list = parse_roster("name,username\nAnn Lee,ann1\nAnn Lee,ann2\n");
     let named = |name| {
         list.iter()
@@ -55,7 +55,7 @@ fn one_column_that_identifies_people_is_enough() {
     }
     let table = Table::parse(b"group,late\nx,true\n").unwrap();
     assert!(parse_members(&table, ListKind::Roster).is_none());
-    // The number that Canvas writes into a list of a group's members.
+    // The number that Canvas writes into lists of group members.
     let rows = parse_roster("name,canvas_user_id\nAnn,7001\n");
     assert_eq!(rows[0].person.number, "7001");
 }
@@ -99,7 +99,7 @@ fn everybody_who_is_missing_is_named_once() {
     let table = "name\nAnn\nBob\nEve\nBob\n";
     assert_eq!(names(table, &[]), ["Ann", "Bob", "Eve"]);
     assert_eq!(names(table, &[&Person::named("eve")]), ["Ann", "Bob"]);
-    // Two people with this name, who are told apart by nothing else.
+    // Two people with the same name and nothing else to tell them apart.
     let table = "name,group\nAnn,One\nAnn,Two\n";
     let of_group = person(json!({ "name": "Ann", "group": "Two", "is_from_group": true }));
     assert_eq!(names(table, &[&of_group]), ["Ann"]);

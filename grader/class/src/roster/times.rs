@@ -8,8 +8,8 @@ use super::Member;
 use crate::entry::{EntryInfo, ListedTime};
 use crate::list_kind::ListKind;
 
-/// Notes the submission times in the roster, Gradescope's list or Moodle's worksheet, where the
-/// platform's export says none.
+/// Copies submission times from the roster, Gradescope's list or Moodle's worksheet to entries
+/// without one in the platform's export.
 pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
         let theirs = rows.iter().filter(|row| {
@@ -18,8 +18,9 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
             has_time && people.any(|person| row.matches(person))
         });
         let theirs: Vec<&Member> = theirs.collect();
-        // If there are several submissions, the last one was cloned. A time that cannot be read is
-        // taken before all others, so that it is reported; which one is last is then unknown.
+        // If there are several submissions, the last one was cloned. An unreadable time takes
+        // precedence so that it is reported, because it is then unknown which submission is the
+        // last.
         let Some(last) = theirs.iter().max_by_key(|member| {
             let time = time(member);
             (time.is_none(), time)
@@ -31,7 +32,7 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
             both.is_some_and(|(last, other)| are_far_apart(last, other))
         };
         let submitted = match theirs.iter().find(is_far) {
-            // One of them must be wrong, so neither is used.
+            // One of the two times must be wrong, so neither is used.
             Some(other) => format!("{} or {}", other.submitted, last.submitted),
             None => last.submitted.clone(),
         };
@@ -42,7 +43,8 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     }
 }
 
-/// Returns the time for comparisons within a list, whose local times are in one time zone.
+/// Returns the time for comparisons within a list. All local times in a list are in the same time
+/// zone.
 fn time(member: &Member) -> Option<Timestamp> {
     read_time(&member.submitted, Some(&TimeZone::UTC)).ok()
 }

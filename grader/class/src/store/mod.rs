@@ -20,13 +20,13 @@ use crate::run::Run;
 const SCORE: &str = "score.json";
 const REPORT: &str = "report.html";
 const FEEDBACK: &str = "feedback.html";
-/// The archive with the task files that were graded, which the report's commands name.
+/// The archive with the graded task files. The report's commands refer to it.
 pub const SUBMISSION: &str = "submission.zip";
 const STAMP: &str = "entry.json";
 const PREVIOUS: &str = "previous.json";
 const REPLACED: &str = "replaced.json";
 const RUN: &str = "run.json";
-/// The prefix of temporary files, which are renamed once they are complete.
+/// The prefix of temporary files, which are renamed when complete.
 const TEMPORARY_PREFIX: &str = ".tmp";
 
 /// An output folder.
@@ -74,13 +74,14 @@ impl Store {
         self.folder.join("students").join(id)
     }
 
-    /// Returns the absolute path of the archive with an entry's graded files, which its report names.
+    /// Returns the absolute path of the archive with an entry's graded files. The entry's report
+    /// refers to it.
     pub fn submission_path(&self, id: &str) -> PathBuf {
         let path = self.entry_folder(id).join(SUBMISSION);
         path::absolute(&path).unwrap_or(path)
     }
 
-    /// Reads `run.json`; returns `None` in a new folder.
+    /// Reads `run.json`. Returns `None` in a new folder.
     pub fn read_run(&self) -> Result<Option<Run>, Error> {
         self.read(RUN)
     }
@@ -90,12 +91,12 @@ impl Store {
         self.write(RUN, json(run))
     }
 
-    /// Reads a JSON file of the class; returns `None` if it does not exist.
+    /// Reads a JSON file of the class. Returns `None` if it doesn't exist.
     pub fn read<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, Error> {
         read_json(self.folder.join(name))
     }
 
-    /// Returns the paths of the files in a folder in the output folder.
+    /// Returns the paths of the files in a subfolder of the output folder.
     pub fn list(&self, name: &str) -> Result<Vec<PathBuf>, Error> {
         Ok(list_if_exists(&self.folder.join(name))?)
     }
@@ -116,7 +117,7 @@ impl Store {
         (stamp.key == key).then(|| self.read_score(id))?.ok()
     }
 
-    /// Returns whether the entry is stored with nothing to grade, for this reason.
+    /// Returns whether the entry is stored as having nothing to grade for this reason.
     pub fn has_nothing_to_grade(&self, id: &str, why: &str) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
         stamp.is_some_and(
@@ -129,8 +130,8 @@ impl Store {
     pub fn save_result(&self, result: &EntryResult, key: &str, round: u32) -> Result<(), Error> {
         let folder = self.entry_folder(&result.id);
         if result.score().is_none() {
-            // The files of an earlier run must not be mistaken for those of this run. Its stamp is
-            // removed first: it must not be left without a score.
+            // The files of an earlier run must not be mistaken for this run's. Remove its stamp
+            // first, because a stamp must not be left without a score.
             for file in [STAMP, SCORE, REPORT, FEEDBACK, SUBMISSION] {
                 files::remove_if_exists(folder.join(file))?;
             }
@@ -149,7 +150,7 @@ impl Store {
         Ok(atomic_write::write(page, &path)?)
     }
 
-    /// Writes the task files that are graded.
+    /// Writes the graded task files.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
         let path = self.entry_folder(id).join(SUBMISSION);
         let archive = archive_bytes(submission).expect("writing to memory succeeds");
@@ -161,17 +162,17 @@ impl Store {
         Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
     }
 
-    /// Puts sentences about what the score counts towards the grade into the entry's pages.
+    /// Writes sentences that explain how the score contributes to the grade into the entry's pages.
     pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
         for name in [REPORT, FEEDBACK] {
             let path = self.entry_folder(id).join(name);
-            // A shard's older results may lack a page.
+            // Older results of a shard may lack a page.
             write_counted(&path, texts)?;
         }
         Ok(())
     }
 
-    /// Keeps the score of an entry whose submission has changed, before it is graded again. Scores
+    /// Saves the score of an entry whose submission has changed, before it is graded again. Scores
     /// from earlier rounds are kept by [`save_previous_scores`](Self::save_previous_scores).
     pub fn set_score_aside(&self, id: &str, round: u32) -> Result<(), Error> {
         let stamp = self.read_stamp(id)?;
@@ -185,23 +186,24 @@ impl Store {
         Ok(())
     }
 
-    /// Returns the score of an earlier version of the submission in the same round, if there is one.
+    /// Returns the score of an earlier version of the submission in the same round, if any.
     pub fn replaced_score(&self, id: &str) -> Result<Option<ScoreSummary>, Error> {
         self.read_kept_score(id, REPLACED)
     }
 
-    /// Removes the stamp of an entry, before its other files change.
+    /// Removes an entry's stamp before its other files change.
     pub fn remove_stamp(&self, id: &str) -> Result<(), Error> {
         Ok(files::remove_if_exists(self.entry_folder(id).join(STAMP))?)
     }
 
-    /// Replaces an entry's files by those in another store. As in grading, the stamp is removed first
-    /// and written last, so a killed merge never leaves a stamp beside another run's score.
+    /// Replaces an entry's files with those in another store. As in grading, the stamp is removed
+    /// first and written last, so that a killed merge never leaves a stamp next to another run's
+    /// score.
     pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), Error> {
         let folder = self.entry_folder(id);
         files::create_dir_all(&folder)?;
         self.remove_stamp(id)?;
-        // A file of an earlier merge must not be mistaken for one of this merge.
+        // A file from an earlier merge must not be mistaken for one from this merge.
         for file in files::read_dir(&folder)? {
             files::remove_if_exists(file)?;
         }
@@ -229,7 +231,7 @@ impl Store {
         results.filter_map(Result::transpose).collect()
     }
 
-    /// Returns the result of an entry, or `None` if it has none.
+    /// Returns the result of an entry, if any.
     pub fn result(&self, id: &str) -> Result<Option<EntryResult>, Error> {
         let Some(stamp) = self.read_stamp(id)? else {
             return Ok(None);
@@ -244,8 +246,8 @@ impl Store {
         Ok(Some(result))
     }
 
-    /// Saves the last score of every entry as its previous score. If there was nothing to grade, the
-    /// previous score is removed. If this is interrupted, it can be done again.
+    /// Saves the last score of every entry as its previous score. If an entry had nothing to grade,
+    /// its previous score is removed. It is safe to repeat this after an interruption.
     pub fn save_previous_scores(&self) -> Result<(), Error> {
         for id in self.ids()? {
             let folder = self.entry_folder(&id);
@@ -256,8 +258,8 @@ impl Store {
                     files::remove_if_exists(&path)?;
                     None
                 }
-                // Grading it again has failed or was interrupted. If that was in this round, the score
-                // was set aside; otherwise, it is already the previous one.
+                // Regrading the entry failed or was interrupted. If that was in this round, the
+                // score was set aside. Otherwise, it is already the previous score.
                 Some(EntryOutcome::Fault(_)) | None => {
                     files::read_if_exists(folder.join(REPLACED))?
                 }
@@ -270,7 +272,7 @@ impl Store {
         Ok(())
     }
 
-    /// Returns the previous score of an entry, if there is one.
+    /// Returns the previous score of an entry, if any.
     pub fn previous_score(&self, id: &str) -> Result<Option<ScoreSummary>, Error> {
         self.read_kept_score(id, PREVIOUS)
     }
@@ -298,7 +300,7 @@ impl Store {
     }
 }
 
-/// Returns the paths of a folder's entries, or none if the folder does not exist.
+/// Returns the paths of a folder's entries, or none if the folder doesn't exist.
 fn list_if_exists(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
     match files::read_dir(folder) {
         Err(error) if error.source.kind() == ErrorKind::NotFound => Ok(Vec::new()),
@@ -314,14 +316,14 @@ fn is_temporary(name: &OsStr) -> bool {
     name.to_string_lossy().starts_with(TEMPORARY_PREFIX)
 }
 
-/// Returns the value as indented JSON that ends in a newline.
+/// Returns the value as indented JSON with a trailing newline.
 pub fn json(value: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(value).expect("all map keys are strings");
     text.push('\n');
     text
 }
 
-/// Reads a JSON file, or returns `None` if it does not exist.
+/// Reads a JSON file. Returns `None` if it doesn't exist.
 fn read_json<T: DeserializeOwned>(path: PathBuf) -> Result<Option<T>, Error> {
     let text = files::read_if_exists(&path)?;
     let value = text.map(|text| serde_json::from_str(&text)).transpose();

@@ -1,4 +1,4 @@
-//! Tests of the output folder: what is stored, replaced and kept.
+//! Tests for the output folder: what is stored, replaced and kept.
 
 use std::fs;
 
@@ -7,8 +7,8 @@ use crate::graded_class::tests::{fault, graded, nothing, result};
 use crate::run::Settings;
 
 impl Store {
-    /// Stores a result as grading does, with the files of a graded entry. If it has a score, its
-    /// `score.json` has only the numbers.
+    /// Stores a result as grading does, with the files of a graded entry. If there is a score, its
+    /// `score.json` only contains the numbers.
     pub(crate) fn save_graded(&self, result: &EntryResult, key: &str, round: u32) {
         let folder = self.entry_folder(&result.id);
         fs::create_dir_all(&folder).unwrap();
@@ -59,7 +59,7 @@ pub(crate) fn run() -> Run {
     })
 }
 
-/// Returns settings with another exam.
+/// Returns settings with a different exam.
 pub(crate) fn other_settings() -> Settings {
     Settings {
         exam_hash: "other".to_owned(),
@@ -98,7 +98,7 @@ fn a_damaged_file_is_an_error_that_names_it() {
     assert_eq!(store.cached_score("a", "key"), None);
 }
 
-/// The run ends while the files of an earlier result are removed.
+/// The run ends while it removes the files of an earlier result.
 #[test]
 fn a_stamp_is_never_left_without_its_score() {
     let (_folder, store) = store();
@@ -165,7 +165,7 @@ fn the_scores_from_before_a_regrade_are_kept() {
     save("nothing", nothing());
     fs::write(store.entry_folder("nothing").join(PREVIOUS), "{}").unwrap();
     save("fault", fault());
-    // Doing it again, after an interruption, changes nothing.
+    // Repeating it after an interruption changes nothing.
     for _ in 0..2 {
         store.save_previous_scores().unwrap();
         assert_eq!(points(store.previous_score("graded")), Some(70));

@@ -1,4 +1,4 @@
-//! Compares the files of a run that ended well with those of a run in a new folder.
+//! Compares the files of a successful run with those of a run in a new folder.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -10,10 +10,10 @@ use crate::observed::{Files, Observed, all_files};
 use crate::recorded_grader::ProcessFault;
 use crate::world::{Target, World};
 
-/// The options that write everything that is made of the grades.
+/// The options for writing all files derived from the grades.
 pub const EXPORT: [&str; 2] = ["--hand-back", "--canvas=ROOT/gradebook.csv"];
-/// The files that say what a folder has been through, which a new folder has not. They are compared
-/// with the model.
+/// The files that record a folder's history. A new folder has none, so they are compared with the
+/// model instead.
 const HISTORY: [&str; 5] = [
     "run.json",
     "drift.json",
@@ -22,7 +22,7 @@ const HISTORY: [&str; 5] = [
     "replaced.json",
 ];
 
-/// Everything that the files of a run in a new folder depend on.
+/// Everything the files of a run in a new folder depend on.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Class {
     submissions: BTreeMap<&'static str, Option<u32>>,
@@ -38,9 +38,9 @@ type Contents = BTreeMap<PathBuf, Vec<u8>>;
 pub struct FreshRuns(BTreeMap<Class, Contents>);
 
 impl FreshRuns {
-    /// Returns the files of a run in a new folder, of the class as it is now.
+    /// Returns the files of a run in a new folder with the current class.
     fn files(&mut self, world: &World, observed: &Observed) -> &Contents {
-        // A gradebook is also a list of those who should have submitted something.
+        // A gradebook also lists everyone who should have submitted something.
         let exported = observed.list("canvas").map(|_| EXPORT.map(str::to_owned));
         let exported = exported.into_iter().flatten();
         let manual = observed.list("manual-points");
@@ -62,9 +62,9 @@ impl FreshRuns {
         })
     }
 
-    /// Compares the files in a folder with those of a fresh run that is given all the lists that the
-    /// folder has. `history` is what the folder contains, and then what the folders that were merged
-    /// into it contain. `is_handed_back` says whether the run was made with [`EXPORT`].
+    /// Compares the files in a folder with those of a fresh run that gets all of the folder's
+    /// lists. `history` describes the folder, followed by the folders merged into it.
+    /// `is_handed_back` says whether the run used [`EXPORT`].
     pub fn compare(
         &mut self,
         world: &World,
@@ -83,7 +83,8 @@ impl FreshRuns {
                 continue;
             }
             let Some(found) = found.get(name) else {
-                // A list is remembered. The archive to hand back is asked for, and then kept up to date.
+                // Lists are remembered. The archive to hand back is only written on request, but
+                // then kept up to date.
                 if last == "hand-back.zip" && !is_handed_back {
                     continue;
                 }
@@ -104,7 +105,7 @@ impl FreshRuns {
     }
 }
 
-/// Returns whether the page of the class lists changes, which a fresh run does not.
+/// Returns whether the class's page lists changes, which a fresh run's page doesn't.
 fn has_changes(world: &World, history: &[&Observed]) -> bool {
     let mut history = history.iter();
     history.any(|observed| lists_changes(world, observed))
@@ -120,8 +121,8 @@ fn lists_changes(world: &World, observed: &Observed) -> bool {
         || observed.entries.iter().any(is_changed)
 }
 
-/// Returns a stamp without the key and the round. After a merge, the people are those of the lists that
-/// the parts were graded with.
+/// Returns a stamp without the key and the round. After a merge, the people come from the lists
+/// that the shards were graded with.
 fn stamp(bytes: &[u8], target: Target) -> Value {
     let mut stamp: Value = serde_json::from_slice(bytes).unwrap();
     if target == Target::Merged {
@@ -132,7 +133,7 @@ fn stamp(bytes: &[u8], target: Target) -> Value {
     stamp
 }
 
-/// Returns the texts from shortly before the first difference on.
+/// Returns both texts, starting shortly before the first difference.
 fn first_difference(one: &str, other: &str) -> String {
     let same = one.chars().zip(other.chars());
     let same = same.take_while(|(one, other)| one == other);

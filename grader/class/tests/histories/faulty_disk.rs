@@ -1,4 +1,4 @@
-//! A disk with faults, and with a switch that turns the process off.
+//! A simulated disk that can fail or kill the process.
 
 use std::fs;
 use std::io;
@@ -7,13 +7,15 @@ use std::sync::Mutex;
 
 use grader::disk::{self, Disk, Operation};
 
-/// A fault of the disk. The numbers count the changes of a step, from 1, or its reads for `ReadErrorAt`. A
-/// process is never killed during a read: that leaves the same files as a kill before the next change.
+/// A disk fault. The numbers count the changes in a step, from 1, or its reads for `ReadErrorAt`. A
+/// process is never killed during a read, because that leaves the same files as a kill before the
+/// next change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
-    /// Nothing.
+    /// No fault.
     None,
-    /// The process is killed during a change: this one may be half done, and no later one happens.
+    /// The process is killed during this change. The change may be half done, and no later change
+    /// happens.
     KilledAt(u64),
     /// From this change on, nothing can be written.
     FullFrom(u64),
@@ -62,12 +64,12 @@ static DISK: FaultyDisk = FaultyDisk(Mutex::new(State {
 const NO_SPACE: i32 = 28;
 const INPUT_OUTPUT: i32 = 5;
 
-/// Installs the disk. It has no faults until [`start`] is called.
+/// Installs the disk. Nothing fails until [`start`] is called.
 pub fn install() {
     assert!(disk::install(&DISK), "no other disk is installed");
 }
 
-/// Plans the faults of a step.
+/// Schedules the faults of a step.
 pub fn start(root: &Path, fault: DiskFault) {
     *DISK.0.lock().unwrap() = State {
         root: root.to_owned(),
@@ -77,7 +79,7 @@ pub fn start(root: &Path, fault: DiskFault) {
     };
 }
 
-/// Ends the faults. Returns the numbers of operations of the step, and whether a fault occurred.
+/// Ends the faults. Returns the step's numbers of operations and whether a fault occurred.
 pub fn stop() -> (Operations, bool) {
     let mut state = DISK.0.lock().unwrap();
     state.fault = DiskFault::None;
@@ -129,8 +131,8 @@ impl Disk for FaultyDisk {
     }
 }
 
-/// Leaves what an operation leaves if the process is killed while it happens. Temporary files get
-/// another name, because a process that is not really killed removes its own.
+/// Leaves behind the same files as an operation during which the process is killed. Temporary files
+/// are renamed, because a process that isn't really killed removes its own.
 fn leave_half(operation: Operation) {
     let left = |file: &Path, contents: &[u8]| {
         fs::write(file.with_file_name(".tmpKilled"), contents).unwrap();

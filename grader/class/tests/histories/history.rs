@@ -19,19 +19,19 @@ use crate::world::{Ended, MANUAL_POINTS, PARTS, POLICIES, STUDENTS, Target, Worl
 /// The largest number of steps.
 const MAX_STEPS: usize = 14;
 
-/// A history that is under way.
+/// A history in progress.
 struct History {
     rng: Rng,
     world: World,
     models: BTreeMap<Target, Model>,
     fresh: FreshRuns,
     next_version: u32,
-    /// The numbers of operations that the last run without a fault made, for each target.
+    /// For each target, the numbers of operations in the last run without a fault.
     operations: BTreeMap<Target, Operations>,
     log: Vec<String>,
 }
 
-/// Runs the history with this seed. The error says what was lost, after which steps.
+/// Runs the history with this seed. The error says what was lost and after which steps.
 pub fn run(seed: u64) -> Result<(), String> {
     let folder = TempDir::new().map_err(|error| error.to_string())?;
     let mut history = History {
@@ -79,7 +79,7 @@ impl History {
         }
     }
 
-    /// Changes the course, and says how.
+    /// Changes the course. Returns a description of the change.
     fn change(&mut self, kind: u32) -> String {
         let world = &mut self.world;
         match kind {
@@ -108,7 +108,7 @@ impl History {
         }
     }
 
-    /// Grades all parts, as several machines do, while the class may change, and merges them.
+    /// Grades all shards, as several machines would, while the class may change. Then merges them.
     fn grade_parts_and_merge(&mut self) -> Result<(), String> {
         for part in 1..=PARTS {
             if self.rng.u32(0..4) == 0 {
@@ -177,7 +177,7 @@ impl History {
         let exam = self.models.entry(target).or_default().observed.exam();
         let has_other_exam = exam.is_some_and(|exam| exam != self.world.exam);
         if matches!(target, Target::Part(_)) && has_other_exam {
-            // A part cannot be graded again in place.
+            // A shard cannot be regraded in place.
             self.world.remove(target);
             self.models.insert(target, Model::default());
             self.log.push(format!("{target:?} is removed"));
@@ -189,7 +189,7 @@ impl History {
             Target::Part(_) | Target::Merged | Target::Fresh => true,
         };
         let is_possible = is_possible && self.world.is_class();
-        // The points by hand need their student.
+        // Manual points need their student to be in the class.
         let has_manual =
             !self.manual_option().is_empty() || observed.list("manual-points").is_some();
         let has_student = self.world.submissions.contains_key(STUDENTS[0]);
@@ -214,7 +214,7 @@ impl History {
 
     fn merge_with(&mut self, disk: DiskFault) -> Result<(), String> {
         let is_possible = self.can_merge();
-        // The keys of merged entries are those of the parts.
+        // Merged entries keep the keys of their shards.
         self.models.entry(Target::Merged).or_default().keys = self.keys();
         let more = [self.manual_option(), EXPORT.to_vec()].concat();
         let ended = self.world.merge(&more, disk);
@@ -232,7 +232,7 @@ impl History {
             self.operations.insert(Target::Merged, ended.operations);
         }
         let is_complete = matches!(ended.result, Ok(Completion::Complete));
-        // The parts may have been graded before the last submissions.
+        // The shards may have been graded before the last submissions.
         if is_complete && self.parts_are_current() {
             self.check_leftovers(Target::Merged)?;
             let parts = (1..=PARTS).map(|part| &self.models[&Target::Part(part)].observed);
@@ -276,7 +276,7 @@ impl History {
         })
     }
 
-    /// Returns whether the points by hand are given to the next merge, or were to an earlier one.
+    /// Returns whether manual points are given to the next merge or were given to an earlier one.
     fn has_own_manual_points(&self) -> bool {
         let merged = self.models.get(&Target::Merged);
         let run = merged.and_then(|model| model.observed.run.as_ref());
@@ -285,7 +285,7 @@ impl History {
         self.world.manual > 0 || list.is_some_and(is_own)
     }
 
-    /// Returns the option for points by hand, if they are given.
+    /// Returns the option for manual points, if they are given.
     fn manual_option(&self) -> Vec<&'static str> {
         match MANUAL_POINTS[self.world.manual] {
             "" => Vec::new(),
@@ -300,7 +300,7 @@ impl History {
         let mut ids = BTreeSet::new();
         for part in 1..=PARTS {
             let observed = &self.models[&Target::Part(part)].observed;
-            // The scores cannot show it if there was nothing to grade.
+            // Scores don't show the exam if there was nothing to grade.
             if observed.exam() != Some(self.world.exam) {
                 return false;
             }
@@ -386,10 +386,10 @@ impl History {
         }
     }
 
-    /// Runs everything once more without faults, and compares it with new folders.
+    /// Runs everything once more without faults and compares it with new folders.
     fn end(&mut self) -> Result<(), String> {
         let none = (DiskFault::None, ProcessFault::None);
-        // Parts with different lists cannot be merged.
+        // Shards with different lists cannot be merged.
         self.world.manual = 1;
         if !self.world.submissions.contains_key(STUDENTS[0]) {
             self.world.submit(STUDENTS[0], Some(self.next_version));

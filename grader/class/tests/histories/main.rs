@@ -1,11 +1,11 @@
 //! Histories of a class: random sequences of grading, regrading, merging, changed and removed
-//! submissions, exams and policies, in which runs are killed at any operation on a file, disks are
-//! full and processes do not start. After each step the files must be such as a model allows, and
-//! runs that end well give the same bytes as a run in a new folder.
+//! submissions, exams and policies, while runs are killed at any file operation, disks are full and
+//! processes don't start. After each step, the files must be allowed by a model, and successful
+//! runs must produce the same bytes as a run in a new folder.
 //!
-//! `cargo test -p class --test histories` runs 100 histories until one is lost, with `-- --count 10000`
-//! more, all of them, and with `-- --seed 17` the one with this seed. No submission is compiled: scores
-//! are recorded.
+//! `cargo test -p class --test histories` runs 100 histories, or fewer if one fails.
+//! `-- --count 10000` runs that many, even if some fail, and `-- --seed 17` runs only the history
+//! with this seed. Nothing is compiled: the scores were recorded beforehand.
 
 mod comparison;
 mod faulty_disk;
@@ -23,7 +23,7 @@ use std::thread;
 
 use clap::Parser;
 
-/// The number of histories in a run of the tests.
+/// The default number of histories.
 const DEFAULT_COUNT: u64 = 100;
 
 /// Runs random histories of a class.
@@ -78,8 +78,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs histories in this process. The commands print as they do for people, so the process
-/// that starts this one ignores its output.
+/// Runs histories in this process. The commands print their usual output, so the process that
+/// starts this one ignores it.
 fn run_here(seeds: Range<u64>, report: &Path, until_lost: bool) -> ExitCode {
     faulty_disk::install();
     let lost = seeds.filter_map(|seed| Some((seed, history::run(seed).err()?)));
@@ -112,7 +112,7 @@ fn record(seeds: &Range<u64>, result: &str) -> bool {
     script.is_ok_and(|status| status.success())
 }
 
-/// Runs histories in several processes, prints what is lost, and returns the closing line.
+/// Runs histories in several processes and prints failures. Returns the closing line.
 fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>, until_lost: bool) -> String {
     let cores = || thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
     let count = seeds.end - seeds.start;
@@ -136,7 +136,7 @@ fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>, until_lost: bool) -> 
     let mut lost = Vec::new();
     for (job, mut child) in (0..).zip(children) {
         if until_lost && !lost.is_empty() {
-            // It may have ended by itself.
+            // It may already have ended.
             let _ = child.kill();
         }
         let status = child.wait().unwrap();

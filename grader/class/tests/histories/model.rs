@@ -1,4 +1,4 @@
-//! The model: facts about a folder with results, and the results that the next run may have.
+//! The model of a folder with results: the known facts, and the results allowed for the next run.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,28 +7,28 @@ use serde_json::Value;
 use crate::observed::{Files, Keys, Observed, ScoreId};
 use crate::recorded_grader::score;
 
-/// The model of a folder in which a class is graded.
+/// The model of a folder where a class is graded.
 #[derive(Debug, Default)]
 pub struct Model {
-    /// The folder as it was last seen.
+    /// The folder's last observed state.
     pub observed: Observed,
-    /// The cache keys that were seen in this course.
+    /// The cache keys seen so far in this course.
     pub keys: Keys,
-    /// The last score that each entry was stamped with, and its round. It must not get lost before
-    /// there is another one.
+    /// Each entry's last stamped score and its round. It must not be lost before a new score
+    /// exists.
     kept: BTreeMap<String, (u64, ScoreId)>,
-    /// The regrades that were never finished before the next one began. Their scores are given up, but
-    /// their stamps stay until the entry is graded again.
+    /// The regrades that were never finished before the next one started. Their scores are
+    /// discarded, but their stamps stay until the entry is graded again.
     abandoned: BTreeSet<u64>,
     /// The scores that the current round is compared with.
     before: BTreeMap<String, ScoreId>,
-    /// The last scores of entries in which there was nothing to grade later on. If reading such an entry
-    /// has failed since, a regrade may be compared with this score.
+    /// The last scores of entries that later had nothing to grade. If reading such an entry has
+    /// failed since, a regrade may be compared with this score.
     dropped: BTreeMap<String, ScoreId>,
 }
 
 impl Model {
-    /// Compares the folder after a command with what the model allows, and remembers it.
+    /// Checks that the model allows the folder's state after a command, and remembers this state.
     pub fn update(&mut self, now: Observed) -> Result<(), String> {
         let was = &self.observed;
         if now.round() < was.round() || was.run.is_some() && now.run.is_none() {
@@ -85,7 +85,7 @@ impl Model {
                     self.kept.insert(id.to_owned(), (stamped_in, score));
                 }
             }
-            // Staff have been told that there is nothing to grade.
+            // Staff have been informed that there is nothing to grade.
             (None, Some("no_submission")) => {
                 let dropped = self.kept.remove(id);
                 self.dropped
@@ -96,8 +96,8 @@ impl Model {
         Ok(())
     }
 
-    /// Compares a folder in which a command has ended well with the model. `class` has the scores
-    /// that its entries must have; `None` if there is nothing to grade.
+    /// Compares a folder with the model after a successful command. `class` contains the required
+    /// scores of its entries, or `None` if there is nothing to grade.
     pub fn check_success(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Result<(), String> {
         if !self.observed.is_finished() || self.observed.is_unfinished_regrade() {
             return Err("the run ended well, and is not marked as finished".to_owned());
@@ -122,8 +122,8 @@ impl Model {
         Ok(())
     }
 
-    /// Compares the list of changes after a regrade with the scores that have changed. `now` has the
-    /// scores of the class.
+    /// Compares the list of changes after a regrade with the scores that changed. `now` contains
+    /// the scores of the class.
     pub fn check_drifts(
         &self,
         file: &str,
@@ -151,7 +151,7 @@ impl Model {
         }
     }
 
-    /// Returns the ids of the entries whose score a regrade has changed, among those of the class.
+    /// Returns the ids of the class's entries whose score a regrade changed.
     fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
         let entries = &self.observed.entries;
@@ -162,7 +162,7 @@ impl Model {
     }
 }
 
-/// Checks that every entry of a finished run is done.
+/// Checks that every entry of a finished run is graded.
 fn check_finished(observed: &Observed) -> Result<(), String> {
     let run = observed.run.as_ref().expect("it is finished");
     for id in run["entries"].as_array().into_iter().flatten() {

@@ -1,5 +1,5 @@
-//! The content of a folder with results, read without the class's own code, and the checks of what must
-//! be true of it at any time, however the last run ended.
+//! The contents of a folder with results, read without the class's own code, and the invariants
+//! that must hold at any time, regardless of how the last run ended.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::recorded_grader::{EXAMS, exam_hash, score_file};
 
-/// A score that is known to be the right one for a version of the submission and an exam.
+/// A score that is known to be right for a version of the submission and an exam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ScoreId {
     /// The version of the submission.
@@ -32,7 +32,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// Returns the score, if the stamp says that it is complete.
+    /// Returns the score if the stamp says that it is complete.
     pub fn graded(&self) -> Option<ScoreId> {
         self.score.filter(|_| self.state() == Some("graded"))
     }
@@ -60,7 +60,7 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// Returns the current round; 0 in a new folder.
+    /// Returns the current round, or 0 in a new folder.
     pub fn round(&self) -> u64 {
         self.run
             .as_ref()
@@ -73,19 +73,19 @@ impl Observed {
         (0..EXAMS).find(|exam| exam_hash(*exam) == hash)
     }
 
-    /// Returns whether the last run of this folder has ended normally.
+    /// Returns whether the last run in this folder ended normally.
     pub fn is_finished(&self) -> bool {
         self.state() == Some("finished")
     }
 
-    /// Returns whether a regrade has started, and has never ended normally.
+    /// Returns whether a regrade has started but never ended normally.
     pub fn is_unfinished_regrade(&self) -> bool {
         let run = self.run.as_ref();
         let was_finished = matches!(self.state(), Some("finished" | "resumed"));
         run.is_some_and(|run| !run["before"].is_null()) && !was_finished
     }
 
-    /// Returns the end of the path that a list was given as, if the folder has it.
+    /// Returns the end of the path that a list was given as, if the folder contains the list.
     pub fn list(&self, kind: &str) -> Option<&str> {
         let path = self.run.as_ref()?["lists"][kind]["given_as"].as_str()?;
         path.rsplit('/').next()
@@ -96,10 +96,10 @@ impl Observed {
     }
 }
 
-/// The cache keys of stamps, and the scores that they have been seen with.
+/// The cache keys of stamps and the scores they have been seen with.
 pub type Keys = BTreeMap<String, (String, ScoreId)>;
 
-/// Reads a folder. The error is what is wrong with it.
+/// Reads a folder. The error says what is wrong with it.
 pub fn observe(folder: &Path, keys: &mut Keys) -> Result<Observed, String> {
     let mut observed = Observed {
         run: read_json(&folder.join("run.json"))?,
@@ -143,7 +143,7 @@ fn observe_entry(folder: &Path, id: &str) -> Result<Files, String> {
     })
 }
 
-/// Checks that a cache key always stands beside the same score.
+/// Checks that a cache key always belongs to the same score.
 fn check_key(id: &str, files: &Files, keys: &mut Keys) -> Result<(), String> {
     let (Some(stamp), Some(score)) = (&files.stamp, files.graded()) else {
         return Ok(());
@@ -159,7 +159,7 @@ fn check_key(id: &str, files: &Files, keys: &mut Keys) -> Result<(), String> {
     }
 }
 
-/// Returns the score in a file, and checks that the whole file is that of this score.
+/// Returns the score in a file. Checks that the entire file belongs to this score.
 fn read_score(path: &Path, id: &str) -> Result<Option<ScoreId>, String> {
     let Some(file) = read_json(path)? else {
         return Ok(None);
@@ -201,7 +201,7 @@ fn check_page(path: &Path) -> Result<(), String> {
     }
 }
 
-/// Returns the paths in a folder, sorted; none if it does not exist.
+/// Returns the paths in a folder, sorted. Empty if the folder doesn't exist.
 pub fn list(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();

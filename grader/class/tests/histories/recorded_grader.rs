@@ -1,5 +1,5 @@
-//! A grader with recorded scores, which starts no processes: the points of a submission follow from
-//! the number in its files and from the exam.
+//! A grader with recorded scores that starts no processes. A submission's points are determined by
+//! the number in its files and by the exam.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -23,12 +23,12 @@ use judging::exam::Exam;
 use judging::exam_file::{self, ExamName};
 use serde_json::Value;
 
-/// The number of items in an exam, each of another task.
+/// The number of items in an exam, each from a different task.
 const ITEMS: usize = 3;
 /// The number of exams.
 pub const EXAMS: usize = 3;
 
-/// The exams. They have the same items, with other points.
+/// The exams. They contain the same items with different points.
 static ALL: LazyLock<Vec<Exam>> = LazyLock::new(|| {
     let path = Path::new("practice.json");
     let mut file: Value = serde_json::from_str(RAYS.practice_exam).unwrap();
@@ -58,15 +58,15 @@ static ALL: LazyLock<Vec<Exam>> = LazyLock::new(|| {
 /// A fault of the grader or of its processes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProcessFault {
-    /// Nothing fails.
+    /// No fault.
     None,
-    /// A number of programs cannot be started.
+    /// This many programs cannot be started.
     CannotStart(u32),
-    /// The grader panics a number of times.
+    /// The grader panics this many times.
     Panics(u32),
 }
 
-/// The grader.
+/// A grader that looks up recorded scores.
 pub struct RecordedGrader {
     exam: usize,
     policy: Policy,
@@ -84,7 +84,7 @@ pub fn source(student: &str, version: u32) -> String {
     format!("// {student}, version {version}\n")
 }
 
-/// Returns the score of a version of a student's submission.
+/// Returns the score of a submission's version.
 pub fn score(student: &str, version: u32, exam: usize) -> Score {
     let name = ExamName {
         id: "exam".to_owned(),

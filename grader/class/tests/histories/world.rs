@@ -18,20 +18,20 @@ use crate::recorded_grader::{ProcessFault, RecordedGrader, source};
 
 /// The students of the course.
 pub const STUDENTS: [&str; 5] = ["ann", "bob", "carl", "dora", "eve"];
-/// The policies of the course; the first is the default.
+/// The policies of the course. The first is the default.
 pub const POLICIES: [&str; 4] = [
     "",
     "[points]\nout_of = 7\n",
     "[points]\nout_of = 50\nrounding = \"up\"\n",
     "[visibility]\npractice = \"points\"\nfinal = \"points\"\n",
 ];
-/// The options for points by hand: none, and two lists with a row for the first student.
+/// The options for manual points: none, and two lists with a row for the first student.
 pub const MANUAL_POINTS: [&str; 3] = [
     "",
     "--manual-points=ROOT/manual-1.csv",
     "--manual-points=ROOT/manual-2.csv",
 ];
-/// The number of parts, if the class is divided.
+/// The number of shards, if the class is divided.
 pub const PARTS: usize = 2;
 
 /// A folder with results.
@@ -39,11 +39,11 @@ pub const PARTS: usize = 2;
 pub enum Target {
     /// The whole class.
     Whole,
-    /// A part of it, counted from 1.
+    /// A shard of the class, counted from 1.
     Part(usize),
-    /// The merged parts.
+    /// The merged shards.
     Merged,
-    /// A new folder for a run that is compared with others.
+    /// A new folder for a run to compare other runs with.
     Fresh,
 }
 
@@ -51,22 +51,22 @@ pub enum Target {
 #[derive(Debug)]
 pub struct World {
     root: PathBuf,
-    /// The version that each student has submitted; `None` for an empty folder.
+    /// The version each student has submitted. `None` for an empty folder.
     pub submissions: BTreeMap<&'static str, Option<u32>>,
     /// The exam.
     pub exam: usize,
     /// The policy.
     pub policy: usize,
-    /// The points by hand. Number 0 leaves them out, and then those of the last run count.
+    /// The manual points. Number 0 omits the option, so the last run's are used.
     pub manual: usize,
 }
 
-/// The end of a command.
+/// The result of a finished command.
 #[derive(Debug)]
 pub struct Ended {
     /// The result of the command.
     pub result: Result<Completion, Error>,
-    /// The numbers of operations on files.
+    /// The numbers of file operations.
     pub operations: Operations,
     /// Whether the disk's fault occurred.
     pub had_disk_fault: bool,
@@ -122,7 +122,7 @@ impl World {
         fs::remove_dir_all(self.folder(target)).ok();
     }
 
-    /// Replaces a student's submission; `None` leaves an empty folder.
+    /// Replaces a student's submission. `None` leaves an empty folder.
     pub fn submit(&mut self, student: &'static str, version: Option<u32>) {
         let folder = self.input().join(student);
         fs::remove_dir_all(&folder).ok();
@@ -135,7 +135,7 @@ impl World {
         self.submissions.insert(student, version);
     }
 
-    /// Returns whether there is a class. A single folder is a class of one, even if it is empty.
+    /// Returns whether the class exists. A single folder is a class of one, even if it is empty.
     pub fn is_class(&self) -> bool {
         !self.submissions.is_empty()
     }
@@ -146,7 +146,8 @@ impl World {
         self.submissions.remove(student);
     }
 
-    /// Dates all files as if the clock had jumped by days. Nothing else in a file shows the time.
+    /// Changes all files' dates as if the clock had jumped by this many days. Nothing else in a
+    /// file shows the time.
     pub fn jump_clock(&self, days: i64) {
         let by = Duration::from_secs(days.unsigned_abs() * 86_400);
         let now = SystemTime::now();
@@ -158,7 +159,7 @@ impl World {
         }
     }
 
-    /// Grades the whole class, or a part.
+    /// Grades the whole class or a shard.
     pub fn grade(
         &self,
         target: Target,
@@ -181,7 +182,7 @@ impl World {
         self.run(words, target, more, disk, process)
     }
 
-    /// Merges the parts.
+    /// Merges the shards.
     pub fn merge(&self, more: &[&str], disk: DiskFault) -> Ended {
         let mut words = vec!["class".to_owned(), "merge".to_owned()];
         words.extend((1..=PARTS).map(|part| text(&self.folder(Target::Part(part)))));
@@ -218,7 +219,7 @@ impl World {
         }
     }
 
-    /// Returns the names of the temporary files that are left in a folder.
+    /// Returns the names of the temporary files left in a folder.
     pub fn temporary_files(&self, target: Target) -> Vec<PathBuf> {
         let is_temporary = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default();

@@ -1,5 +1,5 @@
 //! Characters that could affect the text around them, such as escape sequences and direction marks.
-//! Nothing that a student chooses may bring them to the teacher's terminal, tables or pages.
+//! Nothing a student chooses may put them in the teacher's terminal, tables or pages.
 
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::final_grades::GradeChanges;
@@ -25,7 +25,7 @@ use grader::handed_out::RAYS;
 use grader::policy::Policy;
 use judging::sanitize::affects_surroundings;
 
-/// Returns a text with every character that could affect others.
+/// Returns a text with every character that could affect the text around it.
 fn hostile_text() -> String {
     let characters = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
     let hostile: String = characters.filter(|c| affects_surroundings(*c)).collect();
@@ -86,7 +86,7 @@ fn score(text: &str) -> ScoreSummary {
     }
 }
 
-/// Returns a class with this text wherever a student can write.
+/// Returns a class with this text everywhere a student can write.
 fn class_with(text: &str) -> GradedClass {
     let outcomes = [
         EntryOutcome::Graded(Box::new(score(text))),
@@ -123,7 +123,7 @@ fn preview_with(text: &str) -> String {
     };
     let class = RecognisedClass {
         layout: Layout::Canvas,
-        // Two entries of the same person, which are reported.
+        // Two entries by the same person, which are reported.
         entries: vec![entry.clone(), entry],
         unmatched: vec![UnmatchedPath {
             name: text.to_owned(),
@@ -135,7 +135,7 @@ fn preview_with(text: &str) -> String {
     render_preview(&class, &info(text).people, &RAYS)
 }
 
-/// Returns everything that a teacher reads, by name.
+/// Returns everything a teacher reads, by name.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
     let summary = ClassSummary::new(&class);
@@ -206,7 +206,7 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
 fn no_output_has_a_character_that_affects_the_text_around_it() {
     let hostile = hostile_text();
     for (output, text) in outputs(&hostile) {
-        // The styles of the terminal's headings.
+        // Drop the styles of the terminal's headings.
         let text = ["0", "1", "2"].iter().fold(text, |text, style| {
             text.replace(&format!("\u{1b}[{style}m"), "")
         });

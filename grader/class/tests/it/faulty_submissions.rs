@@ -1,5 +1,5 @@
-//! Tests that each faulty submission gets a row, and that the points of the others are not
-//! affected; and that a fault of the machine is retried and gives no score if it remains.
+//! Tests that each faulty submission gets a row without affecting the points of the others, and
+//! that a machine fault is retried and gives no score if it persists.
 
 use std::process::Output;
 
@@ -34,7 +34,7 @@ fn a_faulty_submission_does_not_affect_the_others() {
     let points = |id: &str| of(id, ["status", "counts", "points", "max_points"]);
     let all = most.to_string();
     assert_eq!(points("fine"), ["graded", &all, &all, &all]);
-    // A name that a spreadsheet would take for a formula is escaped.
+    // A name that a spreadsheet would interpret as a formula is escaped.
     let counts = cell(&class, "_starter", "'=starter", "counts");
     assert_eq!(counts, "0");
     for (id, reason) in [("bad", "it is damaged"), ("empty", "nothing was handed in")] {
@@ -56,7 +56,7 @@ fn a_faulty_submission_does_not_affect_the_others() {
 }
 
 /// Programs that see the questions of a final exam must not tell students about them. The grader's
-/// own tests send bits through every channel; this one shows that a class's pages are covered.
+/// own tests send bits through every channel. This test shows that a class's pages are covered.
 #[test]
 fn the_page_for_a_student_has_nothing_that_the_program_wrote() {
     let head = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
@@ -78,7 +78,7 @@ fn the_page_for_a_student_has_nothing_that_the_program_wrote() {
 }
 
 /// Grades a class that contains links. Anyone can put a link into a clone or a shared folder, and
-/// another student's files must not be graded as the work of the person who linked to them.
+/// another student's files must not be graded as the linker's own work.
 #[cfg(unix)]
 #[test]
 fn links_are_listed_with_the_reason_and_never_followed() {
@@ -116,7 +116,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     assert!(class.preview().contains(".hidden"), "{}", class.preview());
 }
 
-/// A file mode stops everybody but root, so root skips this test.
+/// File modes don't stop root, so root skips this test.
 #[cfg(unix)]
 #[test]
 fn an_unreadable_folder_is_listed_with_the_reason() {
@@ -150,8 +150,8 @@ fn an_unreadable_folder_is_listed_with_the_reason() {
     assert_contains(&preview, &expected);
 }
 
-/// A linker that fails if there is a file `fault-*` next to it. Each failure removes one such file.
-/// It has no PATH, like every linker that the grader starts.
+/// A linker that fails while a file `fault-*` exists next to it. Each failure removes one such
+/// file. Like every linker started by the grader, it runs without a PATH.
 #[cfg(unix)]
 const LINKER: &str = r#"
 PATH=/usr/local/bin:/usr/bin:/bin

@@ -1,4 +1,4 @@
-//! The archive with the pages to hand back, named as each platform expects it.
+//! The archive of pages to hand back, with the names each platform expects.
 
 use grader::handed_out::RAYS;
 
@@ -23,7 +23,7 @@ fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
     files.iter().map(|(name, _)| name.as_str()).collect()
 }
 
-/// Canvas finds the submission by the numbers of the user and of one of their attachments.
+/// Canvas finds a submission by the numbers of the user and one of their attachments.
 #[test]
 fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     let bvh = source("reference/src/bvh.rs");
@@ -56,13 +56,13 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     assert_contains(&class.read("class.html"), &["Doe, Jane"]);
 }
 
-/// Moodle splits the name at its first four underscores: the second part is the participant.
+/// Moodle splits the name at its first four underscores. The second part is the participant.
 #[test]
 fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
     let class = TestClass::named("CG-Path tracing-77")
         .with_reference("José Núñez_301_assignsubmission_file_")
         .with("An_n Lee_302_assignsubmission_file_/hw.zip", solution());
-    // Without a list, a number could be a group's, and a stranger would get the page.
+    // Without a list, the number could be a group's, and the wrong person would get the page.
     let (files, text) = hand_back(&class, &[]);
     assert_eq!(names(&files), [""; 0]);
     assert_contains(&text, &["pass Moodle's worksheet with --moodle"]);
@@ -106,7 +106,7 @@ fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
     ];
     assert_eq!(names(&files), expected);
     assert!(text.contains("not in it: Late: time unclear"), "{text}");
-    // Nobody reads the comments for another member of the group.
+    // Members of a group must not see each other's comments.
     let page = |index: usize| String::from_utf8(files[index].1.clone()).unwrap();
     assert!(page(4).contains("by Tess: late") && !page(3).contains("Tess"));
 }

@@ -1,10 +1,12 @@
-//! Whose a submission is: by names and lists, and never by a number or by what a student wrote.
+//! Submissions are assigned to people by names and lists, never by a number or by something a
+//! student wrote.
 
 use crate::harness::{TestClass, assert_contains, unzip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// In Moodle, a team's folder ends in the group's number, here that of Ann in the other team.
+/// In Moodle, a team's folder ends in the group's number, which here equals the number of Ann, who
+/// is in the other team.
 #[test]
 fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let class = TestClass::named("moodle")
@@ -35,7 +37,7 @@ fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let page = |person: &str| format!("{person}_assignfeedback_file_feedback.html");
     assert_eq!(pages, ["Bob Ray_77", "Ann Lee_51", "Cid Fox_78"].map(page));
 
-    // Nothing tells who is in the teams.
+    // Nothing says who is in the teams.
     let unknown = worksheet("Other");
     let path = class.write_beside("worksheet.csv", &unknown);
     let error = class.refused(&exam, &["--moodle", &path]);

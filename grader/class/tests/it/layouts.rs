@@ -17,7 +17,8 @@ fn archive() -> Vec<u8> {
         .map(|file| (format!("my work/src/{file}"), "text")))
 }
 
-/// Metadata as Ruby writes it: symbols, unquoted numbers, tags, and the results of earlier grading.
+/// Metadata as Ruby writes it, with symbols, unquoted numbers, tags and the results of earlier
+/// grading.
 const GRADESCOPE: &str = "---
 submission_101:
   :submitters:
@@ -102,7 +103,7 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
     write("class/outside/../../escaped.rs", b"text");
     write(&format!("class/{}/camera.rs", "n".repeat(300)), b"text");
-    // Files that are not needed are created empty, however large they are in the archive.
+    // Unneeded files are created empty, even if they are large in the archive.
     write("class/junk/notes.bin", &[0; 2 << 20]);
     writer.add_directory("class/empty/", plain).unwrap();
     writer
@@ -233,7 +234,7 @@ fn reads_a_plain_folder_and_lists_everything_it_cannot_use() {
     assert_snapshot!(class.preview());
 }
 
-/// Each of these hides or loses files if only the top level is looked at.
+/// Each of these would hide or lose files if only the top level was searched.
 #[test]
 fn nothing_that_was_handed_in_is_chosen_or_lost_silently() {
     let class = TestClass::named("class")

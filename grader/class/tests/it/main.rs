@@ -1,4 +1,4 @@
-//! Tests of the `class` binary, with classes like those that platforms export.
+//! Tests of the `class` binary, with classes like those exported by platforms.
 
 mod characters;
 mod every_oddity;

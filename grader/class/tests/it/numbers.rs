@@ -1,5 +1,5 @@
-//! The numbers that people see: all files of a class must say the same about everybody's points. The
-//! expected numbers are computed here from the scores, and not with the grader's policy.
+//! The numbers that people see. All files of a class must agree on everybody's points. The expected
+//! numbers are computed here from the scores, without using the grader's policy.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ struct Rules {
     percent_per_day: u32,
 }
 
-/// The numbers that one person's grade consists of.
+/// The numbers that make up one person's grade.
 struct Numbers {
     counts: u32,
     earned: u32,
@@ -36,7 +36,7 @@ impl Rules {
         let percent = 100 - (self.percent_per_day * late_days).min(100);
         let sum = earned.checked_add_signed(manual).unwrap().min(100);
         Some(Numbers {
-            // Rounded to the nearest number, and up in the middle.
+            // Rounded to the nearest integer, halves up.
             counts: (2 * self.out_of * sum * percent + 10_000) / 20_000,
             earned,
             manual,
@@ -45,7 +45,7 @@ impl Rules {
     }
 }
 
-/// Writes the files of a graded class, with gradebooks, and returns their folder.
+/// Writes the files of a graded class, with gradebooks. Returns their folder.
 fn write_class(root: &Path, class: &[StoredEntry], rules: Rules) -> PathBuf {
     let mut manual = "student,task,delta,comment,author\n".to_owned();
     let mut canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Path Tracer (4242)\n".to_owned();
@@ -193,7 +193,7 @@ impl Files {
         }
     }
 
-    /// Checks the cells in a table's row, in which `key` is the content of a cell.
+    /// Checks the cells in the table row that contains the cell `key`.
     fn check_row(&self, file: &str, key: &str, cells: &[(&str, String)]) {
         let text = self.read(file);
         let mut rows = table(&text).into_iter();
@@ -222,7 +222,7 @@ impl Files {
         assert_eq!(row[1..=expected.len()], expected, "{names:?}");
     }
 
-    /// Checks the totals, in the summary for programs and on the class's page.
+    /// Checks the totals in the machine-readable summary and on the class's page.
     fn check_summary(&self, class: &[StoredEntry]) {
         let summary: Value = serde_json::from_str(&self.read("class.json")).unwrap();
         let page = self.read("class.html");
@@ -241,7 +241,7 @@ impl Files {
         }
         for (title, distribution, points, of) in all {
             let mean = f64::from(points.iter().sum::<u32>()) / points.len() as f64;
-            // Means have one digit after the point, also in the file for programs.
+            // Means have one decimal place, even in the machine-readable file.
             let mean = (10.0 * mean).round() / 10.0;
             assert_eq!(distribution["mean"], mean, "{title}");
             for (name, expected) in [
@@ -265,7 +265,7 @@ fn text(number: Option<impl ToString>) -> String {
     number.map_or(String::new(), |number| number.to_string())
 }
 
-/// Returns the texts of the cells in the row of a page that begins with this one.
+/// Returns the texts of the cells in the page's row that begins with `first`.
 fn row_of_page(page: &str, first: &str) -> Vec<String> {
     let without_tags = |html: &str| -> String {
         let parts = html.split('<');

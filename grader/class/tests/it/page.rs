@@ -50,7 +50,7 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
         }
         tab.eval(&format!("{who}.join('|')"))
     };
-    // Without points, dora is last in either order.
+    // Dora has no points, so she is last in either order.
     assert_eq!(by(&[2]), format!("{long}|carl|Bob|dora"));
     assert_eq!(by(&[2, 2]), format!("Bob|carl|{long}|dora"));
     assert_eq!(by(&[0]), format!("Bob|carl|dora|{long}"));

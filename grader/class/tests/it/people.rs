@@ -1,4 +1,4 @@
-//! Rules for single people: extensions, several attempts, and points by hand.
+//! Rules for individual people: extensions, several attempts and manual points.
 
 use crate::harness::{TestClass, assert_contains, cell, successful_stdout};
 
@@ -43,7 +43,7 @@ fn the_policy_says_which_of_several_attempts_counts() {
     let text = "No points count: the submission u1 of the same person counts.";
     assert_contains(&class.read("students/ann/feedback.html"), &[text]);
 
-    // Without times, nobody knows which is the latest.
+    // Without times, the latest attempt is unknown.
     grade("latest");
     assert_eq!(ann("u1", "status"), "several attempts");
 }
@@ -106,7 +106,7 @@ Ann Lee,camera,0,see me,Tess
         "Bea Berg: 90 of 100 points count",
     ];
     assert_contains(&page, &expected);
-    // What was graded stays as it was.
+    // The graded files stay unchanged.
     let score = class.read("students/carl/score.json");
     assert!(score.contains("\"points\": 0"), "{score}");
     assert!(!score.contains("Tess"));

@@ -41,15 +41,15 @@ fn a_killed_run_resumes_to_the_same_results() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // The runs are killed at times that are spread over most of a run.
+        // Kill the runs at times spread over most of a run's duration.
         thread::sleep(duration * ((7 * round) % KILLS) / KILLS * 4 / 5 + Duration::from_millis(1));
         killed += u32::from(run.try_wait().unwrap().is_none());
         run.kill().unwrap();
         run.wait().unwrap();
     }
     assert!(killed > 0, "no run was killed");
-    // A run that is killed while it writes a file leaves a temporary file. That may not have
-    // happened above, so such files are added here.
+    // A run that is killed while writing a file leaves a temporary file behind. That may not have
+    // happened above, so add such files here.
     for folder in ["", "students/ann"] {
         let folder = class.out().join(folder);
         fs::create_dir_all(&folder).unwrap();
@@ -77,7 +77,7 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
     ];
     assert_contains(&text, &expected);
     assert!(class.out().join("students/ann/previous.json").is_file());
-    // A run without changes grades nothing, and prints the same report.
+    // A run without changes grades nothing and prints the same report.
     let again = class.graded(&other, &[]);
     assert!(again.contains("regraded: 3 scores changed"), "{again}");
 
@@ -124,7 +124,7 @@ fn a_changed_submission_keeps_its_old_score_and_removed_students_are_named() {
     assert_contains(&page, &["<strong>0 → 3</strong>", "dora: 3 points"]);
     assert!(!text.contains("ann: "), "{text}");
 
-    // A regrade compares with the scores before it.
+    // A regrade compares its scores with those before it.
     let (_, other) = exam_with_changed_points(&class, &exam, -1);
     let text = class.graded(&other, &["--regrade"]);
     assert!(text.contains("  bob: 3 → 2\n"), "{text}");

@@ -1,4 +1,5 @@
-//! A CI system executes commands in a log. Nothing that a student chooses may become one.
+//! A CI system executes commands found in a log. Nothing a student chooses may become such a
+//! command.
 
 use std::process::{Command, Output};
 
@@ -6,10 +7,10 @@ use grader::printing::without_commands;
 
 use crate::harness::{TestClass, class_command, zip};
 
-/// A command of each kind. It is also a name of a file.
+/// A command of each kind. The text is also a valid file name.
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
 
-/// Panics if a command prints none of the names, or prints one as a command.
+/// Panics if a program prints none of the names, or prints one of them as a command.
 fn check(command: &mut Command) {
     let Output { stdout, stderr, .. } = command.env("GITHUB_ACTIONS", "true").output().unwrap();
     let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());

@@ -1,5 +1,5 @@
-//! A second run into the same folder: it has the lists of the first, lists every final grade that it
-//! changes, and the commands in its reports name the submission.
+//! A second run into the same folder uses the first run's lists and reports every final grade that
+//! it changes. The commands in its reports refer to the submission.
 
 use std::fs;
 
@@ -8,8 +8,8 @@ use crate::harness::{TestClass, assert_contains, cell, refusal, source, successf
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str =
     "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T12:00:00Z\npercent_per_day = 10\n";
-/// The roster says how late the submission is, that an extension of a day applies, and that somebody
-/// has handed in nothing.
+/// The roster says how late the submission is, that a one-day extension applies, and that somebody
+/// handed in nothing.
 const ROSTER: &str = "name,username,extension,datetime\n\
     Ann Lee,ann,1,2026-11-22T11:00:00Z\nZoe Z,zoe,,\n";
 const MANUAL: &str = "student,task,delta,comment,author\nann,camera,-1,copied,Tess\n";
@@ -20,7 +20,7 @@ struct GradedTwice {
 }
 
 impl GradedTwice {
-    /// Grades a class with a policy, a roster and points by hand. Every list is deleted afterwards.
+    /// Grades a class with a policy, a roster and manual points. Deletes every list afterwards.
     fn new() -> Self {
         let class = TestClass::named("class")
             .with_reference("ann")
@@ -73,7 +73,7 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     let [text, _] = graded.run(&dropped);
     let changed = "1 final grade changed (changed: the roster, the table of points by hand)";
     assert!(text.contains(changed), "{text}");
-    // A repeated run lists the same, and needs no flag.
+    // A repeated run prints the same and needs no flag.
     let [again, error] = graded.run(&[]);
     assert!(again.contains(changed), "{again}");
     assert!(!error.contains("points by hand"), "{error}");
@@ -156,7 +156,7 @@ fn points_by_hand_count_without_anything_that_can_be_graded() {
     assert_contains(&error, &["+99 points are out of range: 0 of"]);
 }
 
-/// Canvas's loose files are in no folder of their own, and the export may be an archive.
+/// Canvas's loose files aren't in a separate folder, and the export may be an archive.
 #[test]
 fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
     let class = TestClass::named("export");
@@ -174,7 +174,7 @@ fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
     assert!(report.replace("&#39;", "'").contains(&command), "{report}");
     let packed = unzip(&fs::read(archive).unwrap());
     assert_eq!(packed, [("sphere.rs".to_owned(), text.into_bytes())]);
-    // Students get none of it.
+    // Students don't get to see these commands.
     for file in [student.join("feedback.html"), out.join("hand-back.zip")] {
         let bytes = fs::read(file).unwrap();
         assert!(!String::from_utf8_lossy(&bytes).contains("submission.zip"));

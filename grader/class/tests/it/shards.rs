@@ -1,4 +1,4 @@
-//! Classes that are graded in shards, and properties of merged ones.
+//! Classes that are graded in shards, and properties of merged classes.
 
 use std::path::{Path, PathBuf};
 
@@ -60,7 +60,7 @@ fn an_estimate_grades_a_few_submissions_and_keeps_their_results() {
     assert!(successful_stdout(&graded).contains("4 graded"));
 }
 
-/// Merges shards, and returns the standard output without the folder.
+/// Merges shards. Returns the standard output without the folder's path.
 fn merged(shards: &[PathBuf], out: &Path) -> String {
     merge(shards, out).replace(out.to_str().unwrap(), "OUT")
 }
@@ -68,8 +68,8 @@ fn merged(shards: &[PathBuf], out: &Path) -> String {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// With more shards than submissions, some shards are empty. A shard may also have the results of
-    /// somebody who has left the class.
+    /// With more shards than submissions, some shards are empty. A shard may also contain the
+    /// results of somebody who has left the class.
     #[test]
     fn shards_in_any_number_and_order_are_merged_to_the_same_files(
         class in stored_class(),
@@ -89,7 +89,7 @@ proptest! {
         let all = parts.keys().chain(whole.keys());
         let mut differ: Vec<&PathBuf> = all.filter(|file| parts.get(*file) != whole.get(*file)).collect();
         if stale {
-            // The page and the output list who has left.
+            // The page and the output list the people who have left.
             differ.retain(|file| *file != "class.html");
             prop_assert!(text_of_parts.contains("no longer in the input"), "{}", text_of_parts);
         } else {

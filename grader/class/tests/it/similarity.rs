@@ -1,4 +1,4 @@
-//! The input for similarity checkers, and the list of identical submissions.
+//! The input for similarity checkers and the list of identical submissions.
 
 use std::fs;
 use std::path::Path;
@@ -20,9 +20,9 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
     let class = TestClass::named("class")
         .with_reference("ann lee")
         .with_reference("bob")
-        // Comments and spaces are no difference.
+        // Comments and spaces don't make a difference.
         .with_replaced("bob/sphere.rs", "use glam", "// Bob O'Hara\n\nuse glam")
-        // An editor's byte order mark is no difference either.
+        // An editor's byte order mark doesn't either.
         .with_byte_order_mark("bob/camera.rs")
         .with_reference("carl")
         .with_replaced(
@@ -46,7 +46,7 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
         "  identical (same group): z1, z2\n",
     ];
     assert_contains(&text, &expected);
-    // Those who have written nothing are identical, too, and not worth a word.
+    // Students who wrote nothing are identical too, but that isn't worth reporting.
     assert!(!text.contains("identical: dora"), "{text}");
 
     let written = files_below(&folder);

@@ -1,4 +1,4 @@
-//! Random classes as they are after grading. Their files are written without grading, since these
+//! Random classes in the state after grading. Their files are written without grading, since these
 //! tests are about what happens to scores afterwards.
 
 use std::fs;
@@ -18,13 +18,13 @@ use serde_json::{Value, json};
 /// A graded submission.
 #[derive(Clone, Debug)]
 pub struct StoredEntry {
-    /// The points of each task; `None` if there was nothing to grade.
+    /// The points of each task. `None` if there was nothing to grade.
     pub points: Option<Vec<u32>>,
-    /// The number of its people.
+    /// The number of people who handed it in.
     pub people: usize,
     /// The hours between the due time, 2026-11-20 12:00 UTC, and the submission.
     pub hours_late: i64,
-    /// The points by hand that each of the people gets for the first task, if they are possible.
+    /// The manual points that each of the people gets for the first task, if they are possible.
     pub manual: i32,
     /// Whether an earlier version of the submission was graded, with no points.
     pub is_resubmitted: bool,
@@ -51,7 +51,7 @@ fn stored_entry() -> impl Strategy<Value = StoredEntry> {
 }
 
 impl StoredEntry {
-    /// Returns the points by hand, which may not leave the range of the first task's points.
+    /// Returns the manual points, limited to the range of the first task's points.
     pub fn possible_manual(&self) -> i32 {
         let most = RAYS.assignment.tasks[0].points;
         let sum = |points: &Vec<u32>| points[0].checked_add_signed(self.manual);
@@ -99,8 +99,8 @@ fn score(points: &[u32]) -> Value {
     json!({ "points": points.iter().sum::<u32>(), "max_points": max_points, "tasks": tasks })
 }
 
-/// Writes a part of the class, as a finished run leaves it. `stale` is an entry of somebody who has
-/// left the class since.
+/// Writes a shard of the class in the state after a finished run. `stale` is an entry of somebody
+/// who has since left the class.
 pub fn write_shard(folder: &Path, class: &[StoredEntry], shard: Option<Shard>, stale: bool) {
     let store = Store::new(folder);
     let all: Vec<(usize, &StoredEntry)> = class.iter().enumerate().collect();
@@ -172,7 +172,7 @@ fn write_entry(store: &Store, id: &str, people: Vec<Person>, entry: &StoredEntry
     store.save_result(&result, "key", 1).unwrap();
 }
 
-/// Writes all parts of a class, and returns their folders.
+/// Writes all shards of a class. Returns their folders.
 pub fn write_shards(root: &Path, class: &[StoredEntry], of: usize, stale: bool) -> Vec<PathBuf> {
     let write = |part: usize| {
         let folder = root.join(format!("{part}-of-{of}"));

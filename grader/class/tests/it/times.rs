@@ -5,7 +5,7 @@ use crate::harness::{TestClass, assert_contains, cell, source};
 const POLICY: &str = "[late]\ndue = 2026-10-20T23:59:00+02:00\ntimezone = 'Europe/Berlin'\n\
                       percent_per_day = 10\n";
 
-/// Grades a class whose submissions are one file each, with the policy and this list.
+/// Grades a class of single-file submissions with the policy and this list.
 fn grade(class: &TestClass, list: &str, text: &str) -> String {
     let exam = class.small_exam(&["camera.offset"]);
     class.graded_with(&exam, &[("policy", POLICY), (list, text)], &[])

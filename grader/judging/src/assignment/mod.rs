@@ -1,5 +1,5 @@
-//! Assignments as data: the tasks of each, their files and their points. Everything that depends on
-//! the number, the order or the names of the tasks derives it from here.
+//! Assignments as data: each one's tasks, their files and their points. Anything that depends on
+//! the number, order or names of the tasks is derived from here.
 
 mod rays;
 
@@ -20,8 +20,8 @@ pub struct Assignment {
     pub id: &'static str,
     /// The title for people.
     pub title: &'static str,
-    /// The folders in which people are expected to hand in the files, in order of preference. The
-    /// empty path is the submission's top level.
+    /// The folders where the files are expected to be handed in, in order of preference. The empty
+    /// path is the submission's top level.
     pub folders: &'static [&'static str],
     /// Names of the project's other folders. Files in them, at any depth, are never handed in.
     pub other_folders: &'static [&'static str],
@@ -48,7 +48,7 @@ pub struct TaskInfo {
     pub points: u32,
     /// The handout's page about the task.
     pub chapter: &'static str,
-    /// The clues for failures that say little by themselves.
+    /// The clues for failures that don't explain themselves.
     pub clues: TaskClues,
 }
 
@@ -60,17 +60,17 @@ pub struct TaskFile {
     /// The text of the starter's file.
     pub starter: &'static str,
     /// Declarations that other files use. If one is missing, the compiler reports errors in those
-    /// files instead.
+    /// files instead of this one.
     pub required_declarations: &'static [&'static str],
 }
 
-/// Clues to what is wrong with a task's code, for failures that say little by themselves.
+/// Clues to what is wrong with a task's code, for failures that don't explain themselves.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TaskClues {
-    /// For code with which not one ray hits anything. `None` if the task has no rays that can hit
-    /// something.
+    /// The clue for code whose rays never hit anything. `None` if the task has no rays that should
+    /// hit something.
     pub if_nothing_is_hit: Option<&'static str>,
-    /// For code that overflows the stack. `None` if nothing is known of the recursion.
+    /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,
 }
 
@@ -98,7 +98,7 @@ impl Assignment {
         self.tasks.iter().map(|task| task.points).sum()
     }
 
-    /// Returns the task with this id, or `None` if the assignment has no such task.
+    /// Returns the task with this id, or `None` if it isn't part of the assignment.
     pub fn find(&self, id: &str) -> Option<&'static TaskInfo> {
         self.tasks.iter().find(|task| task.id == id)
     }
@@ -113,7 +113,8 @@ impl Assignment {
     ///
     /// # Panics
     ///
-    /// If the assignment has no such task. Ids in exam files are checked when the file is read.
+    /// If the task isn't part of the assignment. This can't happen for ids from exam files, which
+    /// are checked when the file is read.
     pub fn info(&self, task: Task) -> &'static TaskInfo {
         let info = self.find(task.id());
         info.unwrap_or_else(|| panic!("the assignment {} has no task {task}", self.id))
@@ -134,8 +135,8 @@ impl TaskInfo {
 }
 
 impl Task {
-    /// Returns the task that the id of an item or a mistake begins with, before the first dot,
-    /// whether an assignment has it or not.
+    /// Returns the task named in the id of an item or a mistake: the part before the first dot. The
+    /// assignment may not have such a task.
     pub fn in_id(id: &str) -> Option<Task> {
         let (task, _) = id.split_once('.')?;
         ArrayString::from(task).ok().map(Task)

@@ -9,7 +9,7 @@ use crate::sanitize::sanitize;
 /// Maximum length of a panic message, in characters.
 const MAX_PANIC_CHARS: usize = 2_000;
 
-/// Maximum number of nodes of a tree that are shown, because more would hide the rest of a report.
+/// Maximum number of a tree's nodes to show. More would bury the rest of a report.
 const MAX_NODES: usize = 40;
 
 /// Formats a submission's answer to one element of a question.

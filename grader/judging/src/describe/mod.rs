@@ -48,8 +48,8 @@ fn row(table: &dyn AnyTable, row: usize) -> String {
     }
 }
 
-/// Replaces each `{name}` of a sentence by the field of this name, and `{ray}` by the fields of a ray.
-/// Fields that do not exist are left out.
+/// Replaces each `{name}` in a sentence with the field of this name, and `{ray}` with the fields of
+/// a ray. Placeholders for missing fields are removed.
 fn fill(sentence: &str, records: &[&dyn Record]) -> String {
     let field = |name: &str| {
         records.iter().find_map(|record| {

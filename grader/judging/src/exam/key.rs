@@ -13,23 +13,23 @@ use serde::{Deserialize, Serialize};
 pub enum Key {
     /// Key of a table.
     Table {
-        /// The names of the quantities that are compared, in addition to whether the function
-        /// returns anything: fields of what it returns, or `unit_` and the name of a direction, for
-        /// its length.
+        /// The quantities to compare, in addition to whether the function returns anything: names
+        /// of fields of its result, or `unit_` and the name of a direction for that direction's
+        /// length.
         judged: Vec<String>,
         /// The expected row of each call.
         rows: ExpectedRows,
-        /// How the rows together earn credit.
+        /// How the rows' results are combined into credit.
         #[serde(default, skip_serializing_if = "Aggregate::is_default")]
         aggregate: Aggregate,
     },
     /// Key of a `Build` question: properties of the tree, and optionally its cost.
     Tree {
-        /// Properties to check. That the nodes form a tree is always checked.
+        /// Properties to check. Whether the nodes form a tree is always checked.
         checks: Vec<TreeCheck>,
-        /// SAH cost of the tree that an exact sweep builds by choosing the best split at every node
-        /// and stopping at the same leaf size. C_trav = C_isect = 1, and areas are divided by the
-        /// root's area. `None` if the cost is not checked.
+        /// SAH cost of the exact sweep's tree, which uses the best split at every node and the same
+        /// maximum leaf size. C_trav = C_isect = 1, and areas are divided by the root's area.
+        /// `None` if the cost isn't checked.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sweep_cost: Option<f64>,
     },
@@ -38,8 +38,9 @@ pub enum Key {
         /// The expected first hit at each position.
         #[serde(with = "packed")]
         hits: Vec<Option<Surface>>,
-        /// Additional correct answers, each with the index of its position. They exist where a ray
-        /// up to 1/2000 of a pixel away, along each axis, hits a different surface or none.
+        /// Additional correct answers, each with the index of its position. They exist where moving
+        /// the ray by up to 1/2000 of a pixel along each axis makes it hit a different surface or
+        /// nothing.
         #[serde(with = "packed")]
         alternatives: Vec<(u32, Option<Surface>)>,
     },
@@ -54,7 +55,7 @@ pub enum Key {
 }
 
 impl Key {
-    /// Returns the key of a table that judges these quantities and wants every row right.
+    /// Returns the key of a table that judges these quantities and requires every row to be right.
     pub fn table(judged: &[&str], rows: ExpectedRows) -> Key {
         Key::Table {
             judged: judged.iter().map(|name| (*name).to_owned()).collect(),
@@ -77,7 +78,7 @@ impl Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
     }
 
-    /// Returns a correct answer, or `None` if the answer is a tree: many different ones are right.
+    /// Returns a correct answer, or `None` for a tree, since many different trees are right.
     pub fn answer(&self) -> Option<Answer> {
         Some(match self {
             Key::Table { rows, .. } => rows.answer(),
@@ -98,14 +99,14 @@ impl Key {
     }
 }
 
-/// How the rows of a table together earn credit.
+/// How the results of a table's rows are combined into credit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Aggregate {
     /// Full credit if every row is right, and none otherwise.
     #[default]
     EveryRow,
-    /// The fewer rows are wrong, the more credit. A few wrong rows cost nothing.
+    /// The fewer wrong rows, the more credit. A few wrong rows cost nothing.
     ShareOfRows,
 }
 
@@ -115,17 +116,17 @@ impl Aggregate {
     }
 }
 
-/// The rows that a function is expected to return.
+/// The rows a function should return.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ExpectedRows {
     /// The directions of camera rays. Every ray starts at the origin, with range `[0, ∞)`.
     Rays(#[serde(with = "packed")] Vec<Vec3>),
-    /// The hits of rays.
+    /// The rays' hits.
     Hits(#[serde(with = "packed")] Vec<Option<Trace>>),
-    /// The intervals that rays spend inside a box.
+    /// The intervals the rays spend inside a box.
     Spans(#[serde(with = "packed")] Vec<Option<Interval>>),
-    /// Directions at a point of a surface.
+    /// Directions at a point on a surface.
     Directions(#[serde(with = "packed")] Vec<LocalDirection>),
 }
 
@@ -150,7 +151,7 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns whether the function returns something in a row.
+    /// Returns whether the function should return something in a row.
     pub fn is_present(&self, row: usize) -> bool {
         match self {
             ExpectedRows::Rays(rows) => row < rows.len(),
@@ -160,8 +161,8 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns the expected record of a row, or `None` if the function returns none, or if there is no
-    /// such row.
+    /// Returns the expected record of a row, or `None` if the function should return nothing or the
+    /// row doesn't exist.
     pub fn record(&self, row: usize) -> Option<Box<dyn Record>> {
         Some(match self {
             ExpectedRows::Rays(rows) => Box::new(camera_ray(*rows.get(row)?)),
@@ -226,7 +227,7 @@ fn camera_ray(dir: Vec3) -> Ray {
 }
 
 /// A check on a tree. The checks are independent of each other: where a check needs correct boxes,
-/// the judge computes them itself, so that a mistake costs points only once.
+/// the judge computes them itself, so that a mistake only costs points once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TreeCheck {
@@ -236,9 +237,9 @@ pub enum TreeCheck {
     Contains,
     /// No box exceeds the union of the primitives below it by more than 1e-4 of its diagonal.
     Tight,
-    /// The primitives were split: no leaf holds half of them or more.
+    /// The primitives were split: every leaf contains less than half of them.
     Split,
-    /// No leaf holds more than `max_leaf_size` primitives.
+    /// No leaf contains more than `max_leaf_size` primitives.
     LeafSize,
     /// No node with at most `max_leaf_size` primitives was split.
     Stops,

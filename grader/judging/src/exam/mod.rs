@@ -30,7 +30,7 @@ pub struct Exam {
     /// The known mistakes. The items' signatures refer to them by index.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mistakes: Vec<KnownMistake>,
-    /// The items in the order in which they are graded. An item comes after those that it needs.
+    /// The items, in grading order. An item comes after the items it needs.
     pub items: Vec<Item>,
 }
 
@@ -49,7 +49,7 @@ impl Exam {
         }
     }
 
-    /// Returns an exam with the items that `wanted` selects and the items that these need.
+    /// Returns an exam with the items that `wanted` selects and the items they need.
     pub fn with_needed_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let dependents = self.items.iter().filter(|item| wanted(item));
         let needed: Vec<&String> = dependents.flat_map(|item| &item.needs).collect();
@@ -77,7 +77,7 @@ pub struct Item {
     pub id: String,
     /// One sentence that says what a correct solution must do. Students read it as feedback.
     pub title: String,
-    /// The task to which the points belong.
+    /// The task the points belong to.
     pub task: Task,
     /// Points of the item.
     pub points: u32,
@@ -91,17 +91,17 @@ pub struct Item {
     pub needs: Vec<String>,
     /// The questions. The item's credit is that of its worst question.
     pub questions: Vec<ExamQuestion>,
-    /// The answers that known mistakes give, used to recognise the mistake behind a wrong answer.
+    /// The answers produced by known mistakes, used to recognise the mistake behind a wrong answer.
     #[serde(default, skip_serializing_if = "MistakeSignatures::is_empty")]
     pub signatures: MistakeSignatures,
 }
 
 impl Item {
-    /// Creates an item that needs no others, without texts and signatures.
+    /// Creates an item without texts, signatures or needed items.
     ///
     /// # Panics
     ///
-    /// If the id does not begin with a task.
+    /// If the id doesn't begin with a task.
     pub fn new(id: &str, points: u32, questions: Vec<ExamQuestion>) -> Self {
         Item {
             id: id.to_owned(),
@@ -125,8 +125,8 @@ impl Item {
         counts.sum()
     }
 
-    /// Returns the number by which people refer to an element, counted from 1 across all questions
-    /// of the item. A path-traced picture is one element, so all of its pixels share a number.
+    /// Returns the number shown to people for an element, counting from 1 across all questions of
+    /// the item. A path-traced picture is one element, so all of its pixels share a number.
     pub fn number(&self, question: usize, element: usize) -> usize {
         let before = self.questions[..question].iter();
         let before: usize = before.map(|question| question.question.count()).sum();
@@ -157,7 +157,7 @@ pub struct ExamQuestion {
     pub question: Question,
     /// The answer key, which never leaves the grader.
     pub key: Key,
-    /// Data for drawing the correct answer. It is neither sent to the probe nor judged.
+    /// Data for drawing the correct answer. It isn't sent to the probe and isn't judged.
     #[serde(default, skip_serializing_if = "DrawingData::is_none")]
     pub drawing_data: DrawingData,
 }
@@ -172,8 +172,8 @@ impl ExamQuestion {
         }
     }
 
-    /// Creates a question about a tree over these shapes. Its cost is judged if the exact sweep's is
-    /// given.
+    /// Creates a question about a tree over these shapes. The answer's cost is judged if
+    /// `sweep_cost` is given.
     pub fn tree(
         shapes: Vec<Shape>,
         max_leaf_size: u32,
@@ -188,12 +188,12 @@ impl ExamQuestion {
         ExamQuestion::new(question, Key::Tree { checks, sweep_cost })
     }
 
-    /// Returns a question with only this element, and its key. A question with a single element is
-    /// returned unchanged.
+    /// Returns this element and its key as a question. A question with a single element is returned
+    /// unchanged.
     ///
     /// # Panics
     ///
-    /// If the question has no such element.
+    /// If the element doesn't exist.
     pub fn single(&self, element: usize) -> ExamQuestion {
         ExamQuestion::new(
             question_subset(&self.question, element..element + 1),

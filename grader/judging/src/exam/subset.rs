@@ -1,4 +1,4 @@
-//! Selects some elements of a question and of its key.
+//! Selects some elements of a question and its key.
 
 use std::ops::Range;
 

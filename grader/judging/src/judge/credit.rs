@@ -1,8 +1,8 @@
 //! Credit: the fraction of an item's points that an answer earns, in ten-thousandths. Only the
 //! final points are rounded.
 
-/// Number of wrong positions that cost nothing even in a small picture: correct formulas may differ
-/// in the last bits, and so leave cracks between triangles.
+/// Number of wrong positions that cost nothing even in a small picture. Correct formulas may differ
+/// in the last bits, which can leave cracks between triangles.
 pub(super) const TOLERATED_POSITIONS: usize = 5;
 
 /// A fraction of an item's points.
@@ -23,8 +23,8 @@ impl Credit {
     }
 
     /// Returns the credit if `wrong` of `of` positions are wrong. The steps distinguish rounding,
-    /// cracks, wrong edges and large wrong areas. Credit depends on the number of wrong positions,
-    /// because small changes that fix nothing could raise a similarity score.
+    /// cracks, wrong edges and large wrong areas. Credit depends on the number of wrong positions
+    /// rather than on a similarity score, which could be raised by small changes that fix nothing.
     pub fn by_count(wrong: usize, of: usize) -> Self {
         if of == 0 {
             Credit::NONE

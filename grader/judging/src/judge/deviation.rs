@@ -1,4 +1,4 @@
-//! Deviations: the errors of an answer, as multiples of their tolerances.
+//! Deviations: the errors in an answer, as multiples of their tolerances.
 
 use std::collections::BTreeMap;
 
@@ -10,8 +10,8 @@ use crate::types::multiple::in_units_of;
 /// The error of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// The tolerance to which the error is compared. `None` for errors without a size: hit or miss,
-    /// a panic, or nodes that do not form a tree.
+    /// The tolerance the error is compared to. `None` for errors without a size: hit or miss, a
+    /// panic, or nodes that don't form a tree.
     pub threshold: Option<Threshold>,
     /// The error as a multiple of the tolerance. Values up to 1 are correct. Never NaN. If there is
     /// no threshold, the value is 0 or infinite.
@@ -19,12 +19,12 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The deviation of a correct answer to which no tolerance applies.
+    /// The deviation of a correct answer without a tolerance.
     pub const RIGHT: Deviation = Deviation {
         threshold: None,
         value: 0.0,
     };
-    /// The deviation of a wrong answer to which no tolerance applies.
+    /// The deviation of a wrong answer without a tolerance.
     pub const WRONG: Deviation = Deviation {
         threshold: None,
         value: f64::INFINITY,
@@ -54,7 +54,7 @@ pub struct Measurement {
     /// The error. If some wrong positions are tolerated, the worst ones are skipped, and this is
     /// the largest error of the rest.
     pub deviation: Deviation,
-    /// The number of wrong positions, if they are counted.
+    /// The number of wrong positions as a deviation, if they are counted.
     pub count: Option<Deviation>,
 }
 
@@ -68,7 +68,7 @@ impl Measurement {
         }
     }
 
-    /// Measures the positions of a picture, of which `allowed` may be wrong.
+    /// Measures the positions of a picture. Up to `allowed` positions may be wrong.
     pub(super) fn of_positions(
         mut positions: Vec<Deviation>,
         allowed: usize,
@@ -90,7 +90,7 @@ impl Measurement {
     }
 }
 
-/// Returns the largest deviation for each threshold, for a table in which every element must be
+/// Returns the largest deviation for each threshold, for a table where every element must be
 /// correct.
 pub(super) fn worst_by_threshold(
     deviations: impl IntoIterator<Item = Deviation>,
@@ -154,8 +154,8 @@ mod tests {
         assert_eq!(fine.count.map(|count| count.value), Some(1.0));
         assert!(fine.deciding_deviation().is_right());
 
-        // Three positions are wrong where two may be. The smallest of their errors is 1.2, which is
-        // less than the ratio of the counts, 1.5.
+        // Three positions are wrong, and two may be. The smallest of the three errors is 1.2, which
+        // is less than 1.5, the ratio of the counts.
         let wrong = measured(&[0.1, 9.0, 1.2, f64::INFINITY]);
         assert_eq!(
             wrong.deciding_deviation(),

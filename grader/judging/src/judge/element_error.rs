@@ -1,22 +1,23 @@
-//! The error of a single element, in words. It does not affect points.
+//! The error of a single element, in words. It doesn't affect points.
 
 use protocol::Answer;
 
 use super::{Deviation, FailureKind, Measurement, judge, measure, mismatches};
 use crate::exam::ExamQuestion;
 
-/// Returns what is wrong with the answer to one element, and by how much, such as "distance; the
-/// error is 12 times the tolerance". Returns `None` if it is correct.
+/// Describes the error in the answer to one element and its size, such as "distance; the error is
+/// 12 times the tolerance". Returns `None` if it is correct.
 ///
 /// # Panics
 ///
-/// If the question has no such element.
+/// If the element doesn't exist.
 pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -> Option<String> {
     let Some(answer) = answer.single(element) else {
         return Some("there is no answer".to_owned());
     };
     let question = question.single(element);
-    // A picture may be wrong at some positions; this asks about one of them.
+    // A picture passes with a few wrong positions, but this position should be reported if it is
+    // wrong.
     if let Some(mismatches) = mismatches(&question, &answer) {
         let mismatch = mismatches.into_iter().flatten().next()?;
         let what = mismatch.aspect.name();
@@ -40,7 +41,7 @@ pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -
     })
 }
 
-/// Appends the size of the error, if it has one.
+/// Appends the size of the error, if any.
 fn with_size(what: &str, deviation: f64) -> String {
     if !(deviation > 1.0 && deviation.is_finite()) {
         return what.to_owned();
@@ -78,7 +79,7 @@ mod tests {
         }
     }
 
-    /// A miss, and a hit at this distance.
+    /// Returns a miss followed by a hit at this distance.
     fn answer(distance: f32) -> Answer {
         Answer::Hits(vec![
             ElementOutcome::Value(None),
@@ -93,15 +94,15 @@ mod tests {
         assert_eq!(element_error(&question, &answer(2.0), 1), None);
         let error = element_error(&question, &answer(2.002), 1).expect("this is wrong");
         assert!(error.starts_with("distance; the error is "), "{error}");
-        // The other element is correct, whatever this one is.
+        // The other element is correct regardless of this one.
         assert_eq!(element_error(&question, &answer(2.002), 0), None);
         let none = Answer::Hits(Vec::new());
         let error = element_error(&question, &none, 1);
         assert_eq!(error.as_deref(), Some("there is no answer"));
     }
 
-    /// Returns a picture of which both rays hit a wall. At the position `alternative`, a miss is correct
-    /// as well.
+    /// Returns a picture whose two rays both hit a wall. At the position `alternative`, a miss is
+    /// correct too.
     fn picture_of_a_wall(alternative: u32) -> ExamQuestion {
         let wall = Surface {
             depth: 2.0,

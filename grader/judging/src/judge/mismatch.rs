@@ -1,5 +1,4 @@
-//! Mismatches: the wrong positions of a picture, from which a mask is drawn. They do not affect
-//! points.
+//! Mismatches: the wrong positions of a picture, used to draw its mask. They don't affect points.
 
 use arrayvec::ArrayVec;
 
@@ -15,11 +14,11 @@ pub struct Mismatch {
     pub deviation: f64,
 }
 
-/// The deviations at one position of a picture, or `None` if there is no answer.
+/// The deviations at one position of a picture, or `None` if the answer is missing.
 pub(super) type Position = Option<ArrayVec<(Aspect, Deviation), 4>>;
 
 impl Mismatch {
-    /// Returns the first error at a position, if there is one.
+    /// Returns the first error at a position, if any.
     pub(super) fn first_at(position: &Position) -> Option<Self> {
         let Some(deviations) = position else {
             return Some(Mismatch {
@@ -38,8 +37,8 @@ impl Mismatch {
 /// Kinds of errors at a position, the most serious first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Aspect {
-    /// The answer is missing: the code panicked at the position, or the position was skipped after
-    /// earlier panics.
+    /// The answer is missing because the code panicked at this position, or the position was
+    /// skipped after earlier panics.
     NoAnswer,
     /// The answer is a hit instead of a miss, or a miss instead of a hit.
     HitOrMiss,
@@ -56,7 +55,7 @@ pub enum Aspect {
 }
 
 impl Aspect {
-    /// Returns the name for people.
+    /// Returns the human-readable name.
     pub fn name(self) -> &'static str {
         match self {
             Aspect::NoAnswer => "no answer",

@@ -1,4 +1,4 @@
-//! Compares answers with keys. This module is pure, and the only one that awards credit.
+//! Compares answers with keys. This module is pure and the only one that awards credit.
 
 mod credit;
 mod deviation;
@@ -32,9 +32,9 @@ pub use threshold::Threshold;
 /// The result of one question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
-    /// Fraction of the item's points that the answer earns.
+    /// The fraction of the item's points that the answer earns.
     pub credit: Credit,
-    /// The first error, if there is one.
+    /// The first error, if any.
     pub failure: Option<Failure>,
 }
 
@@ -45,7 +45,7 @@ pub struct Failure {
     pub element: usize,
     /// The kind of error.
     pub kind: FailureKind,
-    /// The number of wrong elements and the number of all elements, if they were counted.
+    /// The number of wrong elements and the total, if they were counted.
     pub count: Option<(usize, usize)>,
 }
 
@@ -63,7 +63,7 @@ pub enum FailureKind {
     },
     /// The submission's code panicked.
     Panicked(Panic),
-    /// The answer is well formed, but it is not an answer to this question.
+    /// The answer is well formed, but doesn't belong to this question.
     Protocol(String),
 }
 
@@ -91,15 +91,15 @@ impl Judgement {
 
 /// An answer and its key.
 trait Comparison {
-    /// Returns the credit of the answer and its first error.
+    /// Returns the answer's credit and its first error.
     fn judge(&self) -> Judgement;
 
     /// Returns the deviations of all checks on the answer. All of them are correct if and only if
     /// [`judge`](Comparison::judge) gives full credit.
     fn measure(&self) -> Vec<Measurement>;
 
-    /// Returns the deviation of each quantity at each position of a picture. Returns `None` if there is
-    /// no picture.
+    /// Returns the deviation of each quantity at each position of a picture. Returns `None` if the
+    /// question doesn't ask for a picture.
     fn positions(&self) -> Option<Vec<Position>> {
         None
     }
@@ -113,7 +113,7 @@ pub fn judge(question: &ExamQuestion, answer: &Answer) -> Judgement {
     }
 }
 
-/// Returns whether the correct answer to the first row is correct in every other row.
+/// Returns whether the first row's correct answer is correct for every other row too.
 pub fn one_row_answers_all(asked: &ExamQuestion) -> bool {
     let Some(answer) = asked.single(0).key.answer() else {
         return false;
@@ -122,8 +122,7 @@ pub fn one_row_answers_all(asked: &ExamQuestion) -> bool {
     others.all(|other| judge(&other, &answer).credit == Credit::FULL)
 }
 
-/// Returns the deviations of the answer to one question. [`judge`] bases its decision on the same
-/// numbers.
+/// Returns the deviations of the answer to one question. [`judge`] decides from the same numbers.
 pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
     match comparison(question, answer) {
         Some(comparison) => comparison.measure(),
@@ -132,8 +131,8 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
 }
 
 /// Returns the error at each position of a picture, in the order of the question's elements.
-/// [`judge`] bases its decision on the same numbers. Returns `None` if the question does not ask
-/// for a picture, or if the answer has the wrong size.
+/// [`judge`] decides from the same numbers. Returns `None` if the question doesn't ask for a
+/// picture, or if the answer has the wrong size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
     let positions = comparison(question, answer)?.positions()?;
     Some(positions.iter().map(Mismatch::first_at).collect())
@@ -181,7 +180,7 @@ fn comparison<'a>(
             max_wrong_pixels: *allowed,
             answer,
         }),
-        // An exam whose key does not fit its question is rejected when it is loaded.
+        // Unreachable: an exam whose key doesn't fit its question is rejected when it is loaded.
         (Key::FirstHits { .. } | Key::Tree { .. } | Key::Radiance { .. }, ..) => return None,
     })
 }

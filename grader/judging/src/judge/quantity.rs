@@ -1,4 +1,4 @@
-//! The quantities of a row that are compared, each with its own tolerance: fields, and the lengths of
+//! The quantities compared in each row, each with its own tolerance: fields and the lengths of
 //! directions.
 
 use protocol::{Record, Value};
@@ -6,7 +6,7 @@ use protocol::{Record, Value};
 use super::{Deviation, FailureKind, Threshold};
 use crate::types::{self, FieldType, UnitLength};
 
-/// The beginning of the name of a quantity that is the length of a direction.
+/// The prefix of a quantity's name if the quantity is the length of a direction.
 const UNIT: &str = "unit_";
 
 /// A quantity of the rows of a table.
@@ -15,12 +15,12 @@ pub(crate) struct Quantity {
     name: &'static str,
     /// The index of the field.
     field: usize,
-    /// Whether only the length of the field is looked at, which is a direction.
+    /// Whether only the length of the field, which is a direction, is compared.
     is_unit_length: bool,
 }
 
 impl Quantity {
-    /// Returns the quantity of this name, if one of the fields with these names has it.
+    /// Returns the quantity of this name, or `None` if none of the fields `names` provides it.
     pub(crate) fn named(quantity: &str, names: &'static [&'static str]) -> Option<Self> {
         let direction = quantity.strip_prefix(UNIT);
         let field = names
@@ -44,7 +44,7 @@ impl Quantity {
         })
     }
 
-    /// Calls `with` with the quantity of a record.
+    /// Calls `with` with a record's value of the quantity.
     fn with<T>(self, record: &dyn Record, with: impl FnOnce(&dyn FieldType) -> T) -> T {
         let value = record.value(self.field);
         if let Value::Direction(direction) = value
@@ -55,7 +55,7 @@ impl Quantity {
         with(&*types::of(&value))
     }
 
-    /// Returns how far the quantity deviates from the expected one.
+    /// Returns the quantity's deviation from its expected value.
     pub(super) fn deviation(self, got: &dyn Record, wanted: &dyn Record, scale: f32) -> Deviation {
         let wanted = wanted.value(self.field);
         self.with(got, |value| Deviation {

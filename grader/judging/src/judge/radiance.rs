@@ -1,6 +1,5 @@
 //! Compares path-traced pictures with the key. Both use common random numbers: the framework draws
-//! every random number from the stream that was used when the key was recorded, so there is no
-//! noise to tolerate.
+//! every random number from the stream used to record the key, so no tolerance for noise is needed.
 
 use std::iter;
 
@@ -17,7 +16,7 @@ use crate::types::multiple::in_units_of;
 /// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
 /// expected pixel.
 pub(super) const RELATIVE_TOLERANCE: f32 = 0.01;
-/// Minimum brightness from which a tolerance is computed. Darker pixels use this brightness.
+/// Minimum brightness for computing a tolerance. Darker pixels use this brightness.
 const MIN_BRIGHTNESS: f32 = 0.01;
 
 /// A path-traced picture and its key.
@@ -51,7 +50,7 @@ impl Comparison for Radiance<'_> {
 }
 
 impl Radiance<'_> {
-    /// Returns the deviation of each pixel, or `None` if there are not as many as in the key.
+    /// Returns the deviation of each pixel, or `None` if their number differs from the key's.
     fn deviations(&self) -> Option<impl Iterator<Item = Deviation>> {
         let got = self.answer.value()?;
         let pixels = got.iter().zip(self.pixels);

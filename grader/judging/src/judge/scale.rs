@@ -1,11 +1,11 @@
-//! The scale of a question: how large the numbers are with which an answer is computed. Rounding
-//! errors grow with them, so lengths are compared relative to the scale, never absolutely.
+//! The scale of a question: the magnitude of the numbers an answer is computed from. Rounding
+//! errors grow with it, so lengths are compared relative to the scale, never absolutely.
 
 use protocol::{AnyTable, Record, Value};
 
 use crate::types;
 
-/// The scale where nothing has a position in space: the length of directions.
+/// The scale of questions without positions in space: the length of a direction.
 const UNIT: f32 = 1.0;
 
 /// The scales of a table's rows.
@@ -23,8 +23,8 @@ impl<'a> Scales<'a> {
         }
     }
 
-    /// Returns the scale of a row: the largest of the distance that is expected there, and the coordinates
-    /// of the arguments and of the subject.
+    /// Returns the scale of a row: the largest of the distance expected there and the coordinates
+    /// of the arguments and the subject.
     pub(crate) fn of_row(&self, row: usize, expected: Option<&dyn Record>) -> f32 {
         let input = self.table.input(row);
         let input = input.as_deref().and_then(largest_coordinate);

@@ -1,4 +1,4 @@
-//! Compares the rows of tables with the key: one comparison for all functions.
+//! Compares the rows of tables with the key. All functions share this comparison.
 
 use std::iter;
 
@@ -14,7 +14,8 @@ use super::{
 use crate::describe;
 use crate::exam::{Aggregate, ExamQuestion, ExpectedRows, Key};
 
-/// The rows of an answer and their key. Every row must be right. In a picture, some may be wrong.
+/// The rows of an answer and their key. Every row must be right, except in a picture, where a few
+/// may be wrong.
 pub(crate) struct TableAnswer<'a> {
     table: &'a dyn AnyTable,
     scales: Scales<'a>,
@@ -24,7 +25,7 @@ pub(crate) struct TableAnswer<'a> {
     rows: Vec<Returned<'a>>,
 }
 
-/// One row: what the function returned, and what it should have.
+/// One row: the function's result and the expected one.
 pub(crate) struct Row<'a> {
     pub(crate) got: Option<&'a dyn Record>,
     pub(crate) wanted: Option<Box<dyn Record>>,
@@ -48,8 +49,8 @@ pub(crate) fn judged_quantities(
 }
 
 impl<'a> TableAnswer<'a> {
-    /// Returns an answer and its key, or `None` if one of them is not for this question, or if the
-    /// question is not a table.
+    /// Returns an answer and its key. Returns `None` if one of them doesn't belong to this
+    /// question, or if the question isn't a table.
     pub(crate) fn new(question: &'a ExamQuestion, answer: &'a Answer) -> Option<Self> {
         let table = question.question.table()?;
         let Key::Table {
@@ -107,7 +108,7 @@ impl<'a> TableAnswer<'a> {
         }
     }
 
-    /// Returns the error in a row, if there is one.
+    /// Returns the error in a row, if any.
     fn failure(&self, row: &Row) -> Option<FailureKind> {
         let deviations = self.deviations(row);
         let wrong = deviations.iter().position(|one| !one.is_right())?;
@@ -210,17 +211,16 @@ impl Comparison for TableAnswer<'_> {
     }
 }
 
-/// The rows that are expected of a table.
+/// The rows expected in a table.
 pub(crate) struct ExpectedTable {
     /// The quantities that are compared.
     pub(crate) judged: Vec<Quantity>,
-    /// The record in each row, if there is one, and the row's scale.
+    /// Each row's record, if any, and the row's scale.
     pub(crate) rows: Vec<(Option<Box<dyn Record>>, f32)>,
 }
 
 impl ExpectedTable {
-    /// Returns the rows that are expected, or `None` if the question is not a table or its key is not
-    /// for it.
+    /// Returns the expected rows, or `None` if the question isn't a table or its key doesn't fit.
     pub(crate) fn new(question: &ExamQuestion) -> Option<Self> {
         let table = question.question.table()?;
         let Key::Table { judged, rows, .. } = &question.key else {
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn an_error_is_judged_by_the_scale_of_its_ray() {
         for from in [8.0, 800.0] {
-            // The ray is as short in both, but the coordinates are not as large.
+            // Both rays are equally short, but the second has smaller coordinates.
             let ray = Ray::new(Vec3::X * from, -Vec3::X);
             let shapes = vec![sphere(Vec3::X * (from - 2.0), 1.0)];
             let hits = ExpectedRows::Hits(vec![Some(HIT)]);
@@ -271,7 +271,7 @@ mod tests {
         }
     }
 
-    /// Returns a picture of one pixel, whose rays all lead down −z.
+    /// Returns a picture of one pixel whose rays all point along −z.
     fn pixel() -> ExamQuestion {
         let film = UVec2::ONE;
         let camera = PinholeCamera {

@@ -9,11 +9,11 @@ use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 use crate::types::{self, Tolerance, direction, length, uv};
 
-/// A threshold between correct and wrong. The steps of partial credit are not included, because
-/// they separate wrong answers from other wrong answers.
+/// A threshold between correct and wrong. The steps of partial credit aren't listed here, because
+/// they only distinguish degrees of wrong answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
-    /// The field of this name in a table.
+    /// The field with this name in a table.
     Field(&'static str, Tolerance),
     /// Length of a direction in a table.
     UnitLength,
@@ -31,13 +31,13 @@ pub enum Threshold {
     RadiancePixels,
     /// SAH cost of a tree.
     SahCost,
-    /// Distance by which a box extends beyond its contents.
+    /// How far a box extends beyond its contents.
     BoxTooLarge,
-    /// Distance by which a primitive extends beyond its box.
+    /// How far a primitive extends beyond its box.
     BoxTooSmall,
 }
 
-/// The thresholds that do not belong to a single field.
+/// The thresholds that don't belong to a single field.
 const OTHER: [Threshold; 10] = [
     Threshold::UnitLength,
     Threshold::PictureDepth,
@@ -96,7 +96,7 @@ impl Threshold {
         }
     }
 
-    /// Returns the value of the threshold, which corresponds to a deviation of 1.
+    /// Returns the threshold's value, which corresponds to a deviation of 1.
     pub fn limit(self) -> String {
         match self {
             Threshold::Field(_, Tolerance::Length) => {

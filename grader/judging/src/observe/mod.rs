@@ -1,7 +1,7 @@
-//! Reduces answers to observations, by which known mistakes are recognised.
+//! Reduces answers to observations, which are used to recognise known mistakes.
 //!
-//! Numbers are observed as multiples of the tolerances with which they are judged, so that a small
-//! scene does not make all mistakes look alike.
+//! Numbers are observed as multiples of their tolerances, so that mistakes don't all look alike in
+//! a small scene.
 
 mod tree;
 
@@ -68,14 +68,15 @@ fn observe_each<T>(
     let observed = outcomes.map(|(element, outcome)| match outcome {
         ElementOutcome::Value(value) => see(element, value),
         ElementOutcome::Panicked(panic) => ObservedAnswer::of_panic(&panic.message),
-        // Elements are skipped after panics.
+        // Elements are only skipped after panics.
         ElementOutcome::Skipped => last_panic.clone().unwrap_or(ObservedAnswer::Panicked),
     });
     observed.collect()
 }
 
-/// Observes a row. From a wrong distance, correct code computes a wrong position, normal and uv in one
-/// way or another: a normal may still be of length one, or not. So only the distance is observed then.
+/// Observes a row. If the distance is wrong, only the distance is observed: position, normal and uv
+/// are then wrong too, and how they are wrong depends on how the code is written (e.g. whether it
+/// normalises the normal), not on the mistake.
 fn observe_row(judged: &[Quantity], row: &Row) -> ObservedAnswer {
     let observe = |judged: &[Quantity], record| observe_record(judged, record, row.scale);
     let is_correct = |judged: &[Quantity]| {
@@ -95,7 +96,7 @@ fn observe_record(judged: &[Quantity], record: Option<&dyn Record>, scale: f32) 
     ObservedAnswer::Numbers(judged.iter().flat_map(numbers).collect())
 }
 
-/// Returns the defect that the judge finds in a tree.
+/// Returns the defect the judge finds in a tree.
 fn observe_tree(question: &ExamQuestion, tree: &Tree) -> ObservedAnswer {
     match (&question.key, &question.question) {
         (

@@ -1,4 +1,4 @@
-//! Tests of observed numbers: they are multiples of the tolerances of their own question.
+//! Tests of observed numbers, which are multiples of their own question's tolerances.
 
 use glam::{Vec2, Vec3};
 use protocol::{Fields, Geometry, Interval, Ray, Trace};
@@ -22,8 +22,8 @@ fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
     numbers.collect()
 }
 
-/// Asserts that each number of the wrong answer is six tolerances from that of the correct one, which is
-/// observed as the key says.
+/// Asserts that each number of the wrong answer is six tolerances away from the correct answer's,
+/// and that the correct answer is observed as the key says.
 fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
     assert_eq!(
         expected_elements(question),
@@ -37,8 +37,8 @@ fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
     }
 }
 
-/// The tolerance of each element is that of its own ray: the second one begins a hundred times farther
-/// away.
+/// The tolerance of each element is that of its own ray: the second ray starts a hundred times
+/// farther away.
 #[test]
 fn distances_are_multiples_of_the_tolerance_of_their_ray() {
     let ray = |x: f32| Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X);
@@ -105,8 +105,8 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
     assert_eq!(direction(4.0 * Vec3::Z), unit);
 }
 
-/// A normal that is computed from a wrong position has length one only if it is normalised, and both are
-/// usual. Which distance it belongs to is the same in both.
+/// A normal that is computed from a wrong position only has length one if it is normalised, and
+/// both ways of writing it are common. The wrong distance is the same in both.
 #[test]
 fn what_follows_from_a_wrong_distance_is_not_observed() {
     let expected = HIT;
@@ -139,7 +139,8 @@ fn what_follows_from_a_wrong_distance_is_not_observed() {
     ];
     assert!(!wrong[0].matches(&wrong[1]));
 
-    // Right normals are right, whatever the distance is, and wrong ones at the right distance differ.
+    // Right normals are observed as right at any distance, and wrong normals at the right distance
+    // differ.
     let right = of(&expected, Some(&expected));
     assert!(of(&farther(expected.normal), Some(&expected)).matches(&right));
     let at_right_distance = |normal| Trace { normal, ..expected };

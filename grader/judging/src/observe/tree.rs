@@ -1,6 +1,6 @@
-//! Observes wrong trees. Correct builders produce different trees, so neither nodes nor indices are
-//! compared, but the kind of the defect, which nodes have it, and amounts that do not depend on the
-//! order of nodes.
+//! Observes wrong trees. Correct builders produce different trees, so nodes and indices aren't
+//! compared. Instead, an observation is the kind of defect, the nodes affected, and amounts that
+//! don't depend on the order of nodes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,13 +12,13 @@ use crate::judge::tree::defect::TreeDefect;
 use crate::judge::tree::reached_nodes::{ReachedNode, reached_nodes};
 use crate::judge::tree::{containment_deviation, leaves_of_primitives, tightness_deviation};
 
-/// Returns a name and an amount for a defect that the judge found in a tree. Both are part of the
-/// signatures of known mistakes in exam files, so changing them makes existing exams recognise fewer
-/// mistakes.
+/// Returns a name and an amount for a defect that the judge found in a tree. Both are stored in
+/// exam files as signatures of known mistakes, so if you change them, existing exams recognise
+/// fewer mistakes.
 pub(super) fn defect(shapes: &[Shape], tree: &Tree, defect: &TreeDefect) -> (String, f32) {
     let what = defect.what();
     let nodes = || reached_nodes(shapes, tree).unwrap_or_default();
-    // Of other defects the indices are left out, which differ between submissions.
+    // For other defects, the indices are dropped because they differ between submissions.
     let words = match defect {
         TreeDefect::BoxTooSmall(_) => {
             return of_boxes(shapes, tree, &nodes(), what, containment_deviation);
@@ -47,8 +47,8 @@ pub(super) fn defect(shapes: &[Shape], tree: &Tree, defect: &TreeDefect) -> (Str
     (format!("{what}: {words}"), amount)
 }
 
-/// Returns which nodes have wrong boxes, in what way, and by how much the root's box differs from that
-/// of all shapes, as a multiple of the tolerance.
+/// Returns which nodes have wrong boxes, how they are wrong, and by how much the root's box differs
+/// from that of all shapes, as a multiple of the tolerance.
 fn of_boxes(
     shapes: &[Shape],
     tree: &Tree,
@@ -84,7 +84,7 @@ fn of_boxes(
         };
         excess(&of_all).value as f32
     });
-    // Rounding is no property of a mistake.
+    // Rounding isn't characteristic of a mistake.
     let amount = if amount > 1.0 { amount } else { 0.0 };
     (format!("{what}: {kinds}{manner}"), amount)
 }
@@ -137,8 +137,8 @@ fn siblings<'a>(nodes: &'a [ReachedNode<'a>]) -> BTreeMap<u32, &'a ReachedNode<'
         .collect()
 }
 
-/// Returns whether primitives are in no leaf or in several, and whether no other node is
-/// reached from the root.
+/// Describes whether primitives are in no leaf or in several, and whether the root is the only node
+/// reached.
 fn of_leaves(nodes: &[ReachedNode], tree: &Tree, primitives: usize) -> String {
     let counts = leaves_of_primitives(nodes, primitives);
     let missing = counts.iter().filter(|count| **count == 0).count();
@@ -157,7 +157,7 @@ fn of_leaves(nodes: &[ReachedNode], tree: &Tree, primitives: usize) -> String {
     format!("leaves:{missing}{repeated}{alone}")
 }
 
-/// Returns by how much leaves exceed the list of primitives.
+/// Describes how far leaves extend past the list of primitives.
 fn of_ranges(tree: &Tree) -> String {
     let leaves = tree.nodes.iter().filter(|node| node.is_leaf());
     let ends = leaves.map(|leaf| u64::from(leaf.start) + u64::from(leaf.size));
@@ -184,13 +184,13 @@ mod tests {
 
     use super::*;
 
-    /// Returns what is observed of a tree over four spheres in a row, in an order of its own, after a
-    /// change.
+    /// Returns the observation of a tree over four spheres in a row, listed in a different order,
+    /// after a change.
     fn defect_after(change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
         defect_by(&ALL_CHECKS, change)
     }
 
-    /// The same, if only these properties are checked.
+    /// Like `defect_after`, but checks only these properties.
     fn defect_by(checks: &[TreeCheck], change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
         let question = ExamQuestion::tree(row(4), 2, checks, None);
         let mut tree = valid_tree();
@@ -235,7 +235,7 @@ mod tests {
             let r = tree.nodes[2];
             (tree.nodes[0].min, tree.nodes[0].max) = (r.min + off, r.max + off);
         });
-        // One end is the sibling's, and the other is not.
+        // One end is the sibling's. The other isn't.
         assert_name("box too large: leaves", |tree| {
             tree.nodes[0].max = tree.nodes[2].max;
         });
@@ -247,7 +247,7 @@ mod tests {
         assert_name("box too small: interior nodes, empty", |tree| {
             (tree.nodes[1].min.y, tree.nodes[1].max.y) = (0.5, -0.5);
         });
-        // Only what all wrong boxes have in common is named.
+        // Only the properties shared by all wrong boxes are named.
         assert_name("box too small: leaves", |tree| {
             (tree.nodes[0].min, tree.nodes[0].max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
             tree.nodes[2].max.x = 5.0;
@@ -271,7 +271,7 @@ mod tests {
     fn the_amount_is_that_of_the_root_and_does_not_depend_on_other_nodes() {
         let amount = |change: fn(&mut Tree)| defect_after(change).map(|(_, amount)| amount);
         assert_eq!(amount(|tree| tree.nodes[2].max.x += 1.0), Some(0.0));
-        // Half of what is tolerated at the root is rounding.
+        // An excess of half the root's tolerance is treated as rounding.
         let with_rounding = amount(|tree| {
             tree.nodes[2].max.x += 1.0;
             tree.nodes[1].max.x += 3.5e-4;
@@ -280,7 +280,7 @@ mod tests {
         let diagonal = Vec3::new(7.0, 1.0, 1.0).length();
         let root = amount(|tree| tree.nodes[1].max.x += 1.0).unwrap();
         assert!((root * 1e-4 * diagonal - 1.0).abs() < 1e-3, "{root}");
-        // From this root, half of the primitives are reached; the amount is that of all.
+        // This root reaches half of the primitives, but the amount is computed for all of them.
         let part = defect_by(&[TreeCheck::Contains], |tree| {
             tree.root = 0;
             tree.nodes[0].max.x = 2.0;
@@ -308,7 +308,7 @@ mod tests {
         assert_name("leaves: one past the end", |tree| tree.nodes[2].start = 3);
         assert_name("leaves: far past the end", |tree| tree.nodes[2].size = 4);
         assert_name("leaves: unknown primitives", |tree| tree.order[0] = 77);
-        // Neither a longer list nor the range of an interior node makes a leaf end past the list.
+        // A longer list or the range of an interior node doesn't make a leaf extend past the list.
         assert_name("leaves: unknown primitives", |tree| {
             (tree.order[0], tree.nodes[1].start) = (77, 9);
             tree.order.push(0);

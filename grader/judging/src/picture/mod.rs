@@ -1,5 +1,5 @@
 //! Compares a submitted picture with the expected one for display. This shows the judge's findings
-//! and does not affect points.
+//! and doesn't affect points.
 //!
 //! Pixels are listed in the order of the question's elements: row by row from the bottom.
 
@@ -22,13 +22,14 @@ pub use worst_pixels::WorstPixel;
 pub struct Picture {
     /// Number of pixels, horizontally and vertically.
     pub film: UVec2,
-    /// The quantities that can be displayed. The one that shows the most serious error comes first.
+    /// The quantities that can be displayed, starting with the one that shows the most serious
+    /// error.
     pub layers: Vec<LayerComparison>,
     /// The error in each pixel.
     pub mask: Vec<MaskPixel>,
-    /// Number of positions that are judged. Each pixel of a picture of first hits has five.
+    /// Number of judged positions. In pictures of first hits, each pixel has five.
     pub positions: usize,
-    /// Number of positions at which each aspect is wrong, the most serious aspect first.
+    /// Number of positions where each aspect is wrong, the most serious aspect first.
     pub wrong_counts: Vec<(Aspect, usize)>,
     /// The worst pixels.
     pub worst_pixels: Vec<WorstPixel>,
@@ -59,7 +60,7 @@ pub fn asks_for_picture(question: &ExamQuestion) -> bool {
     grid(&question.question).is_some()
 }
 
-/// Compares a submitted picture with the expected one. Returns `None` if the question does not ask
+/// Compares a submitted picture with the expected one. Returns `None` if the question doesn't ask
 /// for a picture, or if the answer has the wrong size.
 pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     let (film, per_pixel) = grid(&question.question)?;
@@ -85,9 +86,9 @@ pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     })
 }
 
-/// Returns the layers of a submitted picture that is known to be correct, or `None` if there is no
-/// picture. Most pictures are correct, and for these, [`compare`] would return the same layers but
-/// take ten times as long.
+/// Returns the layers of a submitted picture that is known to be correct, or `None` if the question
+/// doesn't ask for a picture. Most pictures are correct. For these, [`compare`] would return the
+/// same layers but take ten times as long.
 pub fn submitted_picture(question: &ExamQuestion, answer: &Answer) -> Option<SubmittedPicture> {
     let (film, per_pixel) = grid(&question.question)?;
     let layers = paint::submitted_layers(question, answer, per_pixel)?;
@@ -106,7 +107,7 @@ fn mask_pixel(all_mismatches: &[Option<Mismatch>], surfaces: &[bool]) -> MaskPix
     }
 }
 
-/// Returns the film, and the number of positions per pixel.
+/// Returns the film size and the number of positions per pixel.
 fn grid(question: &Question) -> Option<(UVec2, usize)> {
     let is_radiance = matches!(question, Question::Radiance { .. });
     let per_pixel = if is_radiance { 1 } else { PIXEL_OFFSETS.len() };

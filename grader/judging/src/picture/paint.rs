@@ -11,13 +11,13 @@ pub type Colour = [u8; 3];
 
 /// Colour of a ray that hits nothing.
 const MISS_COLOUR: Vec3 = Vec3::new(0.13, 0.13, 0.16);
-/// Colour of a missing answer, or of NaN and infinity. No valid value has this colour.
+/// Colour of missing answers, NaN and infinity. No valid value has this colour.
 const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
-/// Factor by which differences are amplified.
+/// Amplification of differences.
 pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
-/// A comparison of the expected and the submitted picture in one quantity, such as depth. The
-/// colour of a pixel is the mean over its sample positions.
+/// A comparison of the expected and the submitted picture in one quantity, such as depth. A pixel's
+/// colour is the mean over its sample positions.
 #[derive(Clone, Debug)]
 pub struct LayerComparison {
     /// Human-readable name.
@@ -46,7 +46,7 @@ struct LayerSamples {
     colours: Vec<Vec3>,
 }
 
-/// Returns all layers of a picture. The one that shows the most serious error comes first.
+/// Returns all layers of a picture, starting with the one that shows the most serious error.
 pub(super) fn compare_layers(
     question: &ExamQuestion,
     answer: &Answer,
@@ -84,7 +84,7 @@ pub(super) fn submitted_layers(
     Some(layers.map(layer).collect())
 }
 
-/// Paints the expected picture, if there is one.
+/// Paints the expected picture, if any.
 fn wanted_layers(key: &Key) -> Vec<LayerSamples> {
     match key {
         Key::FirstHits { hits, .. } => hit_layers(hits, hits.iter().copied().map(Some)),
@@ -100,7 +100,7 @@ fn wanted_layers(key: &Key) -> Vec<LayerSamples> {
     }
 }
 
-/// Paints the submitted picture. Returns `None` if the answer is none.
+/// Paints the submitted picture. Returns `None` if the answer isn't a picture.
 fn got_layers(key: &Key, answer: &Answer) -> Option<Vec<LayerSamples>> {
     Some(match (key, answer) {
         (Key::FirstHits { hits, .. }, Answer::Hits(got)) => {
@@ -152,8 +152,8 @@ fn layer_showing(aspect: Aspect) -> &'static str {
     }
 }
 
-/// Paints first hits, or `None` where there is no answer. The depths of the expected hits `of_key`
-/// decide how bright a depth is.
+/// Paints first hits; `None` stands for a missing answer. Depths are scaled by those of the
+/// expected hits `of_key`.
 fn hit_layers(
     of_key: &[Option<Surface>],
     hits: impl Iterator<Item = Option<Option<Surface>>>,
@@ -177,7 +177,7 @@ fn hit_layers(
     ]
 }
 
-/// Returns a function from depth to grey, where the nearest depth is white.
+/// Returns a function from depth to grey. The nearest depth is white.
 fn depth_greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
     let depths = hits.iter().flatten().map(|surface| surface.depth);
     let (near, far) = depths.fold((f32::INFINITY, 0.0), |(near, far), depth| {
@@ -225,7 +225,7 @@ fn compare_layer(
     let differences = wanted.colours.iter().zip(&got.colours).zip(mismatches);
     let differences: Vec<Vec3> = differences
         .map(|((wanted, got), mismatch)| match mismatch {
-            // At an edge, an answer that differs from the expected one may also be correct.
+            // At an edge, an answer can differ from the expected one and still be correct.
             None => Vec3::ZERO,
             Some(_) => ((*got - *wanted).abs() * DIFFERENCE_GAIN).min(Vec3::ONE),
         })

@@ -48,7 +48,8 @@ fn mask_marks_exactly_the_wrong_pixels() {
 
 #[test]
 fn worst_pixels_are_sorted_and_spread_out() {
-    // All wrong pixels but the last are neighbours. Each error is larger than the one before.
+    // All wrong pixels except the last are neighbours, and each error is larger than the previous
+    // one.
     let picture = picture_with_errors_at(&[0, 1, 2, 99]).unwrap();
     let pixels: Vec<UVec2> = picture
         .worst_pixels

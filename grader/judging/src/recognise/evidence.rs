@@ -1,20 +1,20 @@
-//! A submission's answers in one task, and the known mistakes that explain them.
+//! A submission's answers in one task and the known mistakes that explain them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::exam::{Exam, Item};
 use crate::signatures::ObservedAnswer;
 
-/// The number of items that a mistake must fail if it gives no answers at all.
+/// The minimum number of items a mistake must fail to be named if it produces no answers at all.
 const MIN_FAILED_ITEMS: usize = 3;
-/// The same for a mistake beside others.
+/// The same minimum for a mistake that doesn't explain all answers on its own.
 const MIN_FAILED_ITEMS_OF_SEVERAL: usize = 5;
 
-/// The answers to the items of a task, beside those that known mistakes give.
+/// The answers to a task's items, together with the answers known mistakes would give.
 pub(super) struct Evidence<'a> {
     exam: &'a Exam,
     items: Vec<Observed<'a>>,
-    /// The mistakes that affect any of the items, in the order of the catalogue.
+    /// The mistakes that affect any of the items, in catalogue order.
     mistakes: BTreeSet<usize>,
 }
 
@@ -56,15 +56,16 @@ impl<'a> Evidence<'a> {
         self.with_enough_failures(causes, MIN_FAILED_ITEMS_OF_SEVERAL)
     }
 
-    /// Returns whether a mistake changes any answer to an item, and every answer is that of the mistake.
+    /// Returns whether a mistake changes any answer to an item and all of the submission's answers
+    /// are the mistake's.
     pub(super) fn explains(&self, mistake: usize, item: &Item) -> bool {
         let mut affected = self.affected(mistake);
         affected.any(|other| other.item.id == item.id && other.is_explained_by(&[mistake]))
     }
 
-    /// Returns the mistakes that give wrong answers. Too many mistakes end in a panic or an overflow,
-    /// so one that does nothing else must do so in this many items, and be the only one. If it panics
-    /// in a way that few others do, one item less suffices.
+    /// Returns the mistakes that give wrong answers. Many mistakes end in a panic or an overflow,
+    /// so a mistake that does nothing else must do so in at least `min_items` items and be the only
+    /// candidate. If it panics in a way that few others do, one item less is enough.
     fn with_enough_failures(&self, mut causes: Vec<usize>, min_items: usize) -> Vec<usize> {
         let hints: BTreeSet<&str> = causes.iter().map(|&mistake| self.hint(mistake)).collect();
         causes.retain(|&mistake| {
@@ -87,10 +88,11 @@ impl<'a> Evidence<'a> {
         mistakes.filter(|&mistake| explains_all(mistake)).collect()
     }
 
-    /// Returns the mistakes whose hint is in every pair that explains all answers, if in one of these
-    /// pairs each mistake explains an item alone. Otherwise the second mistake may only make up for
-    /// what the first does not explain, as it would with the answers of an unknown mistake. For the same
-    /// reason, three of five answers to the items that a mistake affects must be its own.
+    /// Returns the mistakes whose hint is in every pair that explains all answers, provided that in
+    /// one of these pairs each mistake explains an item on its own. Otherwise, the second mistake
+    /// may only fill in what the first doesn't explain, which it could also do for the answers of
+    /// an unknown mistake. For the same reason, at least three in five answers to the items a
+    /// mistake affects must be its own.
     fn causes_in_pairs(&self) -> Vec<usize> {
         let mut hints: Option<BTreeSet<&str>> = None;
         let mut members = BTreeSet::new();
@@ -118,15 +120,15 @@ impl<'a> Evidence<'a> {
         members.into_iter().collect()
     }
 
-    /// Returns whether two mistakes explain all answers, and not by leaving most of them open: where
-    /// both change an answer, anything can come out.
+    /// Returns whether two mistakes explain all answers, with most of them certain. An answer that
+    /// both mistakes change is open, because the result can be anything.
     fn is_explained_by_pair(&self, one: usize, other: usize) -> bool {
         let (mut certain, mut open) = (0, 0);
         for item in &self.items {
             if !item.is_explained_by(&[one, other]) {
                 return false;
             }
-            // With both mistakes, a number that both change is not what it is with one of them.
+            // If both mistakes change a number, the result differs from either one's.
             let alone = [one, other].map(|mistake| item.is_explained_by(&[mistake]));
             if alone[0] != alone[1] && item.is_changed_differently_by(one, other) {
                 return false;
@@ -138,14 +140,15 @@ impl<'a> Evidence<'a> {
         certain >= open
     }
 
-    /// Returns whether a mistake affects an item that another one leaves correct.
+    /// Returns whether a mistake affects an item that `other` leaves correct.
     fn affects_more_than(&self, mistake: usize, other: usize) -> bool {
         let mut affected = self.affected(mistake);
         affected.any(|item| !item.wrong.contains_key(&other))
     }
 
-    /// Returns the mistakes that explain every item that they affect, several and most of the wrong
-    /// ones, while no mistake with another hint explains these and every item that it affects itself.
+    /// Returns the mistakes that explain every item they affect. These must be several items and
+    /// most of the wrong ones, and no mistake with a different hint may explain them along with
+    /// every item that it affects itself.
     fn partial_causes(&self) -> Vec<usize> {
         let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
         let is_cause = |mistake: usize| {
@@ -170,8 +173,8 @@ impl<'a> Evidence<'a> {
         mistakes.filter(|&mistake| is_cause(mistake)).collect()
     }
 
-    /// Returns how many wrong answers are those of a mistake, and how many answers to the items that
-    /// it affects differ from it. Misses do not count as evidence: too many mistakes lead to them.
+    /// Returns how many wrong answers match a mistake's, and how many answers differ from it in the
+    /// items it affects. Misses are no evidence, because too many mistakes lead to them.
     fn agreement(&self, mistake: usize) -> (usize, usize) {
         let (mut agreeing, mut differing) = (0, 0);
         for item in self.affected(mistake) {
@@ -188,9 +191,10 @@ impl<'a> Evidence<'a> {
         (agreeing, differing)
     }
 
-    /// Returns whether items that a mistake leaves correct fail like those that it affects: a tree has
-    /// the same defect, or several items have no answer for the same reason. Then that has another
-    /// cause. In a single item, the same mistake in other code may give no answer.
+    /// Returns whether items a mistake leaves correct fail in the same way as those it affects: a
+    /// tree has the same defect, or several items have no answer for the same reason. If so, the
+    /// failures have a different cause. A single such item proves nothing, since the same mistake
+    /// in different code may give no answer.
     fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {
         let wrong: Vec<_> = self.wrong_answers(mistake).collect();
         let has_same_defect = |answer: &ObservedAnswer| {
@@ -213,13 +217,13 @@ impl<'a> Evidence<'a> {
         missing.count() > 1 || elsewhere.into_iter().flatten().any(has_same_defect)
     }
 
-    /// Returns whether a mistake gives wrong answers, and not only none at all.
+    /// Returns whether a mistake gives any wrong answers, rather than no answers at all.
     fn is_informative(&self, mistake: usize) -> bool {
         let mut wrong = self.wrong_answers(mistake);
         wrong.any(|answer| !answer.is_uninformative())
     }
 
-    /// Returns whether a mistake does more than to miss everything: it gives a wrong answer other than
+    /// Returns whether a mistake does more than miss everything: it gives a wrong answer other than
     /// a miss, or leaves a hit correct in an item that it affects.
     fn is_telling(&self, mistake: usize) -> bool {
         let mut affected = self.affected(mistake);
@@ -232,8 +236,8 @@ impl<'a> Evidence<'a> {
         })
     }
 
-    /// Returns whether no ray in the task hits anything with a mistake. Any code that finds nothing
-    /// answers like it.
+    /// Returns whether, with this mistake, no ray in the task hits anything. Any code that never
+    /// finds a hit gives the same answers.
     fn misses_everything(&self, mistake: usize) -> bool {
         self.items.iter().all(|item| {
             let wrong = item.wrong.get(&mistake);
@@ -266,8 +270,8 @@ impl Observed<'_> {
         !self.is_explained_by(&[])
     }
 
-    /// Returns whether each answer is the correct one where no mistake changes it, and otherwise made
-    /// of those of the mistakes.
+    /// Returns whether each answer can be explained by the mistakes: where none of them changes it,
+    /// it must be correct, and elsewhere it must be made of their answers.
     fn is_explained_by(&self, mistakes: &[usize]) -> bool {
         let correct = self.item.signatures.correct_answers.iter();
         let mut answers = self.answers.iter().zip(correct).enumerate();
@@ -282,8 +286,7 @@ impl Observed<'_> {
         })
     }
 
-    /// Returns whether there is an answer of which two mistakes change the numbers, each in its own
-    /// way.
+    /// Returns whether the two mistakes change the numbers of some answer differently.
     fn is_changed_differently_by(&self, one: usize, other: usize) -> bool {
         let (Some(by_one), Some(by_other)) = (self.wrong.get(&one), self.wrong.get(&other)) else {
             return false;
@@ -297,8 +300,8 @@ impl Observed<'_> {
         })
     }
 
-    /// Of the answers that two mistakes change, returns how many are those of one of them, and how many
-    /// are others, as is possible where both change them.
+    /// Counts the answers that the two mistakes change. Returns how many match one of the mistakes,
+    /// and how many match neither, which can happen where both change them.
     fn certain_and_open(&self, one: usize, other: usize) -> (usize, usize) {
         let wrong =
             |mistake: usize, element: usize| self.wrong.get(&mistake)?.get(&element).copied();

@@ -1,15 +1,16 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
-//! A false hint is worse than none, so a mistake is named only in three cases, and only at items to which
-//! every answer is that of the mistake. If it gives no answers at all, several items must fail as they do
-//! with it. If no ray hits anything with it, it is never named, since any code that finds nothing answers
-//! like it.
+//! A false hint is worse than none, so a mistake is only named in three cases, and only for items
+//! where every answer is the mistake's. If the mistake gives no answers at all, several items must
+//! fail the way they do with it. If it makes every ray miss, it is never named, because any code
+//! that finds nothing gives the same answers.
 //!
-//! 1. It alone explains all answers in the task.
-//! 2. It explains them together with one other mistake, and no other pair does without it. Most answers
-//!    must be those of one of the two: where both change an answer, anything can come out.
-//! 3. It explains every item that it affects, which are most of the wrong ones, and no other known
-//!    mistake explains these items. Other items of the task may be wrong for another reason.
+//! 1. It explains all answers in the task on its own.
+//! 2. It explains them together with one other mistake, and every pair that does includes it. Most
+//!    answers must match one of the two, because where both change an answer, the result can be
+//!    anything.
+//! 3. It explains every item it affects, these are most of the wrong items, and no other known
+//!    mistake explains them. Other items of the task may be wrong for another reason.
 
 mod evidence;
 
@@ -23,10 +24,11 @@ use crate::recognise::evidence::Evidence;
 use crate::signatures::{KnownMistake, NoAnswerReason, ObservedAnswer};
 
 /// Maximum number of mistakes to name for an item. If there are more, none is named, because a long
-/// list would not help.
+/// list wouldn't help.
 pub const MAX_MISTAKES: usize = 3;
 
-/// The number of items with rays that should hit something, from which on it is telling if none does.
+/// The minimum number of answered items with rays that should hit something before "nothing is ever
+/// hit" is reported.
 const MIN_ITEMS_WITHOUT_HITS: usize = 3;
 
 /// The observations of a submission's answers in one task.
@@ -34,14 +36,14 @@ const MIN_ITEMS_WITHOUT_HITS: usize = 3;
 pub struct Observations {
     /// The answers to the signature elements of each item, by item id.
     answers: BTreeMap<String, Vec<ObservedAnswer>>,
-    /// The number of answered items in which a ray should hit something.
+    /// The number of answered items where a ray should hit something.
     items_to_hit: usize,
-    /// Whether there is any answer other than that a ray misses.
+    /// Whether any answer is something other than a miss.
     has_other_than_miss: bool,
 }
 
 impl Observations {
-    /// Records the answers to an item, or the reason why there are none.
+    /// Records the answers to an item, or why they are missing.
     pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
         if let Ok(answers) = answers {
             self.items_to_hit += usize::from(can_be_hit(item));
@@ -67,15 +69,15 @@ impl Observations {
         self.answers.insert(item.id.clone(), observed);
     }
 
-    /// Returns whether all of a task's items were answered, and not one ray hits anything.
+    /// Returns whether all of a task's items were answered but no ray hits anything.
     pub fn misses_everything<'a>(&self, items: impl IntoIterator<Item = &'a Item>) -> bool {
         let to_hit = items.into_iter().filter(|item| can_be_hit(item)).count();
         let all_answered = self.items_to_hit == to_hit;
         all_answered && to_hit >= MIN_ITEMS_WITHOUT_HITS && !self.has_other_than_miss
     }
 
-    /// Returns the known mistakes that explain every answer to an item. There are several if the answers
-    /// do not distinguish them.
+    /// Returns the known mistakes that explain every answer to an item. If the answers cannot
+    /// distinguish several mistakes, all of them are returned.
     pub fn explain<'a>(&self, exam: &'a Exam, item: &Item) -> Vec<&'a KnownMistake> {
         let items = exam.items.iter().filter(|other| other.task == item.task);
         let observed =
@@ -84,7 +86,7 @@ impl Observations {
 
         let mut named = evidence.causes();
         named.retain(|&mistake| evidence.explains(mistake, item));
-        // Mistakes that no question distinguishes share a hint.
+        // Mistakes that no question can distinguish share a hint.
         let mut hints = BTreeSet::new();
         let mistakes = named.into_iter().map(|mistake| &exam.mistakes[mistake]);
         let named: Vec<_> = mistakes.filter(|m| hints.insert(&m.hint)).collect();
@@ -96,8 +98,8 @@ impl Observations {
     }
 }
 
-/// Returns whether one of an item's rays hits something, if the answers are correct. A picture does not
-/// count: it needs other tasks too, and may lack an answer because of them.
+/// Returns whether one of an item's rays should hit something. Pictures are ignored: they also need
+/// other tasks, which can be the reason they have no answer.
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
@@ -105,7 +107,7 @@ fn can_be_hit(item: &Item) -> bool {
     })
 }
 
-/// Returns whether a row of a table has another answer than that nothing is hit.
+/// Returns whether any row of a table is something other than a miss.
 fn has_other_than_miss(answer: &Answer) -> bool {
     let rows = answer.rows().unwrap_or_default();
     !rows

@@ -1,4 +1,4 @@
-//! The answers that follow from the keys of the practice exam, and errors in their elements.
+//! Answers derived from the keys of the practice exam, and errors to insert in their elements.
 
 use std::sync::LazyLock;
 
@@ -8,8 +8,8 @@ use protocol::{Answer, ElementOutcome, Interval, Panic};
 use super::{EXAM, HIT};
 use crate::exam::ExamQuestion;
 
-/// The questions, each with the answer that follows from its key. Trees are left out: many different
-/// ones are right.
+/// The questions, each with the answer derived from its key. Trees are left out because many
+/// different trees are right.
 pub static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| {
     let questions = EXAM.items.iter().flat_map(|item| &item.questions);
     questions
@@ -17,7 +17,7 @@ pub static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| 
         .collect()
 });
 
-/// A way in which an element is wrong.
+/// A kind of error in an element.
 #[derive(Clone, Copy, Debug)]
 pub enum Error {
     /// Numbers are too large by this fraction.

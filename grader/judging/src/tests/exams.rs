@@ -1,4 +1,4 @@
-//! Exams as data: numbers of elements, what is refused, and the mistake behind an answer.
+//! Exams as data: the numbering of elements, rejected exams, and the mistake behind an answer.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn parse(text: &str) -> Result<Exam, String> {
         .map_err(|error| error.to_string())
 }
 
-/// Returns the problem with an exam after a change, if there is one.
+/// Returns the problem with an exam after a change, if any.
 fn problem_after(exam: &Exam, change: impl FnOnce(&mut Exam)) -> Option<String> {
     let mut exam = exam.clone();
     change(&mut exam);
@@ -126,7 +126,7 @@ fn an_exam_in_another_format_is_refused_for_its_format_and_not_for_its_fields() 
 #[test]
 fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
     let ids = ["camera.corners", "camera.picture", "sphere.near_side"];
-    // The picture has all of its rays: as many as a film of the largest width and a height of 1.
+    // The picture has all of its rays: as many as a film of the maximum width and a height of 1.
     let items = EXAM.items.iter();
     let items = items.filter(|item| ids.contains(&item.id.as_str()));
     let exam = Exam {

@@ -11,7 +11,7 @@ use crate::exam::{ExamQuestion, Item, Key};
 use crate::recognise::Observations;
 use crate::signatures::NoAnswerReason;
 
-/// Returns the correct answer. A tree has none, and does not matter here.
+/// Returns the correct answer. Trees don't have a single one, but are irrelevant here.
 fn right_answer(question: &ExamQuestion) -> Answer {
     let answer = question.key.answer();
     answer.unwrap_or(Answer::Tree(ElementOutcome::Skipped))
@@ -37,8 +37,8 @@ fn is_picture(item: &Item) -> bool {
     item.questions.iter().all(of_first_hits)
 }
 
-/// Returns whether nothing is seen to be hit in a task of which one item has these answers, or none for
-/// this reason, while all other rays miss.
+/// Returns whether a task is reported to miss everything if one item has these answers, or none for
+/// this reason, and all other rays miss.
 fn misses_everything(
     items: &[&Item],
     one: &Item,
@@ -69,7 +69,8 @@ fn a_task_has_a_clue_for_code_that_hits_nothing_if_its_rays_can_hit_something() 
             let misses = |answers| misses_everything(&items, item, answers);
             assert_eq!(misses(Ok(missed.clone())), has_clue, "{}", item.id);
             assert_eq!(misses(Ok(right(item))), has_clue && !has_hits);
-            // What is not answered may be a hit. But a picture may lack an answer because of another task.
+            // A missing answer could have been a hit. A picture, however, may lack an answer
+            // because of another task.
             let unanswered = misses(Err(NoAnswerReason::Other));
             let is_missed = has_clue && (!has_hits || is_picture(item));
             assert_eq!(unanswered, is_missed, "{}", item.id);

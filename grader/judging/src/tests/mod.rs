@@ -33,7 +33,7 @@ pub fn sphere(center: Vec3, radius: f32) -> Shape {
     }
 }
 
-/// Returns a question about when these rays are in a box.
+/// Returns a question about the intervals these rays spend inside a box.
 pub fn boxes(min: Vec3, max: Vec3, rays: &[Ray]) -> Question {
     let times = Interval::AHEAD;
     let queries = rays.iter().map(|&ray| Query { ray, times });
@@ -47,7 +47,8 @@ static EXAM: LazyLock<Exam> = LazyLock::new(|| {
     file.unwrap().exam
 });
 
-/// Some items of the practice exam, with each kind of question and key: faster to read than all of it.
+/// Some items of the practice exam that cover each kind of question and key. They load faster than
+/// the whole exam.
 pub static PART: LazyLock<Exam> = LazyLock::new(|| {
     let mut exam = EXAM.clone();
     exam.items.retain(|item| {
@@ -72,7 +73,8 @@ pub static PART: LazyLock<Exam> = LazyLock::new(|| {
     exam
 });
 
-/// Reduces a picture of camera rays to a few pixels: its thousands of rays are half of the exam's text.
+/// Reduces a picture of camera rays to a few pixels. Its thousands of rays make up half of the
+/// exam's text.
 fn make_picture_of_rays_small(question: &mut ExamQuestion) {
     if let (
         Question::SampleRay(table),

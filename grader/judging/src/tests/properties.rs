@@ -20,7 +20,7 @@ fn any_error() -> impl Strategy<Value = Error> {
     ]
 }
 
-/// Returns distinct elements of an answer. With fewer numbers, there is a part of these elements.
+/// Returns distinct elements of an answer, one for each of these numbers or fewer.
 fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
     let mut elements: Vec<usize> = numbers.iter().map(|n| n % count(answer)).collect();
     elements.sort_unstable();
@@ -28,7 +28,7 @@ fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
     elements
 }
 
-/// Returns the credit of an answer in which these elements are wrong.
+/// Returns the credit of an answer where these elements are wrong.
 fn credit(question: &ExamQuestion, answer: &Answer, wrong: &[usize], how: Error) -> Credit {
     let mut answer = answer.clone();
     for &element in wrong {
@@ -86,9 +86,10 @@ fn without_a_right_element_an_answer_earns_nothing() {
     }
 }
 
-/// Questions of the same item may ask for the same thing in two sizes, so their answers may be alike in
-/// everything that the item compares. If one row answers a whole question, as with the length of a
-/// direction, so does that of any other question; and hits alone are a pattern that can occur twice.
+/// Questions of the same item may ask for the same thing in two sizes, so their answers may be
+/// equal in everything the item compares. Some questions cannot tell such answers apart either: if
+/// one row answers a whole question, as with the length of a direction, any other question's row
+/// does too, and a pattern of hits and misses can occur twice.
 #[test]
 fn answers_to_questions_of_other_items_do_not_pass() {
     let item = |question: &ExamQuestion| {
@@ -115,7 +116,7 @@ fn answers_to_questions_of_other_items_do_not_pass() {
     }
 }
 
-/// An error in one number must not hide behind a right one beside it.
+/// An error in one number must not be hidden by a correct number next to it.
 #[test]
 fn each_end_of_an_interval_and_each_component_of_a_direction_counts_alone() {
     let spoil: [fn(&mut Answer, usize, f32); 5] = [
@@ -187,7 +188,7 @@ fn with_ray(answer: &mut Answer, index: usize, change: impl Fn(&mut Ray)) {
     }
 }
 
-/// Each kind of table counts the errors that it measures: with random ones, a rare kind is hardly met.
+/// Tests each kind of table explicitly, because random tables would rarely be of a rare kind.
 #[test]
 fn tables_are_measured_as_they_are_judged() {
     let mut asked = BTreeSet::new();
@@ -208,8 +209,8 @@ fn tables_are_measured_as_they_are_judged() {
     assert_eq!(Vec::from_iter(asked), ["hits", "rays", "spans"]);
 }
 
-/// Pictures are few of the questions, so random ones would hardly meet them. The smallest of each kind is
-/// enough.
+/// Few questions are pictures, so a random choice would rarely pick one. The smallest of each kind
+/// is enough.
 #[test]
 fn pictures_are_measured_and_masked_as_they_are_judged() {
     let mut kinds = BTreeSet::new();
@@ -250,7 +251,7 @@ fn pictures_are_measured_and_masked_as_they_are_judged() {
     assert_eq!(Vec::from_iter(kinds), ["hits", "picture", "rays"]);
 }
 
-/// Says whether no measured error of an answer is too large.
+/// Returns whether all measured errors of an answer are small enough.
 fn is_tolerated(question: &ExamQuestion, answer: &Answer) -> bool {
     let measured = measure(question, answer);
     measured
@@ -262,7 +263,7 @@ fn is_picture(question: &ExamQuestion) -> bool {
     question.question.film().is_some()
 }
 
-/// Returns the name of the kind of an answer.
+/// Returns the name of an answer's kind.
 fn kind(answer: &Answer) -> &'static str {
     match answer {
         Answer::Rays(_) => "rays",

@@ -1,4 +1,4 @@
-//! Types of fields that are asked with, and that no function returns.
+//! Types of fields that occur only in questions, never in answers.
 
 use protocol::Value;
 

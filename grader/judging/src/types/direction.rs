@@ -33,8 +33,7 @@ impl FieldType for Direction {
     }
 }
 
-/// Returns the error of a direction, as a multiple of `tolerance`. The length of `got` does not
-/// matter.
+/// Returns the error of a direction, as a multiple of `tolerance`. The length of `got` is ignored.
 pub(crate) fn error(got: Vec3, wanted: Vec3, tolerance: f32) -> f64 {
     // f64 prevents overflow and underflow for all finite f32 vectors.
     let got = got.as_dvec3();

@@ -1,4 +1,4 @@
-//! Numbers of shapes and nodes, which are equal or wrong.
+//! Numbers of shapes and nodes, which are either equal or wrong.
 
 use protocol::Value;
 
@@ -20,7 +20,7 @@ impl FieldType for Index {
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
-        // Each number is far from the others.
+        // Keeps different numbers far apart.
         vec![self.0 as f32 / direction::TOLERANCE]
     }
 }

@@ -34,14 +34,14 @@ impl FieldType for Length {
 /// Returns the error of a length, as a multiple of `tolerance`, which is relative to `scale` or to
 /// the length itself, whichever is larger.
 pub(crate) fn error(got: f32, wanted: f32, scale: f32, tolerance: f32) -> f64 {
-    // ∞ − ∞ is NaN, which counts as infinitely far off.
+    // ∞ − ∞ is NaN, which is treated as infinitely far off.
     let limit = tolerance * wanted.abs().max(scale);
     in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
 /// Returns lengths in units of their tolerance.
 pub(super) fn in_tolerances(lengths: &[f32], scale: f32) -> Vec<f32> {
-    // Everything in a question can be at the origin.
+    // Avoid a tolerance of 0 if everything in a question is at the origin.
     let tolerance = (TOLERANCE * scale).max(f32::MIN_POSITIVE);
     lengths.iter().map(|length| length / tolerance).collect()
 }

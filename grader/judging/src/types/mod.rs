@@ -1,5 +1,5 @@
-//! The types of fields: how values of each type are compared, printed and observed. There is one file
-//! per type, and all functions use the same types.
+//! The types of fields: how values of each type are compared, printed and observed. Each type has
+//! its own file, and all functions use the same types.
 
 mod asked;
 pub(crate) mod direction;
@@ -40,8 +40,8 @@ pub(crate) trait FieldType {
         None
     }
 
-    /// Returns the error of the value, as a multiple of the tolerance. Never NaN; infinite if the
-    /// values cannot be compared. `scale` is that of the question.
+    /// Returns the error of the value, as a multiple of the tolerance. Never NaN, and infinite if
+    /// the values cannot be compared. `scale` is the question's.
     fn error(&self, _wanted: &Value, _scale: f32) -> f64 {
         f64::INFINITY
     }
@@ -55,11 +55,11 @@ pub(crate) trait FieldType {
 /// The tolerance of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tolerance {
-    /// That of lengths, relative to the scale of the question.
+    /// The tolerance of lengths, relative to the question's scale.
     Length,
-    /// That of unit vectors, as the length of their difference.
+    /// The tolerance of unit vectors, as the length of their difference.
     Direction,
-    /// That of texture coordinates.
+    /// The tolerance of texture coordinates.
     Uv,
 }
 

@@ -27,7 +27,7 @@ impl FieldType for Range {
     }
 
     fn in_tolerances(&self, scale: f32) -> Vec<f32> {
-        // All mistakes that give the range an end are alike.
+        // All mistakes that make the range finite should look alike.
         let Interval { min, max } = self.0;
         let end = if max.is_finite() { 0.0 } else { max };
         length::in_tolerances(&[min, end], scale)

@@ -1,4 +1,4 @@
-//! Lists of shapes, which are only asked about.
+//! Lists of shapes, which occur only in questions.
 
 use protocol::Shape;
 

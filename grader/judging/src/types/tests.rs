@@ -1,4 +1,4 @@
-//! Properties of every type of field that answers have.
+//! Properties of every field type that occurs in answers.
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -106,7 +106,7 @@ proptest! {
         prop_assert!(error(2.0).is_none_or(|error| error > 1.0));
     }
 
-    /// Signatures of known mistakes are made of these numbers.
+    /// The signatures of known mistakes consist of these numbers.
     #[test]
     fn values_that_differ_by_two_tolerances_are_observed_as_different(
         (correct, _) in pair(),

@@ -40,7 +40,7 @@ pub fn text(value: Vec2) -> String {
 /// Returns the error of texture coordinates, where u wraps around.
 pub(crate) fn error(got: Vec2, wanted: Vec2) -> f64 {
     let u = (got.x - wanted.x).abs();
-    // A difference of exactly one turn is not an error. A larger difference is, because u must be
+    // A difference of exactly one turn isn't an error. A larger difference is, because u must be
     // between 0 and 1.
     let u = u.min((1.0 - u).abs());
     let v = (got.y - wanted.y).abs();

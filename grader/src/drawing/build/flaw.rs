@@ -8,9 +8,9 @@ use crate::machine::printing::counted;
 
 /// The flaw of a tree.
 pub(super) struct Flaw<'a> {
-    /// The defect that the judge finds.
+    /// The defect found by the judge.
     pub(super) defect: Option<TreeDefect>,
-    /// The node that has it, or `None` if it concerns the whole tree.
+    /// The node with the defect, or `None` if it concerns the whole tree.
     pub(super) node: Option<&'a ReachedNode<'a>>,
     /// The primitives that are in no leaf.
     pub(super) missing: Vec<usize>,

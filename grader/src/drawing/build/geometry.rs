@@ -19,14 +19,14 @@ use crate::drawing::shapes;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// The maximum number of primitives that are drawn one by one.
+/// The maximum number of primitives to draw individually.
 const MAX_PRIMITIVES: usize = 250;
 /// The maximum number of marks. More marks would hide each other.
 const MAX_MARKS: usize = 60;
-/// The maximum number of primitives for which the first split is drawn.
+/// The first split is only drawn if there are at most this many primitives.
 const MAX_ROW_PRIMITIVES: usize = 32;
 
-/// Draws the flaw with its legend, if the flaw can be drawn.
+/// Draws the flaw and its legend, if the flaw can be drawn.
 pub(super) fn draw(
     sheet: &mut Sheet,
     criteria: &TreeCriteria,
@@ -50,7 +50,7 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the plane of `axis` and the one of the other two axes along which `size` is larger.
+/// Returns the plane of `axis` and the other axis with the larger `size`.
 fn plane_containing(axis: usize, size: DVec3) -> Plane {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     Plane::of(axis, if size[p] >= size[q] { p } else { q })
@@ -66,7 +66,7 @@ fn draw_boxes(sheet: &mut Sheet, shapes: &[Shape], below: &[usize], node: &Reach
     let (needs, has) = (node.tight_bounds, Bounds::of_node(node.node));
     let out = |axis: usize| {
         let out = [needs.min - has.min, needs.max - has.max].map(|out| out[axis].abs());
-        // A box with a NaN counts as infinitely wrong.
+        // A box with a NaN is treated as infinitely wrong.
         let [below, above] = out.map(|out| if out.is_nan() { f64::INFINITY } else { out });
         below.max(above)
     };
@@ -128,8 +128,8 @@ fn draw_partition(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw) {
     }
 }
 
-/// Draws the first split along one axis: the primitives of one child above the line, those of the
-/// other below it.
+/// Draws the first split along one axis, with one child's primitives above the line and the other's
+/// below.
 fn draw_row(
     sheet: &mut Sheet,
     criteria: &TreeCriteria,

@@ -11,11 +11,11 @@ use crate::drawing::sheet::{Sheet, Symbol};
 const ROW_HEIGHT: f64 = 19.0;
 /// The right end of the bars. The costs are to the right of it.
 const RIGHT: f64 = WIDTH - 52.0;
-/// The maximum number of nodes that are drawn in a level.
+/// The maximum number of nodes to draw in a level.
 const MAX_NODES: usize = 2_000;
 
-/// Draws the levels of a tree over `all` primitives, and the cost of each level. `total` is the
-/// cost of the whole tree, or NaN if it is unknown. Returns the symbol that marks the node `mark`.
+/// Draws the levels of a tree over `all` primitives and the cost of each level. `total` is the cost
+/// of the whole tree, or NaN if it is unknown. Returns the symbol that marks the node `mark`.
 pub(super) fn draw(
     sheet: &mut Sheet,
     nodes: &[LevelNode],

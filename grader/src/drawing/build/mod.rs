@@ -1,5 +1,5 @@
-//! Draws a tree that the submission built: its flaw, its upper levels, and below these the upper
-//! levels of the tree with the best split at every node, which the exam stores.
+//! Draws a tree built by the submission: its flaw, its upper levels and, below these, the upper
+//! levels of the tree with the best split at every node, which is stored in the exam.
 
 mod flaw;
 mod geometry;
@@ -20,7 +20,7 @@ use judging::judge::tree::{self, TreeCriteria};
 const TITLE: &str = "The tree by levels, each node as wide as its share of the primitives";
 
 /// Draws the submitted tree. It is judged by `criteria`. `sweep` is the exact sweep's tree, if the
-/// exam has it.
+/// exam contains it.
 pub(super) fn draw(
     criteria: &TreeCriteria,
     sweep: Option<&Sweep>,
@@ -67,7 +67,7 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
         return;
     };
     sheet.title("with the best split at every node");
-    // The exam stores only the upper levels, so the total is unknown.
+    // The exam only stores the upper levels, so the total is unknown.
     let total = f64::NAN;
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
@@ -95,7 +95,7 @@ fn from_left<'a>(nodes: &'a [ReachedNode]) -> impl Iterator<Item = &'a ReachedNo
     nodes.iter().rev()
 }
 
-/// Returns a node in the form in which the exam stores the exact sweep's tree.
+/// Returns a node in the format used by the exam for the exact sweep's tree.
 fn level_node(node: &ReachedNode, root: &ReachedNode) -> LevelNode {
     let cost = node.cost() / root.tight_bounds.area();
     LevelNode {
@@ -103,7 +103,7 @@ fn level_node(node: &ReachedNode, root: &ReachedNode) -> LevelNode {
         start: node.start as u32,
         count: node.count as u32,
         is_leaf: node.leaf_primitives.is_some(),
-        // The area of an empty node is not finite.
+        // The area of an empty node isn't finite.
         cost: if cost.is_finite() { cost } else { 0.0 } as f32,
     }
 }

@@ -13,9 +13,9 @@ use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws the sensor, the point where the ray should cross it, and the point where it does.
+/// Draws the sensor, the point where the ray should cross it and the point where it does.
 pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<Ray>) -> Drawing {
-    /// The smallest size, in page units, at which pixels can be distinguished.
+    /// The minimum size of a distinguishable pixel, in page units.
     const MIN_PIXEL: f64 = 9.0;
 
     let mut sheet = Sheet::default();
@@ -90,8 +90,8 @@ pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<R
     sheet.finish(title, caption(sensor, wanted, got))
 }
 
-/// Returns the points that the close-up shows: the corners of the sampled pixel and the expected
-/// and submitted points, with a margin.
+/// Returns the points that the close-up should show: the corners of the sampled pixel and the
+/// expected and submitted points, with a margin.
 fn closeup_points(sensor: &Sensor, pixel: UVec2, wanted: DVec2, got: Option<DVec2>) -> Vec<DVec2> {
     let corners = sensor.pixel_corners(pixel);
     let seen = corners.into_iter().chain([wanted]).chain(got);

@@ -27,15 +27,15 @@ pub(super) fn draw(
     })
 }
 
-/// Returns the point where a direction crosses the plane z = -1, or `None` if it does not point
+/// Returns the point where a direction crosses the plane z = -1, or `None` if it doesn't point
 /// forward.
 fn sensor_crossing(dir: DVec3) -> Option<DVec2> {
     let point = dir.truncate() / -dir.z;
     (dir.z < 0.0 && point.is_finite()).then_some(point)
 }
 
-/// Returns whether a ray's direction is about right. This only decides which view is drawn; the
-/// judge has finer tolerances.
+/// Returns whether a ray's direction is roughly right. This only decides which view is drawn. The
+/// judge uses smaller tolerances.
 fn is_direction_right(ray: &Ray, wanted: DVec3) -> bool {
     let dir = ray.dir.as_dvec3().normalize_or_zero();
     dir.distance(wanted) <= 1e-3

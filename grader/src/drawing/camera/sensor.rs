@@ -14,8 +14,8 @@ pub(super) struct Sensor {
 }
 
 impl Sensor {
-    /// Creates the sensor of a camera, as the task describes it. Returns `None` if it has no area
-    /// or no pixels.
+    /// Creates the sensor of a camera, as the task describes it. Returns `None` if it would be
+    /// empty.
     pub(super) fn new(camera: &PinholeCamera) -> Option<Sensor> {
         let height = 2.0 * (0.5 * f64::from(camera.vertical_fov)).to_radians().tan();
         let size = dvec2(f64::from(camera.aspect_ratio) * height, height);

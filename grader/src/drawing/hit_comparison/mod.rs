@@ -1,4 +1,4 @@
-//! The expected hit of a ray, and the submitted hit.
+//! The expected and the submitted hit of a ray.
 
 mod caption;
 
@@ -10,21 +10,21 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
 
-/// The number of an expected hit's shape if it is not known, because the key is that of a picture. No
-/// shape has it.
+/// The number for an expected hit's shape if it is unknown because the key is a picture's. No shape
+/// has this number.
 const UNKNOWN_SHAPE: u32 = u32::MAX;
 
 /// The submission's answer for one ray.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::drawing) enum HitAnswer {
-    /// The code panicked or gave no answer, so there is nothing to draw.
+    /// The code panicked or gave no answer, so nothing can be drawn.
     NoAnswer,
     Miss,
     Hit(Trace),
 }
 
 impl HitAnswer {
-    /// Returns the hit, if there is one.
+    /// Returns the hit, if any.
     pub(in crate::drawing) fn hit(self) -> Option<Trace> {
         match self {
             HitAnswer::Hit(hit) => Some(hit),
@@ -36,15 +36,15 @@ impl HitAnswer {
 /// The field of a hit that the drawing shows: the first judged field that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drawing) enum Focus {
-    /// Whether there is a hit, and its distance.
+    /// The presence and the distance of the hit.
     Distance,
-    /// The position, which need not be on the ray.
+    /// The position, which may not be on the ray.
     Position,
     /// The direction or the length of the normal.
     Normal,
     /// The texture coordinates.
     Uv,
-    /// The origin of the ray, which a hit stores.
+    /// The origin of the ray, as stored in the hit.
     Origin,
     /// The number of the shape.
     Shape,
@@ -61,8 +61,8 @@ pub(in crate::drawing) struct HitComparison {
 
 impl HitComparison {
     /// Compares one element of a question about rays. Returns `None` for any other question, for an
-    /// element that does not exist, and for a ray with an origin that is not finite or without a
-    /// valid direction.
+    /// element that doesn't exist, and for a ray whose origin isn't finite or whose direction is
+    /// invalid.
     pub(in crate::drawing) fn new(
         question: &ExamQuestion,
         element: usize,
@@ -104,7 +104,7 @@ impl HitComparison {
         })
     }
 
-    /// Returns the point at which the submitted hit is drawn.
+    /// Returns the point where the submitted hit is drawn.
     pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
         let hit = self.got.hit()?;
         Some(if self.focus == Focus::Position {
@@ -164,8 +164,8 @@ fn choose_focus(judged: &[&str], wanted: Option<&Trace>, got: &HitAnswer) -> Foc
     }
 }
 
-/// Returns whether two numbers differ noticeably. This only decides which field is drawn; the judge
-/// has finer tolerances.
+/// Returns whether two numbers differ noticeably. This only decides which field is drawn. The judge
+/// uses smaller tolerances.
 fn numbers_differ(a: f64, b: f64) -> bool {
     let is_close = (a - b).abs() <= 1e-4 * b.abs().max(1.0);
     !is_close

@@ -1,4 +1,4 @@
-//! Tests that every answer of a submission gives a small, well-formed drawing, or none.
+//! Tests that any answer of a submission gives a small, well-formed drawing or none.
 
 mod captions;
 
@@ -14,7 +14,7 @@ use super::{Drawing, draw};
 use crate::handed_out::RAYS;
 use crate::inputs::exam_source::ExamSource;
 
-/// The answer to no question with a drawing.
+/// An answer that fits no question with a drawing.
 const NO_PICTURE: Answer = Answer::Picture(ElementOutcome::Skipped);
 
 /// A size that no drawing reaches.

@@ -22,12 +22,12 @@ pub(super) enum NodeStatus {
     OutOfRange,
     /// The ray enters the box only beyond the closest hit so far.
     Beyond,
-    /// The row stands for several omitted rows; its `node` is their number.
+    /// The row stands for several omitted rows. Its `node` is their number.
     Elided,
 }
 
 impl NodeStatus {
-    /// Returns whether a correct traversal tests the node's box but does not enter the node.
+    /// Returns whether a correct traversal tests the node's box but doesn't enter the node.
     pub(super) fn is_skipped(self) -> bool {
         match self {
             NodeStatus::Missed | NodeStatus::OutOfRange | NodeStatus::Beyond => true,
@@ -61,7 +61,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Returns the layout of a traversal, or `None` if its nodes do not form a tree.
+    /// Returns the layout of a traversal, or `None` if its nodes don't form a tree.
     pub(super) fn new(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Layout> {
         let tree = Tree {
             nodes: traversal.nodes.to_vec(),
@@ -117,7 +117,7 @@ impl Layout {
         })
     }
 
-    /// Returns the deepest row on the path to the submitted hit's leaf: the node at which a correct
+    /// Returns the deepest row on the path to the submitted hit's leaf: the node where a correct
     /// traversal leaves the path, or the leaf itself.
     pub(super) fn got_row(&self) -> Option<&NodeRow> {
         let on_path = self.rows.iter().filter(|row| {
@@ -151,9 +151,9 @@ fn node_status(is_entered: bool, span: Option<Interval>, comparison: &HitCompari
     }
 }
 
-/// Chooses at most [`MAX_ROWS`] rows: first those on the path to a relevant leaf, then the children
-/// of nodes on such a path, then the others in order. Each run of omitted rows becomes a single
-/// row.
+/// Chooses at most [`MAX_ROWS`] rows: first the nodes on the path to a relevant leaf, then the
+/// children of nodes on such a path, then the others in order. Each run of omitted rows becomes a
+/// single row.
 fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<NodeRow> {
     // The end of a long path matters most.
     let rank = |index: usize| match matters(&rows[index]) {

@@ -1,5 +1,5 @@
-//! Draws a correct traversal of the exam's tree, which the exam stores: the nodes that it tests, in
-//! order, and the part of the ray inside the box of each.
+//! Draws a correct traversal of the exam's tree, as stored in the exam: the nodes it tests, in
+//! order, and the part of the ray inside each node's box.
 
 mod layout;
 mod rows;
@@ -19,7 +19,7 @@ use super::side::add_range_legend;
 use judging::drawing_data::TraversalStep;
 use layout::{Layout, NodeRow, NodeStatus};
 
-/// The exam's tree, and one correct traversal of it.
+/// The exam's tree and one correct traversal of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RecordedTraversal<'a> {
     /// The primitives, in the order that the leaves' ranges refer to.
@@ -32,8 +32,8 @@ pub(super) struct RecordedTraversal<'a> {
     pub(super) steps: &'a [TraversalStep],
 }
 
-/// Draws the traversal. Returns `None` if it has no steps, because the tree is empty, or if the nodes
-/// do not form a tree.
+/// Draws the traversal. Returns `None` if it doesn't contain any steps because the tree is empty,
+/// or if the nodes don't form a tree.
 pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) -> Option<Drawing> {
     if traversal.steps.is_empty() {
         return None;
@@ -54,7 +54,8 @@ pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) ->
     Some(sheet.finish(title, caption(comparison, &layout)))
 }
 
-/// Returns the distances that the axis must cover: the hits, and the part of the ray in each box.
+/// Returns the distances that the axis must cover: the hits and the part of the ray inside each
+/// box.
 fn axis_distances(comparison: &HitComparison, layout: &Layout) -> Vec<f64> {
     let range = comparison.ray.range;
     let mut seen = vec![f64::from(range.min)];
@@ -147,7 +148,7 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
     }
 }
 
-/// Returns the words that lead from a leaf to the box of a row, which is that of the leaf or of a node
+/// Returns the phrase that relates a row's box to a leaf. The row is the leaf itself or a node
 /// above it.
 fn whose(row: &NodeRow, leaf: u32) -> String {
     if row.node == leaf {

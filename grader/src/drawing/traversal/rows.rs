@@ -15,10 +15,10 @@ const ROW_HEIGHT: f64 = 17.0;
 pub(super) const LEFT: f64 = 156.0;
 /// The indentation per level, in page units.
 const INDENT: f64 = 5.0;
-/// The maximum number of indentations. Deeper nodes are not indented further.
+/// The maximum number of indentations. Deeper nodes aren't indented further.
 const MAX_INDENTS: usize = 9;
 
-/// Draws the rows from `y` downward, and the axis below them. Returns the y coordinate below the
+/// Draws the rows from `y` downward and the axis below them. Returns the y coordinate below the
 /// axis.
 pub(super) fn draw(
     canvas: &mut Canvas,
@@ -106,7 +106,7 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &NodeRow) {
     };
     let (low, high) = (dvec2(from, y + 3.0), dvec2(to, y + ROW_HEIGHT - 3.0));
     canvas.rectangle(low, high, LineStyle::Grid, fill);
-    // The label goes beside the bar, on the side with more space.
+    // The label goes next to the bar, on the side with more space.
     let (x, anchor) = if from - LEFT > WIDTH - to {
         (from - 4.0, Anchor::End)
     } else {

@@ -1,4 +1,4 @@
-//! Annotations, with which GitHub shows problems at the lines of the student's own files.
+//! Annotations, which GitHub shows at the lines of the student's own files.
 
 use crate::format::github::commands::command;
 use crate::format::item_text::item_message;
@@ -11,8 +11,8 @@ const MAX_ANNOTATIONS: usize = 10;
 /// The maximum number of characters in an annotation.
 const MAX_CHARS: usize = 1_000;
 
-/// Returns commands for standard output that annotate the first compiler error in each file, and
-/// the first item that lost points in each other task.
+/// Returns commands for standard output that annotate the first compiler error in each file and,
+/// for each other task, the first item that lost points.
 pub fn annotations(view: &StudentView, context: &FormatContext) -> String {
     let files = view.visible.build.not_compiled.iter();
     let files = files.map(|file| file_annotation(file, context));
@@ -66,7 +66,8 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// A file that does not compile, and one item of each task that can be fixed by itself.
+    /// The annotations are for a file that doesn't compile and for one item of each task that can
+    /// be fixed independently.
     #[test]
     fn the_first_mistake_of_each_task_is_annotated() {
         insta::assert_snapshot!(annotations(&sample::open(), &sample::context()));

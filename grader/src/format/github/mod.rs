@@ -1,5 +1,4 @@
-//! GitHub Actions: a summary on the page of the run, and annotations on the student's
-//! lines.
+//! GitHub Actions: a summary on the run's page and annotations on the student's lines.
 
 mod annotations;
 mod commands;
@@ -11,7 +10,7 @@ use crate::format::FormatSpec;
 pub static FORMAT: FormatSpec = FormatSpec {
     id: "github",
     file: "github.md",
-    // Other commands of the same step may have written to this file already.
+    // Other commands in the same step may have written to this file already.
     shared_file: Some("GITHUB_STEP_SUMMARY"),
     render: Some(summary::summary),
     runner_commands: Some(annotations::annotations),

@@ -92,15 +92,15 @@ fn write_item(
     )
 }
 
-/// Puts a text into a code block, with a fence that is longer than any in the text, so that no line
-/// of the text can close it.
+/// Puts a text into a code block. The fence is longer than any in the text, so that no line of the
+/// text can close it.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat((longest + 1).max(3));
     format!("{fence}text\n{text}\n{fence}")
 }
 
-/// Escapes a text for Markdown, and puts it on one line.
+/// Escapes a text for Markdown and puts it on one line.
 fn escape_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

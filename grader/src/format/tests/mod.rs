@@ -1,4 +1,4 @@
-//! Tests of all formats with the same score: its numbers, and a snapshot of each text.
+//! Tests of all formats with the same score: its numbers and a snapshot of each text.
 
 use serde_json::Value;
 
@@ -29,13 +29,13 @@ fn check50_result(view: &StudentView, id: &str) -> Value {
     results.find(|result| result["name"] == id).unwrap().clone()
 }
 
-/// Returns the sum of a number over the tests of a file. A test without the number counts nothing.
+/// Returns the sum of a number over the tests of a file. A test without the number adds nothing.
 fn sum(file: &Value, key: &str) -> u64 {
     let tests = file["tests"].as_array().unwrap().iter();
     tests.filter_map(|test| test[key].as_u64()).sum()
 }
 
-/// Returns a value of each entry in a list, without quotes.
+/// Returns the value of `key` in each entry of a list, without quotes.
 fn column(list: &Value, key: &str) -> Vec<String> {
     let text = |entry: &Value| match entry[key].as_str() {
         Some(text) => text.to_owned(),
@@ -44,8 +44,8 @@ fn column(list: &Value, key: &str) -> Vec<String> {
     list.as_array().unwrap().iter().map(text).collect()
 }
 
-/// Each format with its file, the number of variables that it needs of the runner, the variable with the
-/// path of a file to append to, and whether it is rendered for students.
+/// Each format with its file, the number of runner variables it needs, the variable with the path
+/// of a file to append to, and whether it is rendered for students.
 #[test]
 fn each_format_has_its_own_name_and_file() {
     let formats = FORMATS.map(|format| {
@@ -72,7 +72,7 @@ fn each_format_has_its_own_name_and_file() {
     assert_eq!(formats, expected);
 }
 
-/// The texts of all formats but the page, whose style is long.
+/// The texts of all formats except the page, whose style is too long.
 #[test]
 fn everything_is_shown_of_the_practice_exam() {
     let mut settings = insta::Settings::clone_current();

@@ -17,9 +17,9 @@ use crate::score::{
     BuildReport, CodeLocation, Evidence, FileReport, Hint, ItemScore, Score, Verdict,
 };
 
-/// Points count double, and each late day costs a tenth.
+/// Points are doubled, and each late day costs a tenth.
 pub const LATE: &str = "[points]\nout_of = 56\n[late]\npercent_per_day = 10";
-/// Each visibility for some items, and everything for the rest.
+/// Each visibility for some items, and full visibility for the rest.
 pub const RESTRICTED: &str = "[visibility]\nfinal = 'all'\n[visibility.items]\n\
     'triangle.edge' = 'feedback'\nsphere = 'points'\nbbox = 'after_due'\nbuild = 'feedback'\n\
     'build.depth' = 'after_published'\n'build.leaves' = 'hidden'\n";
@@ -41,7 +41,7 @@ build.leaves|0|1|no answer|an invalid answer
 traverse.closest_hit|0|2|blocked|depends on bbox.flat: fix that first
 traverse.any_hit|2|2|passed|wrong only because bbox.flat failed: correct with the reference's other files";
 
-/// Returns the item of a line of [`ITEMS`].
+/// Returns the item in a line of [`ITEMS`].
 fn read_item(line: &str) -> ItemScore {
     let fields: Vec<&str> = line.split('|').collect();
     let [id, points, max_points, label, message] = fields[..] else {
@@ -144,7 +144,7 @@ pub fn unfinished_score() -> Score {
     score
 }
 
-/// Returns the score with all points.
+/// Returns the score with full points.
 pub fn perfect_score() -> Score {
     let mut score = score();
     for line in score.tasks.iter_mut().flat_map(|task| &mut task.items) {
@@ -156,36 +156,36 @@ pub fn perfect_score() -> Score {
     score
 }
 
-/// Returns this score as that of a final exam, which students do not have.
+/// Returns this score as a final exam's, which students don't have.
 pub fn of_final_exam(mut score: Score) -> Score {
     "final".clone_into(&mut score.exam.id);
     score
 }
 
-/// Returns what students see of a score under this policy, if it was handed in this late.
+/// Returns the students' view of a score under this policy, for a submission this late.
 pub fn view(score: &Score, policy: &str, late_days: u64) -> StudentView {
     let policy = Policy::from_text("policy.toml".as_ref(), policy).unwrap();
     let lateness = Lateness::of_seconds(late_days * 24 * 60 * 60);
     StudentView::new(score, &policy, lateness)
 }
 
-/// Returns the sample under the default policy, on time: students see everything, and the points
-/// count as they were earned.
+/// Returns the sample under the default policy, on time. Students see everything, and the points
+/// are used unchanged.
 pub fn open() -> StudentView {
     view(&score(), "", 0)
 }
 
-/// Returns the sample of which students see everything, a day late: 16 of 56 points count.
+/// Returns the sample with full visibility, a day late. The final points are 16 of 56.
 pub fn late() -> StudentView {
     view(&score(), LATE, 1)
 }
 
-/// Returns the sample of a final exam of which students see some parts, a day late.
+/// Returns the sample as a final exam with partial visibility, a day late.
 pub fn restricted() -> StudentView {
     view(&of_final_exam(score()), &format!("{LATE}\n{RESTRICTED}"), 1)
 }
 
-/// Returns facts about the submission. All methods have a line, except the one of `build`.
+/// Returns facts about the submission. All methods have a line, except `build`.
 pub fn context() -> FormatContext {
     let tasks = RAYS.assignment.tasks.iter();
     let location = |(task, line): (&TaskInfo, u32)| {

@@ -1,10 +1,10 @@
-//! The last report on a submission, stored beside its score and printed again if nothing has
+//! The last report on a submission, stored next to its score and printed again if nothing has
 //! changed.
 //!
-//! A report is cached only if it is about a student's own work, is written to the default folder,
+//! A report is only cached if it is about a student's own work, is written to the default folder
 //! and has a reproducible result: time-outs, exhausted memory, crashes and compiler failures may
-//! not happen again the next time. A cached report is never used for another submission, exam,
-//! toolchain or grader, nor after one of the report's files has changed.
+//! not happen again the next time. A cached report is never used for a different submission, exam,
+//! toolchain or grader, or after one of the report's files has changed.
 
 use std::env;
 
@@ -24,17 +24,17 @@ use crate::submission::Submission;
 /// Name of the file that stores the cached report, in the folder of the score.
 const RECORD: &str = "earlier.json";
 
-/// Hashes of everything that a score depends on.
+/// Hashes of everything a score depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CacheKey {
     /// Hash of the task files and the notes about other files. It is separate because usually only
     /// these change.
     submission: String,
-    /// Hash of everything else that the score depends on.
+    /// Hash of everything else the score depends on.
     environment: String,
 }
 
-/// A cached report, with hashes of the inputs and of the files that it depends on.
+/// A cached report, with hashes of its inputs and files.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct CachedReport {
     key: CacheKey,
@@ -47,7 +47,7 @@ pub struct CachedReport {
 }
 
 impl CachedReport {
-    /// Reads the cached report that is stored beside these files, if there is a valid one.
+    /// Reads the valid cached report stored next to these files, if any.
     pub fn read(files: &ReportFiles) -> Option<Self> {
         serde_json::from_slice(&read(files.folder.join(RECORD)).ok()?).ok()
     }
@@ -84,8 +84,8 @@ impl CacheKey {
         cacheable_options(options).is_some()
     }
 
-    /// Hashes everything that a score depends on. Returns `None` if these options do not allow
-    /// caching, or if the path of the grader's own executable is unknown.
+    /// Hashes everything a score depends on. Returns `None` if these options don't allow caching,
+    /// or if the path of the grader's own executable is unknown.
     pub fn new(
         options: &GradeOptions,
         submission: &Submission,
@@ -107,9 +107,9 @@ impl CacheKey {
 }
 
 /// Returns, as text, the options that the report depends on, or `None` if a report with these
-/// options is not cached.
+/// options isn't cached.
 fn cacheable_options(options: &GradeOptions) -> Option<String> {
-    // Without `..`, so that a new option does not compile until this function handles it.
+    // Don't use `..` here, so that a new option doesn't compile until this function handles it.
     let GradeOptions {
         handed_out,
         submission,
@@ -127,7 +127,7 @@ fn cacheable_options(options: &GradeOptions) -> Option<String> {
     let is_whole_exam = tasks.is_all();
     let is_default_policy = policy.is_none() && gradescope_metadata.is_none();
     let is_default_output = out.is_none() && formats.is_empty();
-    // Standard input can be read only once.
+    // Standard input can only be read once.
     let is_repeatable = *exam != ExamSource::StandardInput;
     (*isolation == IsolationRequest::OwnWork
         && is_whole_exam

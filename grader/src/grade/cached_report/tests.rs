@@ -1,4 +1,4 @@
-//! Tests of what makes a cached report stale, with reports in temporary folders.
+//! Tests for what makes a cached report stale, with reports in temporary folders.
 
 use std::fs;
 
@@ -35,7 +35,7 @@ fn own_key() -> CacheKey {
     key(&GradeOptions::default(), &submission())
 }
 
-/// Returns a complete score of two items, the second of which has this verdict.
+/// Returns a complete score of two items. The second item has this verdict.
 fn score_with(verdict: Verdict) -> Score {
     let mut score = pending(&exam(&["sphere.uv", "bbox.flat"]));
     score.complete = true;

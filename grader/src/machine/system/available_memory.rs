@@ -1,14 +1,14 @@
-//! The memory that is left on this machine and in its control groups. Containers and batch systems
-//! limit memory by control groups, and kill a process of the group that exceeds its limit.
+//! The memory available on this machine and in its control groups. Containers and batch systems
+//! limit memory with control groups, and kill a process in a group that exceeds its limit.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder in which systems mount the file systems of control groups.
+/// The folder where systems mount control group file systems.
 const MOUNTS: &str = "/sys/fs/cgroup";
 
 /// Returns how many more bytes this process and its children can use before the system has to kill
-/// a process, if the system says.
+/// a process, if known.
 pub fn available_memory() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
     let machine = fs::read_to_string("/proc/meminfo").ok();
@@ -17,12 +17,12 @@ pub fn available_memory() -> Option<u64> {
     smallest(machine, left_in_groups(Path::new(MOUNTS), &groups))
 }
 
-/// The names of the files of a control group. They differ between the two versions
-/// (Linux, Documentation/admin-guide/cgroup-v1/memory.rst and cgroup-v2.rst).
+/// The names of a control group's files. They differ between the two versions (Linux,
+/// Documentation/admin-guide/cgroup-v1/memory.rst and cgroup-v2.rst).
 struct Files {
     limit: &'static str,
     usage: &'static str,
-    /// The pages of files, which the system can drop, in `memory.stat`.
+    /// The entries of `memory.stat` for file pages, which the system can drop.
     cache: [&'static str; 2],
 }
 
@@ -37,7 +37,8 @@ const VERSION_2: Files = Files {
     cache: ["inactive_file", "active_file"],
 };
 
-/// Returns what is left in the groups that `/proc/self/cgroup` lists, and in all groups above them.
+/// Returns the memory available in the groups listed in `/proc/self/cgroup` and in all groups above
+/// them.
 fn left_in_groups(mounts: &Path, groups: &str) -> Option<u64> {
     let mut least = None;
     for line in groups.lines() {
@@ -53,8 +54,8 @@ fn left_in_groups(mounts: &Path, groups: &str) -> Option<u64> {
             }
             _ => continue,
         };
-        // In a container, the path may be that of the machine, while the mount shows only the
-        // container's own group: then only the mount itself exists.
+        // In a container, the path may be the host's while the mount only shows the container's own
+        // group. Then only the mount itself exists.
         let group: PathBuf = mount.join(path.trim_start_matches('/'));
         for folder in group.ancestors().take_while(|it| it.starts_with(&mount)) {
             least = smallest(least, left_in_group(folder, files));
@@ -63,7 +64,7 @@ fn left_in_groups(mounts: &Path, groups: &str) -> Option<u64> {
     least
 }
 
-/// Returns what is left in one group, or `None` if it has no limit.
+/// Returns the memory available in one group, or `None` if it has no limit.
 fn left_in_group(folder: &Path, files: &Files) -> Option<u64> {
     let read = |name| fs::read_to_string(folder.join(name)).ok();
     let limit: u64 = read(files.limit)?.trim().parse().ok()?;

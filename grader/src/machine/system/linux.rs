@@ -14,13 +14,13 @@ use super::{Limits, ProcessTime};
 /// which kills it.
 const CPU_GRACE_SECONDS: u64 = 1;
 
-/// Sets the limits of a process that has just been started.
+/// Sets the limits of a process that has just started.
 pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
-    // The child has been running for a moment without limits. This is safe: a probe does nothing
-    // before its first question, which is sent later.
+    // The child has been running for a moment without limits. This is safe, because a probe does
+    // nothing before its first question, which is sent later.
     for (resource, most) in resources(limits) {
         match prlimit(pid(child), resource, rlimit(resource, most)) {
-            // The process has already ended; the caller will see that when it waits for it.
+            // The process has already ended. The caller will notice when it waits for it.
             Ok(_) | Err(rustix::io::Errno::SRCH) => {}
             Err(error) => return Err(error.into()),
         }
@@ -28,7 +28,7 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns the resources of a process that are limited, each with its limit.
+/// Returns the limited resources of a process and their limits.
 pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
     let all = [
         (Resource::As, limits.memory),
@@ -40,8 +40,9 @@ pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
     all.into_iter().chain(data)
 }
 
-/// Returns the soft and the hard limit. They are equal except for CPU time: there, the hard limit sends
-/// SIGKILL, as the system does when memory runs out, so a lower soft limit sends SIGXCPU first.
+/// Returns the soft and the hard limit. They are equal except for CPU time. Its hard limit sends
+/// SIGKILL, as the system also does when memory runs out, so a lower soft limit sends SIGXCPU
+/// first.
 pub fn rlimit(resource: Resource, most: u64) -> Rlimit {
     let is_cpu = resource == Resource::Cpu;
     let grace = if is_cpu { CPU_GRACE_SECONDS } else { 0 };
@@ -65,14 +66,14 @@ pub fn cpu_time(child: &Child) -> Option<Duration> {
     cpu_time_fields(child, 2)
 }
 
-/// Returns the CPU time that a process, and those of its children that it has waited for, have used
-/// so far.
+/// Returns the CPU time used so far by a process and by those of its children that it has waited
+/// for.
 pub fn cpu_time_with_children(child: &Child) -> Option<Duration> {
     // utime, stime, cutime and cstime (proc_pid_stat(5)).
     cpu_time_fields(child, 4)
 }
 
-/// Returns the sum of the first `count` times of a process, which begin at field 14.
+/// Returns the sum of a process's first `count` times, which begin at field 14.
 fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
     // The second field is a name in parentheses that may contain spaces, so count from its end.
@@ -88,7 +89,8 @@ fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
 
 /// Returns the longest time that any thread of a process has waited for a processor.
 ///
-/// The longest, and not the sum: otherwise many threads could excuse more time than passes.
+/// The longest time is used rather than the sum. Otherwise, many threads could excuse more time
+/// than has passed.
 fn delayed(child: &Child) -> Option<Duration> {
     let threads = fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;
     let delays = threads.filter_map(|thread| {

@@ -1,7 +1,7 @@
 //! Functions that differ between operating systems.
 //!
-//! Every system has the same functions. A function that a system does not support does nothing or
-//! returns `None` there, as its documentation says.
+//! Every system has the same functions. A function that a system doesn't support does nothing or
+//! returns `None` there, as documented.
 
 use std::ffi::OsStr;
 use std::io;
@@ -45,7 +45,7 @@ pub struct Limits {
     /// Address space, in bytes.
     pub memory: u64,
     /// Memory that the process itself fills, in bytes: its heap, stacks and variables, but not the
-    /// files that it maps. `None` stands for no limit other than that of the address space.
+    /// files that it maps. `None` means that only the address space is limited.
     pub data: Option<u64>,
     /// Total CPU time of the process.
     pub cpu: Duration,
@@ -58,7 +58,7 @@ pub struct Limits {
 pub struct ProcessTime {
     /// CPU time.
     pub cpu: Duration,
-    /// Time in which it wanted to run, but other processes had the processors.
+    /// Time when it was ready to run but other processes occupied the processors.
     pub delayed: Duration,
 }
 
@@ -66,9 +66,9 @@ impl Limits {
     /// Part of the available memory that is left to the rest of the system, in bytes.
     const RESERVE: u64 = 64 << 20;
 
-    /// Lowers the memory limit to what the machine has left, so that a process that uses too much
-    /// exceeds its own limit before the system kills something. `needed` is what an honest process
-    /// may need; the limit never gets lower than that.
+    /// Lowers the memory limit to the machine's available memory, so that a process that uses too
+    /// much exceeds its own limit before the system kills something. `needed` is the memory that a
+    /// correct process may need. The limit never gets lower than that.
     pub fn within_available_memory(self, needed: u64) -> Self {
         let left = available_memory().map(|bytes| bytes.saturating_sub(Self::RESERVE));
         Limits {
@@ -78,7 +78,7 @@ impl Limits {
     }
 }
 
-/// The kind of an entry of a [`Folder`]. Links are not followed.
+/// The kind of an entry of a [`Folder`]. Links aren't followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
     /// A regular file.
@@ -91,7 +91,8 @@ pub enum EntryKind {
     Other,
 }
 
-/// Returns `name` if it is the name of an entry, and not a path with several components or `..`.
+/// Returns `name` if it is the name of a single entry, rather than a path with several components
+/// or `..`.
 #[cfg(any(unix, windows))]
 fn single_name(name: &OsStr) -> io::Result<&OsStr> {
     let mut parts = Path::new(name).components();
@@ -114,7 +115,7 @@ pub enum ExitReason {
 }
 
 /// Environment variables that programs cannot do without. On Windows, the system's libraries and
-/// the linker look them up; on macOS, they say where the linker's files are.
+/// the linker look them up. On macOS, they contain the location of the linker's files.
 const REQUIRED_VARIABLES: [&str; 16] = [
     "SystemRoot",
     "SystemDrive",
@@ -138,7 +139,7 @@ const REQUIRED_VARIABLES: [&str; 16] = [
 /// Removes all environment variables except those that programs on this system cannot do without.
 pub fn clear_environment(command: &mut Command) {
     command.env_clear();
-    // On Linux an empty environment is enough, and it is the same on every machine.
+    // On Linux, an empty environment is enough, and it is the same on every machine.
     if cfg!(target_os = "linux") {
         return;
     }
@@ -150,46 +151,46 @@ pub fn clear_environment(command: &mut Command) {
     }
 }
 
-/// Keeps the PATH in the environment of a compiler on Windows, where it may find the linker only
-/// there. On other systems, it gets the linker's path as an argument.
+/// Keeps the PATH in the environment of a compiler on Windows, where the compiler may need it to
+/// find the linker. On other systems, it gets the linker's path as an argument.
 pub fn keep_search_path(command: &mut Command) {
     if let Some(path) = std::env::var_os("PATH").filter(|_| cfg!(windows)) {
         command.env("PATH", path);
     }
 }
 
-/// Does nothing: `setrlimit` limits only the calling process, and the job objects of Windows cannot
+/// Does nothing: `setrlimit` only limits the calling process, and the job objects of Windows cannot
 /// be used from safe code.
 #[cfg(not(target_os = "linux"))]
 pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns `None`: a process's CPU time is not available on this system.
+/// Returns `None`, since a process's CPU time isn't available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time(_: &std::process::Child) -> Option<Duration> {
     None
 }
 
-/// Returns `None`: a process's CPU time is not available on this system.
+/// Returns `None`, since a process's CPU time isn't available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn cpu_time_with_children(_: &std::process::Child) -> Option<Duration> {
     None
 }
 
-/// Returns `None`: the memory that is left is not available on this system.
+/// Returns `None`, since this system doesn't report the available memory.
 #[cfg(not(target_os = "linux"))]
 pub fn available_memory() -> Option<u64> {
     None
 }
 
-/// Returns `None`: how a process uses its time is not available on this system.
+/// Returns `None`, since this system doesn't report how a process uses its time.
 #[cfg(not(target_os = "linux"))]
 pub fn process_time(_: &std::process::Child) -> Option<ProcessTime> {
     None
 }
 
-/// Returns `None`: a process's memory use is not available on this system.
+/// Returns `None`, since a process's memory use isn't available on this system.
 #[cfg(not(target_os = "linux"))]
 pub fn memory(_: &std::process::Child) -> Option<u64> {
     None

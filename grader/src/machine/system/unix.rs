@@ -16,7 +16,7 @@ use rustix::process::{Pid, Signal, kill_process_group};
 
 use super::{EntryKind, ExitReason, single_name};
 
-/// Makes the command start in its own process group, which can be killed as a whole.
+/// Makes the command start in its own process group, so that the entire group can be killed.
 pub fn use_own_process_group(command: &mut Command) {
     command.process_group(0);
 }
@@ -25,7 +25,7 @@ pub fn use_own_process_group(command: &mut Command) {
 /// standard input closes. The caller keeps the other end of that pipe open, so the group ends with
 /// the caller, even if the caller is killed.
 pub fn command_killed_at_eof(program: &Path) -> Command {
-    // Discards what the shell prints about the processes that it kills.
+    // Discard the shell's messages about the processes it kills.
     const SCRIPT: &str = r#"
         exec 3<&0
         { read -r _ <&3; kill -KILL 0; } >/dev/null 2>&1 &
@@ -55,7 +55,7 @@ pub fn exit_reason(status: ExitStatus) -> ExitReason {
     }
 }
 
-/// Makes a file readable by everyone. Temporary files are created readable by their owner only.
+/// Makes a file readable by everyone. By default, temporary files are only readable by their owner.
 pub fn make_readable(file: &File) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(0o644))
 }
@@ -84,8 +84,8 @@ pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     Ok(has_one_name.then_some(file))
 }
 
-/// Opens a regular file without following a symbolic link or waiting for a pipe. Returns `None`
-/// for anything else. Links in the path to its folder are followed; see [`Folder`].
+/// Opens a regular file without following a symbolic link or waiting for a pipe. Returns `None` for
+/// anything else. Links in the path to its folder are followed. See [`Folder`].
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     regular_file(rustix::fs::open(path, FILE_FLAGS, Mode::empty()))
 }
@@ -98,7 +98,7 @@ const FOLDER_FLAGS: OFlags = OFlags::RDONLY
     .union(OFlags::DIRECTORY)
     .union(OFlags::CLOEXEC);
 
-/// Returns the opened file if it is a regular one. The type is checked after opening, so that the
+/// Returns the opened file if it is a regular file. The type is checked after opening, so that the
 /// file cannot be replaced in between.
 fn regular_file(opened: rustix::io::Result<OwnedFd>) -> io::Result<Option<File>> {
     let file = match opened {
@@ -117,13 +117,13 @@ fn regular_file(opened: rustix::io::Result<OwnedFd>) -> io::Result<Option<File>>
 pub struct Folder(OwnedFd);
 
 impl Folder {
-    /// Opens a folder that the user has named. The path itself may contain links.
+    /// Opens a folder named by the user. The path itself may contain links.
     pub fn open(path: &Path) -> io::Result<Self> {
         let folder = rustix::fs::open(path, FOLDER_FLAGS, Mode::empty())?;
         Ok(Folder(folder))
     }
 
-    /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
+    /// Opens a subfolder. Returns `None` if the entry with this name isn't a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let flags = FOLDER_FLAGS | OFlags::NOFOLLOW;
         match rustix::fs::openat(&self.0, single_name(name)?, flags, Mode::empty()) {

@@ -1,4 +1,4 @@
-//! Windows: no process groups, no signals, and files inherit their permissions.
+//! Windows, where files inherit their permissions and process groups and signals don't exist.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -8,10 +8,10 @@ use std::process::{Child, Command, ExitStatus};
 
 use super::{EntryKind, ExitReason, single_name};
 
-/// Does nothing: Windows has no process groups.
+/// Does nothing, since Windows doesn't support process groups.
 pub fn use_own_process_group(_: &mut Command) {}
 
-/// Does nothing: the caller kills only the child itself.
+/// Does nothing: the caller only kills the child itself.
 pub fn kill_group(_: &Child) {}
 
 /// Returns how a process ended. A crash also results in an exit code, a large negative number.
@@ -34,16 +34,16 @@ pub fn symlink(original: &Path, path: &Path) -> io::Result<()> {
     std::os::windows::fs::symlink_file(original, path)
 }
 
-/// Opens a regular file, like [`open_regular_file`]. Hard links are not checked.
+/// Opens a regular file, like [`open_regular_file`]. Hard links aren't checked.
 pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     open_regular_file(path)
 }
 
 /// Opens a regular file. Returns `None` for anything else. A symbolic link that replaced the file
 /// after the check would be followed, but on Windows, creating one needs privileges that students
-/// do not have.
+/// don't have.
 pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
-    // Checked first, because opening anything else may fail.
+    // Check the type first, because opening anything else may fail.
     if !path.symlink_metadata()?.is_file() {
         return Ok(None);
     }
@@ -56,13 +56,13 @@ pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// Opens a folder that the user has named. The path itself may contain links.
+    /// Opens a folder named by the user. The path itself may contain links.
     pub fn open(path: &Path) -> io::Result<Self> {
         path.read_dir()?;
         Ok(Folder(path.to_owned()))
     }
 
-    /// Opens a subfolder. Returns `None` if the entry with this name is not a folder.
+    /// Opens a subfolder. Returns `None` if the entry with this name isn't a folder.
     pub fn subfolder(&self, name: &OsStr) -> io::Result<Option<Self>> {
         let is_folder = self.kind(name)? == EntryKind::Folder;
         Ok(is_folder.then(|| Folder(self.0.join(name))))
@@ -105,12 +105,12 @@ pub fn make_folder_accessible(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns `None`: free space is not available on this system.
+/// Returns `None`: free space isn't available on this system.
 pub fn free_space(_: &Path) -> Option<u64> {
     None
 }
 
-/// Returns a command that runs `program`. It is not killed when its standard input closes.
+/// Returns a command that runs `program`. It isn't killed when its standard input closes.
 pub fn command_killed_at_eof(program: &Path) -> Command {
     Command::new(program)
 }

@@ -1,5 +1,5 @@
-//! Puts the points that a score counts towards the grade into a page. A course's policy can change
-//! after grading, so they are put into a finished page, at a mark that the page has for them.
+//! Inserts a score's final points into a page. A course's policy can change after grading, so they
+//! are inserted into the finished page at a placeholder.
 
 use std::path::Path;
 
@@ -9,7 +9,8 @@ use super::elements::plain_text;
 use crate::machine::files::{self, PathError};
 use crate::report::atomic_write;
 
-/// The marks around the text. No text of a submission can contain them, since `<` is escaped.
+/// The placeholder marks around the text. No text from a submission can contain them, since `<` is
+/// escaped.
 const START: &str = "<!--counted-->";
 const END: &str = "<!--/counted-->";
 
@@ -18,8 +19,8 @@ pub(super) fn marks() -> Markup {
     PreEscaped(format!("{START}{END}"))
 }
 
-/// Returns a page with these sentences below its points, in place of earlier ones. A page without
-/// the marks is returned unchanged.
+/// Returns a page with these sentences below its points, replacing earlier ones. A page without the
+/// marks is returned unchanged.
 pub fn with_counted(page: &str, texts: &[String]) -> String {
     let parts = page.split_once(START).and_then(|(before, rest)| {
         let (_, after) = rest.split_once(END)?;
@@ -34,7 +35,7 @@ pub fn with_counted(page: &str, texts: &[String]) -> String {
     format!("{before}{START}{}{END}{after}", paragraphs.into_string())
 }
 
-/// Puts the sentences into a finished page at this path, if there is one.
+/// Inserts the sentences into a finished page at this path, if it exists.
 pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
     let Some(page) = files::read_if_exists(path)? else {
         return Ok(());
@@ -75,7 +76,7 @@ mod tests {
         let read = || std::fs::read_to_string(&path).unwrap();
         assert_eq!(read(), with_counted(&page, &text));
         assert_ne!(read(), page);
-        // Nor does it change again.
+        // Repeating it must not change the page again.
         write_counted(&path, &text).unwrap();
         assert_eq!(read(), with_counted(&page, &text));
     }
@@ -87,7 +88,7 @@ mod tests {
         write_counted(&path, &["45 of 50".to_owned()]).unwrap();
         assert!(!path.exists());
         std::fs::write(&path, "no marks").unwrap();
-        // If the page were written, the path would refer to another file than the link.
+        // Writing the page would replace the link with a file.
         let link = folder.path().join("link.html");
         std::fs::hard_link(&path, &link).unwrap();
         write_counted(&path, &["45 of 50".to_owned()]).unwrap();

@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use judging::sanitize::sanitize;
 
-/// Renders untrusted text: escaped, without control characters, and without characters that change
-/// the direction of the text around it.
+/// Renders untrusted text, escaped and without control characters or characters that change the
+/// direction of the text around it.
 pub(super) fn plain_text(text: &str) -> Markup {
     html! { (sanitize(text, usize::MAX)) }
 }

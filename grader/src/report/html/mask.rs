@@ -71,7 +71,7 @@ mod tests {
 
     use super::*;
 
-    /// Compares the patterns without their colours, for the aspects that can occur in one mask.
+    /// Compares the patterns without their colours, for aspects that can occur in the same mask.
     #[test]
     fn no_two_aspects_of_a_mask_have_the_same_pattern() {
         let aspects = [

@@ -1,7 +1,7 @@
 //! `report.html`: everything about one score, in one file that loads nothing from the network. The
-//! page depends only on the score, the exam and the answers, and not, for example, on the date.
+//! page depends only on the score, the exam and the answers, not on e.g. the date.
 //!
-//! Nothing that a submission writes can take over the page: `maud` escapes it, `plain_text` removes
+//! Nothing a submission writes can take over the page: `maud` escapes it, `plain_text` removes
 //! control characters, and the content security policy allows only the page's own script and style,
 //! by their hashes.
 
@@ -39,7 +39,7 @@ const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
 pub enum Reload {
     /// The page never reloads.
     Never,
-    /// The page reloads every 1.5 seconds while its window does not have the focus.
+    /// The page reloads every 1.5 seconds while its window doesn't have the focus.
     WhileUnfocused,
 }
 
@@ -68,8 +68,8 @@ pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload)
     page.render(reload)
 }
 
-/// Renders the page for students who do not have the exam. The page shows only `score`, from which
-/// everything that students may not see must already be removed.
+/// Renders the page for students who don't have the exam. The page only shows `score`. Everything
+/// students may not see must already have been removed from it.
 pub fn feedback(score: &Score) -> String {
     let unseen = Exam {
         schema: score.schema,
@@ -116,8 +116,8 @@ impl Page<'_> {
                         @for task in &score.tasks { (task::section(self, task)) }
                     }
                     (self.footer())
-                    // The script writes here what a button has done, so that screen readers announce
-                    // it.
+                    // The script reports the effects of buttons here, so that screen readers
+                    // announce them.
                     p #status .quiet role="status" {}
                     script { (PreEscaped(SCRIPT)) }
                 }

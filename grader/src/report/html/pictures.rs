@@ -1,4 +1,4 @@
-//! Renders the expected picture, the submitted one, and their differences.
+//! Renders the expected picture, the submitted picture and their differences.
 //!
 //! Without scripts, the page shows the pictures side by side. `page.js` adds the slider and the
 //! flicker button.
@@ -16,8 +16,8 @@ use crate::png_file::data_uri;
 use crate::report::answers::ReportAnswers;
 use crate::score::rerun_command::RerunCommand;
 
-/// The width of the SVG that contains the marks, in its own units. It does not depend on the size
-/// of the film.
+/// The width of the SVG that contains the marks, in its own units. It doesn't depend on the size of
+/// the film.
 const MARKS_WIDTH: f32 = 64.0;
 /// The radius of a mark. The mask is 256 screen pixels wide, so a mark is large enough to click.
 const MARK_RADIUS: f32 = 3.2;
@@ -40,8 +40,8 @@ pub(super) fn failing(item: &Item, answers: &ReportAnswers, rerun: &RerunCommand
     }
 }
 
-/// Renders the pictures of an item that passed: only the submitted ones, since they match the
-/// expected ones.
+/// Renders the pictures of an item that passed. Only the submitted ones are shown, since they match
+/// the expected ones.
 pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
     let questions = item.questions.iter().enumerate();
     let pictures = questions.filter_map(|(index, question)| {
@@ -59,7 +59,7 @@ pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
     }
 }
 
-/// Renders the last path-traced picture of the submission beside the reference's, or nothing if the
+/// Renders the submission's last path-traced picture next to the reference's, or nothing if the
 /// exam has none.
 pub(super) fn beside_the_references(exam: &Exam, answers: &ReportAnswers) -> Markup {
     let mut pictures = exam.items.iter().rev().flat_map(|item| {
@@ -123,8 +123,8 @@ impl WrongPicture<'_> {
         }
     }
 
-    /// Renders the slider's view, which stays hidden without the script: one layer at a time, the
-    /// submitted picture on top of the expected one.
+    /// Renders the slider's view, which stays hidden without the script. It shows one layer at a
+    /// time, with the submitted picture on top of the expected one.
     fn compare(&self) -> Markup {
         let group = format!("{}-{}-view", self.item.id, self.question);
         html! {
@@ -211,7 +211,7 @@ fn spot_label(spot: &WorstPixel) -> String {
     format!("pixel ({x}, {y}): {}", spot.aspect.name())
 }
 
-/// Renders one layer of the expected picture, of the submitted picture, and of their difference.
+/// Renders one layer of the expected picture, the submitted picture and their difference.
 fn row(picture: &Picture, view: &LayerComparison) -> Markup {
     html! {
         div .row data-view=(view.name) {
@@ -235,7 +235,7 @@ fn panel(film: UVec2, view: &str, pixels: &[picture::Colour], what: &str) -> Mar
 /// Renders a numbered ring around a pixel of the mask, with a link to the pixel's details.
 fn mark(picture: &Picture, spot: &WorstPixel, number: usize, id: &str) -> Markup {
     let position = (spot.pixel.as_vec2() + 0.5) / picture.film.as_vec2();
-    // Keeps the whole ring inside the mask. The pixel stays inside the ring.
+    // Keep the entire ring inside the mask. The pixel stays inside the ring.
     let inside = |along: f32| {
         (along * MARKS_WIDTH).clamp(MARK_RADIUS + 0.4, MARKS_WIDTH - MARK_RADIUS - 0.4)
     };

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::elements::plain_text;
 
-/// Renders a text with code and emphasis. Unpaired marks are kept as they are.
+/// Renders a text with code and emphasis. Unpaired marks are kept unchanged.
 pub fn prose(text: &str) -> Markup {
     html! {
         @for (index, part) in parts(text, '`').into_iter().enumerate() {
@@ -20,7 +20,7 @@ pub fn prose(text: &str) -> Markup {
 }
 
 /// Splits a text at paired marks, so that every second part is inside a pair. If a mark is
-/// unpaired, returns the whole text as one part.
+/// unpaired, returns the entire text as one part.
 fn parts(text: &str, mark: char) -> Vec<&str> {
     let parts: Vec<&str> = text.split(mark).collect();
     let inside = parts.iter().skip(1).step_by(2);

@@ -1,4 +1,4 @@
-//! Renders the top of the page: the points, and what to do next.
+//! Renders the top of the page: the points and what to do next.
 
 use maud::{Markup, html};
 
@@ -14,7 +14,7 @@ use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
 use crate::svg::number;
 
-/// Renders the name of the submission, the exam, and the points per task.
+/// Renders the submission's name, the exam and the points per task.
 pub(super) fn header(score: &Score) -> Markup {
     html! {
         header {
@@ -69,8 +69,8 @@ fn row(task: &TaskScore) -> Markup {
     }
 }
 
-/// Renders a bar for the points of a task. It is hidden from screen readers, since the numbers
-/// beside it say the same.
+/// Renders a bar for the points of a task. It is hidden from screen readers, since the numbers next
+/// to it say the same.
 fn bar(task: &TaskScore) -> Markup {
     let width = 100.0 * f64::from(task.points) / f64::from(task.max_points.max(1));
     html! {

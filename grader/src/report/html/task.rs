@@ -1,4 +1,4 @@
-//! Renders the section of a task with its items, and the section about the submitted files.
+//! Renders the section of a task with its items and the section about the submitted files.
 
 use judging::describe;
 use judging::exam::Item;
@@ -14,7 +14,7 @@ use crate::report::failing_items::most_telling_first;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
 use crate::workspace::book::Book;
 
-/// Renders the files that did not compile, and the notes. Returns nothing if there are neither.
+/// Renders the files that didn't compile and the notes. Renders nothing if there are neither.
 pub(super) fn files(score: &Score) -> Markup {
     let build = &score.build;
     if build.not_compiled.is_empty() && build.all_notes().next().is_none() {
@@ -48,7 +48,7 @@ pub(super) fn section(page: &Page, task: &TaskScore) -> Markup {
                 span .points { " " (task.points) " / " (task.max_points) }
             }
             @for (index, score) in failing.iter().enumerate() {
-                // The first is enough to start with.
+                // Only open the first item, which is enough to start with.
                 (failing_item(page, score, index == 0))
             }
             @if let Some(printed) = &task.printed {
@@ -71,7 +71,7 @@ pub(super) fn section(page: &Page, task: &TaskScore) -> Markup {
     }
 }
 
-/// Renders an item that lost points: what happened, where to look, and how to run the item again.
+/// Renders an item that lost points: what happened, where to look and how to run the item again.
 fn failing_item(page: &Page, score: &ItemScore, is_open: bool) -> Markup {
     let item = exam_item(page, score);
     html! {
@@ -114,7 +114,7 @@ fn passed_item(page: &Page, score: &ItemScore) -> Markup {
     }
 }
 
-/// Returns the item of the exam, if the reader may see it.
+/// Returns the exam's item, if the reader may see it.
 fn exam_item<'a>(page: &Page<'a>, score: &ItemScore) -> Option<&'a Item> {
     page.exam.items.iter().find(|item| item.id == score.id)
 }
@@ -184,7 +184,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
     }
 }
 
-/// Renders where to look in the code, and what to read, with a link if there is a book.
+/// Renders where to look in the code and what to read, with a link if there is a book.
 fn look(score: &ItemScore, book: Option<&Book>) -> Markup {
     html! {
         @if let Some(look) = score.where_to_look() {
@@ -202,7 +202,7 @@ fn look(score: &ItemScore, book: Option<&Book>) -> Markup {
     }
 }
 
-/// Renders each hint: the nudge, and the full hint in a folded section.
+/// Renders each hint: the nudge, and the full hint in a collapsed section.
 fn hints(score: &ItemScore) -> Markup {
     html! {
         @for (index, hint) in score.hints.iter().enumerate() {
@@ -220,8 +220,8 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders a drawing of the question that went wrong, if it can be drawn. If the code is not
-/// written yet, draws the first question.
+/// Renders a drawing of the wrong question, if it can be drawn. If the code isn't written yet,
+/// draws the first question.
 fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {
         (Some(evidence), _) => Some(evidence.number),

@@ -40,7 +40,7 @@ pub fn joined_hints(hints: &[Hint], detail: HintDetail) -> String {
     texts.collect::<Vec<_>>().join(" Or: ")
 }
 
-/// Joins the hints of an item, and names the other items that they explain. Returns `None` if there
+/// Joins the hints of an item and adds the ids of other items they explain. Returns `None` if there
 /// are none.
 fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<String> {
     let more = match detail {
@@ -74,7 +74,7 @@ pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt
     writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
 }
 
-/// Writes the number of failing items that are not shown, and `how` to see them.
+/// Writes the number of failing items that aren't shown and `how` to see them.
 pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
     if count == 0 {
         return Ok(());

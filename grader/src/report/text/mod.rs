@@ -41,12 +41,12 @@ pub enum HintDetail {
     Full,
 }
 
-/// The results of an earlier version of the submission that a report still shows.
+/// Results of an earlier version of the submission that a report still shows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OldResults<'a> {
-    /// The ids of the items that have not been graded again.
+    /// The ids of the items that haven't been graded again.
     pub items: Option<&'a BTreeSet<String>>,
-    /// Whether the submission has not been compiled again.
+    /// Whether the submission hasn't been compiled again.
     pub build: bool,
 }
 
@@ -56,7 +56,7 @@ impl OldResults<'_> {
     }
 }
 
-/// A report in parts, which a small terminal arranges in another order.
+/// A report in parts, so that they can be rearranged on a small terminal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReportParts {
     /// The name of the submission and its points. Empty if only some tasks are graded.
@@ -86,8 +86,8 @@ impl ReportParts {
     }
 }
 
-/// Renders the report on the selected tasks with ANSI colours, which the output stream strips if
-/// necessary.
+/// Renders the report on the selected tasks, with ANSI colours. The output stream strips the
+/// colours if necessary.
 pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String {
     let parts = report_parts(score, tasks, hints, OldResults::default());
     let details = parts.details_text();
@@ -128,7 +128,7 @@ fn write_parts(
         parts.table.push_str(&line);
     }
     let out = &mut String::new();
-    // Single-line messages are omitted here, because the items of the task show them.
+    // Omit single-line messages here, because the task's items show them.
     let compiler_messages = score
         .build
         .not_compiled
@@ -137,7 +137,7 @@ fn write_parts(
     for file in compiler_messages {
         write_compiler_message(out, &file.message)?;
     }
-    // Before the items, because a note can be why they fail.
+    // Show notes before the items, because a note can explain why they fail.
     for note in score.build.all_notes() {
         let note = sanitize_line(note, usize::MAX);
         writeln!(out, "\n  note: {note}")?;
@@ -159,7 +159,7 @@ fn write_parts(
     Ok(())
 }
 
-/// Writes the failing items of a task that are shown, and how many there are more.
+/// Writes the failing items of a task that should be shown, and the number of others.
 fn write_failing_items(
     out: &mut String,
     task: &TaskScore,
@@ -169,7 +169,7 @@ fn write_failing_items(
 ) -> fmt::Result {
     let failing = most_telling_first(task);
     // The first failing item of each task is enough to start with. A report on selected tasks also
-    // has the other items that have evidence, and tells more than the first.
+    // shows the other items that have evidence and are more informative than the first.
     let shown = if selection.is_all() {
         failing.iter().take(1).copied().collect()
     } else {
@@ -202,7 +202,8 @@ fn write_failing_items(
     }
 }
 
-/// Returns how many of these items wait for an item of another task, for the end of a sentence.
+/// Returns the number of these items that are waiting for an item of another task, as the end of a
+/// sentence.
 fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
     let blockers: Vec<&str> = items
         .filter_map(|item| {
@@ -278,7 +279,7 @@ fn points_style(points: u32, max_points: u32) -> Style {
 fn write_compiler_message(out: &mut String, message: &str) -> fmt::Result {
     writeln!(out)?;
     let message = sanitize(message, usize::MAX);
-    // The errors of the file, with empty lines between them.
+    // The errors in the file, with empty lines between them.
     for (number, error) in message.split("\n\n").enumerate() {
         if number > 0 {
             writeln!(out, "  {BAD}│{BAD:#}")?;

@@ -3,7 +3,7 @@
 use crate::inputs::task_selection::TaskSelection;
 use crate::score::{Score, TaskScore};
 
-/// Returns the points of the selected tasks, and those of all tasks if all are selected.
+/// Returns the points of each selected task and, if all are selected, the total.
 pub fn short_table(score: &Score, selection: &TaskSelection) -> String {
     let tasks = score.tasks.iter();
     let tasks = tasks

@@ -9,7 +9,7 @@ use rustix::io::{FdFlags, fcntl_setfd};
 
 use super::while_doing;
 
-/// Makes sure that the confined program inherits the three standard streams and nothing else.
+/// Ensures that the confined program inherits nothing except the three standard streams.
 #[allow(
     unsafe_code,
     reason = "a number read from /proc is used as a descriptor"
@@ -26,10 +26,10 @@ pub(super) fn close_inherited() -> io::Result<()> {
             continue;
         }
         // SAFETY: the descriptor is borrowed for one call in a single-threaded process, so it
-        // cannot be closed meanwhile. The call only changes a flag, on which no owner relies.
+        // cannot be closed meanwhile. The call only changes a flag that no owner relies on.
         let descriptor = unsafe { BorrowedFd::borrow_raw(number) };
         match fcntl_setfd(descriptor, FdFlags::CLOEXEC) {
-            // The descriptor that was open while listing is closed by now.
+            // The descriptor used for listing is closed by now.
             Ok(()) | Err(rustix::io::Errno::BADF) => {}
             Err(error) => return Err(error.into()),
         }

@@ -14,11 +14,11 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::start::Program;
 use super::while_doing;
 
-/// The newest Landlock ABI that this code was tested with. An older kernel restricts only the
-/// access rights that it knows.
+/// The newest Landlock ABI that this code was tested with. An older kernel only restricts the
+/// access rights it knows.
 const LANDLOCK_ABI: ABI = ABI::V6;
 
-/// Access rights for writing to a folder. They do not allow the program to create symbolic links,
+/// Access rights for writing to a folder. They don't allow the program to create symbolic links,
 /// devices, sockets or pipes.
 const WRITE_ACCESS: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
     WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
@@ -31,7 +31,7 @@ pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result
     let status = rules
         .restrict_self()
         .map_err(while_doing("enable Landlock"))?;
-    // With namespaces, other files are already out of reach, so Landlock is not essential.
+    // With namespaces, other files are already out of reach, so Landlock isn't essential.
     if status.ruleset == RulesetStatus::NotEnforced && request.level < Isolation::Full {
         return Err(io::Error::other(
             "cannot use Landlock: the kernel lacks it (it needs Linux 5.13, and `landlock` in \
@@ -76,7 +76,7 @@ fn add_rule(
     path: &Path,
     access: BitFlags<AccessFs>,
 ) -> Result<RulesetCreated, Box<dyn std::error::Error>> {
-    // Rights that only folders have do not apply to a file, and Landlock would report them.
+    // Rights for folders don't apply to files, and Landlock would complain about them.
     let access = if path.is_dir() {
         access
     } else {

@@ -1,4 +1,4 @@
-//! Selects the user that a confined program runs as, and drops its privileges.
+//! Selects the user that a confined program runs as and drops its privileges.
 
 use std::fs;
 use std::io;
@@ -17,12 +17,12 @@ use super::while_doing;
 /// The first id for dedicated users. It is far above all ids that machines assign to people or
 /// services.
 const HIGH_UID_BASE: u32 = 0x7000_0000;
-/// The first id for dedicated users and the number of such ids, on systems that do not have ids as
-/// high as [`HIGH_UID_BASE`], such as most rootless containers. Systemd leaves these 500 ids
-/// unassigned (`systemd.io/UIDS-GIDS`).
+/// The first id for dedicated users and the number of such ids, on systems without ids as high as
+/// [`HIGH_UID_BASE`], e.g. most rootless containers. Systemd leaves these 500 ids unassigned
+/// (`systemd.io/UIDS-GIDS`).
 const LOW_UIDS: (u32, u32) = (60_600, 500);
 
-/// Switches to the dedicated user, if there is one, and drops all capabilities for good.
+/// Switches to the dedicated user, if any, and drops all capabilities for good.
 pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
     if let Some(user) = user {
         let switch = || while_doing("switch to another user, for which root needs CAP_SETUID");
@@ -44,11 +44,11 @@ pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io:
     set_capabilities(None, nothing).map_err(while_doing("drop capabilities"))
 }
 
-/// Returns a user id for this program alone. It is derived from the process id, so that programs
-/// that run at the same time have different users. Two programs can get the same id only if the few
+/// Returns a user id dedicated to this program. It is derived from the process id, so that programs
+/// running at the same time have different users. Two programs can only get the same id if the few
 /// low ids are used.
 ///
-/// Returns `None` if this process is not root. Also returns `None` for a compiler without
+/// Returns `None` if this process isn't root. Also returns `None` for a compiler without
 /// namespaces, because its toolchain may be in root's home folder, which no other user can read.
 pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
     let is_reachable = match request.profile {

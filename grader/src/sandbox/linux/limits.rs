@@ -9,12 +9,12 @@ use super::while_doing;
 use crate::machine::system::{resources, rlimit};
 
 /// The maximum number of threads of a probe, including the two that every probe has. This limit is
-/// set only for a dedicated user, who has no other processes.
+/// only set for a dedicated user, which has no other processes.
 const PROBE_THREADS: u64 = 34;
 /// The maximum number of processes and threads of the compiler, the linker and their helpers.
 const COMPILER_PROCESSES: u64 = 256;
-/// The stack size of a program's main thread, in bytes. A submission runs in another thread, which
-/// has its own stack size.
+/// The stack size of a program's main thread, in bytes. A submission runs in a different thread,
+/// with its own stack size.
 const STACK: u64 = 8 << 20;
 
 /// Sets all limits.
@@ -23,7 +23,7 @@ pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> 
         Profile::Probe => (PROBE_THREADS, 16),
         Profile::Compiler { .. } => (COMPILER_PROCESSES, 1024),
     };
-    // This limit counts all processes of a user, so it works only for a dedicated user.
+    // This limit applies to the total of a user's processes, so it only works for a dedicated user.
     let processes = user.map(|_| (Resource::Nproc, processes));
     let others = [
         (Resource::Memlock, 0),

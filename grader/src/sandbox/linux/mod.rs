@@ -1,10 +1,10 @@
 //! The launcher, which drops its privileges one after the other and then executes the confined
-//! program. It has a single thread, and is a fresh process rather than a fork of the grader, so all
+//! program. It has a single thread and is a fresh process rather than a fork of the grader, so all
 //! its state comes from its arguments.
 //!
-//! The order matters: namespaces first, while the launcher may still create them; then the switch
-//! to another user, which gives up that right; then limits; then Landlock, after which no other
-//! file can be opened; and last the system call filter, which forbids the calls that the earlier
+//! The order matters. Namespaces come first, while the launcher may still create them. Then come
+//! the switch to another user, which gives up that right, and the limits. After Landlock, no other
+//! file can be opened. The system call filter comes last, because it forbids calls that the earlier
 //! steps make.
 
 mod descriptors;
@@ -38,7 +38,7 @@ pub(super) fn launch(mut arguments: impl Iterator<Item = OsString>) -> io::Resul
 }
 
 fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
-    // Detaches from the terminal, and starts a process group that can be killed as a whole.
+    // Detach from the terminal and start a process group that can be killed as a whole.
     setsid().map_err(while_doing("start a new session"))?;
     descriptors::close_inherited()?;
 
@@ -48,7 +48,7 @@ fn confine(request: &LaunchRequest, command: Command) -> io::Result<ExitCode> {
         Isolation::Full => namespaces::enter(&request.profile, program)?,
         Isolation::NoNamespaces | Isolation::None => program,
     };
-    // The umask is not set earlier, because the folders of the new root must be accessible to every
+    // Don't set the umask earlier, because the folders of the new root must be accessible to every
     // user.
     umask(Mode::RWXG | Mode::RWXO);
     identity::drop_privileges(request, user)?;
@@ -72,7 +72,7 @@ fn signal_ready() -> io::Result<()> {
     stdout.flush()
 }
 
-/// Returns a function for `map_err` that puts what failed in front of the error's message.
+/// Returns a function for `map_err` that prefixes the error's message with the failed action.
 fn while_doing<E: Display>(what: &str) -> impl FnOnce(E) -> io::Error {
     let what = what.to_owned();
     move |error| io::Error::other(format!("cannot {what}: {error}"))

@@ -17,7 +17,7 @@ use super::super::launch_request::Profile;
 use super::start::Program;
 use super::while_doing;
 
-/// The folder on which the new root is mounted. Any folder that exists on every system would do.
+/// The mount point of the new root. Any folder that exists on every system would do.
 const NEW_ROOT: &str = "/tmp";
 /// The path of the machine's root inside the new root, until it is unmounted.
 const OLD_ROOT: &str = "/host";
@@ -63,8 +63,8 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
 
 /// A file or folder of the machine that is mounted in the new root.
 struct BindMount {
-    /// The path on the machine. It has no symbolic links, because they would be resolved in the new
-    /// root.
+    /// The path on the machine. It must not contain symbolic links, because they would be resolved
+    /// in the new root.
     source: PathBuf,
     target: PathBuf,
     is_writable: bool,
@@ -101,19 +101,20 @@ fn unshare(profile: &Profile) -> io::Result<()> {
     match profile {
         // A probe cannot start processes, so none can outlive it.
         Profile::Probe => {}
-        // The compiler becomes the first process in the namespace; when it ends, so do all others.
+        // The compiler becomes the first process in the namespace. When it ends, all others end
+        // too.
         Profile::Compiler { .. } => flags |= UnshareFlags::NEWPID,
     }
     if !uid.is_root() {
         flags |= UnshareFlags::NEWUSER;
     }
-    // SAFETY: the call is unsafe only with the flag FILES, which is not set.
+    // SAFETY: the call is only unsafe with the flag FILES, which is not set.
     unsafe { unshare_unsafe(flags) }.map_err(while_doing(
         "create namespaces: the rules of a container, or of the system (`sysctl \
          kernel.apparmor_restrict_unprivileged_userns user.max_user_namespaces`), forbid it",
     ))?;
     if !uid.is_root() {
-        // Maps only this user, and to the same id: if the user were mapped to root, the compiler
+        // Map only this user, and to the same id. If the user was mapped to root, the compiler
         // would behave differently.
         let itself = |id: u32| format!("{id} {id} 1");
         let map = || while_doing("map the user into the namespace");
@@ -166,7 +167,8 @@ fn bind(mount: &BindMount) -> io::Result<()> {
         fs::File::create(target)?;
     }
     mount_bind_recursive(&source, target)?;
-    // The only writable file is `/dev/null`. It is not remounted: NODEV would make it unusable.
+    // The only writable file is `/dev/null`. Don't remount it, because NODEV would make it
+    // unusable.
     if mount.is_writable && !source.is_dir() {
         return Ok(());
     }

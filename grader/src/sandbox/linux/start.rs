@@ -32,8 +32,8 @@ pub(super) struct Program {
 }
 
 impl Program {
-    /// Opens the file of a probe while it is still accessible: it may be in a folder that only root
-    /// can read.
+    /// Opens a probe's file while it is still accessible, since it may be in a folder that only
+    /// root can read.
     pub(super) fn open(command: Command, request: &LaunchRequest) -> io::Result<Self> {
         let path = PathBuf::from(command.get_program());
         match request.profile {
@@ -75,8 +75,8 @@ impl Program {
         self.command
     }
 
-    /// Replaces this process with the program. The process id stays the same, so the grader
-    /// measures and kills the program itself. The system kills the program when the grader ends,
+    /// Replaces this process with the program. The process id stays the same, so the grader can
+    /// measure and kill the program directly. The system kills the program when the grader ends,
     /// even if the grader is killed.
     pub(super) fn exec(mut self) -> io::Result<ExitCode> {
         signal_ready()?;
@@ -93,16 +93,17 @@ impl Program {
         Err(error)
     }
 
-    /// Starts the program and waits for it. This process stays, because the program starts other
-    /// processes, which must not outlive the program or the grader. `cpu` is the program's CPU time
-    /// limit.
+    /// Starts the program and waits for it. This process stays alive, because the program starts
+    /// other processes, which must not outlive the program or the grader. `cpu` is the program's
+    /// CPU time limit.
     pub(super) fn supervise(mut self, cpu: Duration) -> io::Result<ExitCode> {
         signal_ready()?;
         let mut child = self.command.stdin(Stdio::null()).spawn()?;
         let pid = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
         let pid = pid.ok_or_else(|| io::Error::other("the compiler has no process id"))?;
         let ended = pidfd_open(pid, PidfdFlags::empty())?;
-        // The grader never writes to our standard input, which is closed only when the grader ends.
+        // The grader never writes to our standard input, and it is only closed when the grader
+        // ends.
         let grader = io::stdin();
         let mut events = [
             PollFd::new(&ended, PollFlags::IN),
@@ -114,14 +115,14 @@ impl Program {
         }
         let status = child.wait()?;
         if let Some(signal) = status.signal().and_then(Signal::from_named_raw) {
-            // The first process of a PID namespace does not receive SIGXCPU at the soft limit. The
+            // The first process of a PID namespace doesn't receive SIGXCPU at the soft limit. The
             // hard limit then kills it with SIGKILL, which would look as if memory had run out.
             let signal = if signal == Signal::KILL && children_cpu_time()? >= cpu {
                 Signal::XCPU
             } else {
                 signal
             };
-            // Ends this process by the same signal, together with everything that the program left
+            // End this process with the same signal, together with everything the program left
             // running.
             kill_current_process_group(signal)?;
         }
@@ -133,7 +134,7 @@ impl Program {
 /// Returns the CPU time of all children that this process has started and waited for.
 #[allow(unsafe_code, reason = "there is no safe wrapper for this call")]
 fn children_cpu_time() -> io::Result<Duration> {
-    // SAFETY: the struct holds only integers, for which zero is a valid value.
+    // SAFETY: the struct contains only integers, for which zero is a valid value.
     let mut usage: libc::rusage = unsafe { mem::zeroed() };
     // SAFETY: the call writes one such struct, into `usage`.
     if unsafe { libc::getrusage(libc::RUSAGE_CHILDREN, &raw mut usage) } != 0 {

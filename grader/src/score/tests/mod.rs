@@ -1,4 +1,4 @@
-//! Tests of scores, and a small exam for other tests.
+//! Tests for scores, and a small exam for other tests.
 
 pub mod small_exam;
 

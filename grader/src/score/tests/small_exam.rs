@@ -1,4 +1,4 @@
-//! A small exam for tests: items of a question or two, made by hand.
+//! A small exam for tests, with handmade items of one or two questions.
 
 use glam::Vec3;
 use judging::exam::{Exam, ExamQuestion, Item, Key};
@@ -40,7 +40,7 @@ pub fn exam(ids: &[&str]) -> Exam {
     Exam::new(RAYS.assignment, "small", items.collect())
 }
 
-/// Returns the score of a submission of this exam before any item is graded.
+/// Returns a submission's score in this exam before any item is graded.
 pub fn pending(exam: &Exam) -> Score {
     let name = ExamName {
         id: exam.id.clone(),

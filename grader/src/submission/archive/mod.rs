@@ -1,5 +1,5 @@
 //! Reads a submission from an archive, which may be malicious. The archive is read in memory and
-//! never unpacked. The sizes and counts in its headers are not trusted: limits apply to the bytes
+//! never unpacked. The sizes and counts in its headers aren't trusted. Limits apply to the bytes
 //! that are actually read and inflated.
 
 mod paths;
@@ -27,17 +27,17 @@ use paths::{check_special, duplicate_paths, normalize_path};
 use tarball::Tarball;
 use zip_reader::ZipReader;
 
-/// The maximum number of archives inside each other that are opened.
+/// The maximum number of nested archives to open.
 const MAX_LEVELS: usize = 3;
 
-/// The limits on what is read from an archive.
+/// The limits on reading from an archive.
 #[derive(Clone, Debug)]
 pub struct ArchiveLimits {
     /// The maximum number of members. A checkout with its `target/` has several thousand.
     members: usize,
     /// The maximum size of an uncompressed tar in bytes, including members that are skipped.
     tar_bytes: u64,
-    /// The bytes that may still be read, compressed and inflated, from this archive and others.
+    /// The remaining budget of bytes, compressed and inflated, for this archive and others.
     total: ByteBudget,
 }
 
@@ -51,8 +51,8 @@ impl ArchiveLimits {
         }
     }
 
-    /// Returns the limits for the archive of a whole class: so large that one submission in it
-    /// hardly reaches them.
+    /// Returns the limits for a whole class's archive. They are so large that a single submission
+    /// in it is unlikely to reach them.
     pub fn class() -> Self {
         ArchiveLimits {
             members: 2_000_000,
@@ -65,7 +65,7 @@ impl ArchiveLimits {
 /// Reasons for rejecting an archive.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ArchiveError {
-    /// The archive has no bytes, or no members.
+    /// The archive is empty, or contains no members.
     #[error("it is empty: download or submit it again")]
     Empty,
     /// The file is an archive of an unsupported kind.
@@ -73,7 +73,7 @@ pub enum ArchiveError {
         "it is a {0} archive, but only .zip, .tar and .tar.gz can be read: pack it as one of these"
     )]
     UnsupportedKind(&'static str),
-    /// The file is not an archive.
+    /// The file isn't an archive.
     #[error("it is neither a folder nor a .zip, .tar or .tar.gz, whatever its name says")]
     NotAnArchive,
     /// The archive is truncated or malformed.
@@ -85,16 +85,16 @@ pub enum ArchiveError {
     /// A member is compressed with an unsupported method.
     #[error("the file {0} in it is compressed with an unsupported method: create a plain .zip")]
     UnsupportedCompression(String),
-    /// Two Rust files have the same path, at least on some file systems.
+    /// The paths of two Rust files are the same on at least some file systems.
     #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
     DuplicatePath(String, String),
-    /// There are too many members.
+    /// The archive contains too many members.
     #[error("it has more than {0} files: pack the task files, without target/")]
     TooManyFiles(usize),
     /// The contents are too large.
     #[error("its contents are larger than {} MiB: pack the task files, without target/", .0 >> 20)]
     TooLarge(u64),
-    /// The archive is inside too many others.
+    /// The archive is nested too deeply.
     #[error("it is inside {MAX_LEVELS} other archives, and not opened: unpack them")]
     TooDeep,
     /// A member's path leads out of the archive.
@@ -103,7 +103,7 @@ pub enum ArchiveError {
     /// A member is a link or a device.
     #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
-    /// The system does not let the file be read.
+    /// The system doesn't allow reading the file.
     #[error("the file cannot be read: {0}")]
     Io(String),
     /// The machine failed to read the file.
@@ -118,7 +118,7 @@ pub struct Member {
     pub path: String,
     /// The size that the archive claims, in bytes.
     pub size: u64,
-    /// The index of the file among the members of the archive.
+    /// The index of the file among the archive's members.
     index: usize,
 }
 
@@ -134,8 +134,8 @@ pub struct Listing {
 }
 
 impl Listing {
-    /// Records a link or device: adds an error, and lists its folder. In `target/`, links and
-    /// devices are ignored.
+    /// Records a link or device: adds an error and lists its folder. Links and devices in `target/`
+    /// are ignored.
     fn add_special(&mut self, path: &str) {
         if let Err(why) = check_special(path) {
             let folder = path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
@@ -164,7 +164,7 @@ impl ArchiveBytes {
         })
     }
 
-    /// Returns a reader, and the number of bytes.
+    /// Returns a reader and the number of bytes.
     fn reader_at(&self) -> Result<(Box<dyn ReaderAt>, u64), ArchiveError> {
         Ok(match self {
             ArchiveBytes::File(path) => {
@@ -220,7 +220,7 @@ impl Archive {
     }
 
     /// Lists all contents. A member that is a link or a device, or whose path leads outside, is
-    /// only recorded as an error: in the archive of a whole class, it affects only one student.
+    /// only recorded as an error, because in a whole class's archive it only affects one student.
     pub fn listing(&mut self) -> Result<Listing, ArchiveError> {
         let mut listing = match &mut self.0 {
             ArchiveReader::Zip(zip) => zip.listing(),
@@ -240,8 +240,8 @@ impl Archive {
         }
     }
 
-    /// Returns the contents of these members, in the same order. If a member has more than
-    /// `longest` bytes, only the first `longest + 1` are returned.
+    /// Returns these members' contents in the same order. If a member has more than `longest`
+    /// bytes, only the first `longest + 1` are returned.
     pub fn read(
         &mut self,
         members: &[&Member],
@@ -256,9 +256,9 @@ impl Archive {
         Ok(all)
     }
 
-    /// Calls `each` with the index and the contents of each of these members, of which a single one is
-    /// in memory at a time. Of a member that has more bytes than the number beside it, one byte more
-    /// than that is read. A tar is scanned once. In a zip, a damaged member affects no other.
+    /// Calls `each` with the index and the contents of each of these members. Only one member is in
+    /// memory at a time. For a member with more bytes than its given number, one more byte than
+    /// that is read. A tar is scanned once. In a zip, a damaged member doesn't affect the others.
     pub fn read_each<E: From<ArchiveError>>(
         &mut self,
         members: &[(&Member, u64)],

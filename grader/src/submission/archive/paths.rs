@@ -9,7 +9,7 @@ use crate::submission::display_name;
 
 /// Returns a member's path with `/` and without `.` components. Fails if it leads outside.
 pub(super) fn normalize_path(path: &str) -> Result<String, ArchiveError> {
-    // Some programs on Windows write `\`, against the standard.
+    // Some programs on Windows write `\`, contrary to the standard.
     let path = path.replace('\\', "/");
     let is_absolute = path.starts_with('/') || path.get(1..2) == Some(":");
     if is_absolute || path.split('/').any(|part| part == "..") {
@@ -21,8 +21,8 @@ pub(super) fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     Ok(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// Returns an error for each Rust file with the same path as an earlier one. Which of the two files
-/// is used would depend on the program that unpacks the archive.
+/// Returns an error for each Rust file with the same path as an earlier one. The program that
+/// unpacks the archive would decide which of the two files is used.
 pub(super) fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let mut errors = Vec::new();
@@ -50,8 +50,7 @@ fn folded_path(path: &str) -> String {
     names.collect::<Vec<_>>().join("/")
 }
 
-/// Rejects a link or device, except in `target/`: Cargo makes hard links there, and nothing in it
-/// is read.
+/// Rejects a link or device, except in `target/`, where Cargo makes hard links and nothing is read.
 pub(super) fn check_special(path: &str) -> Result<(), ArchiveError> {
     if path.split('/').any(|part| part == "target") {
         Ok(())

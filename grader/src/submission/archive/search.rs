@@ -1,4 +1,4 @@
-//! Looks for task files in an archive, and in the archives in it.
+//! Searches an archive and the archives in it for task files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -10,10 +10,10 @@ use crate::submission::names::is_archive_name;
 use crate::submission::search::{FoundFolder, Search};
 use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 
-/// The maximum size of an archive in another one, in bytes.
+/// The maximum size of a nested archive, in bytes.
 const MAX_INNER_BYTES: u64 = 64 << 20;
 
-/// Why the archives in an archive were not all read.
+/// Why some archives in an archive were not read.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 enum Stopped {
@@ -36,9 +36,9 @@ fn inner_archive(
     }
 }
 
-/// Adds the folders of an archive that have task files, or copies of them, to a search. `name` is put
-/// in front of their paths. `level` is 1 unless the archive is in another one. An archive in it that
-/// cannot be read is one of the search's errors. Returns the names at the archive's top level.
+/// Adds an archive's folders with task files, or copies of them, to a search. `name` is prepended
+/// to their paths. `level` is 1 unless the archive is nested. A nested archive that cannot be read
+/// is added to the search's errors. Returns the names at the archive's top level.
 pub(in crate::submission) fn search(
     bytes: ArchiveBytes,
     name: &str,
@@ -73,7 +73,7 @@ pub(in crate::submission) fn search(
             folders.entry(folder).or_default().push((file, member));
         }
     }
-    // Everything is read at once, since each call scans a tar.
+    // Read everything at once, since each call scans the entire tar.
     let mut found = Vec::new();
     let mut requested: Vec<&Member> = Vec::new();
     let mut indices = Vec::new();

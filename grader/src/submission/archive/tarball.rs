@@ -1,5 +1,5 @@
-//! `.tar` and `.tar.gz` archives. Unlike zip, tar has no central directory, so every access scans
-//! the archive from the start.
+//! `.tar` and `.tar.gz` archives. Unlike zip, tar doesn't contain a central directory, so every
+//! access scans the archive from the start.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read};
@@ -40,7 +40,7 @@ impl Tarball {
 
     fn reader(&self) -> Result<(LimitedReader<Box<dyn Read>>, ByteBudget), ArchiveError> {
         let mut magic = [0; 2];
-        // A file of fewer than two bytes is not an archive. It is rejected later, because it has no
+        // A file of fewer than two bytes isn't an archive. It is rejected later, because it has no
         // magic number.
         let _ = self.bytes.reader()?.read(&mut magic).map_err(io_error)?;
         let inner: Box<dyn Read> = match magic {
@@ -68,7 +68,7 @@ impl Tarball {
                     let size = entry.size();
                     listing.members.push(Member { path, size, index });
                 }
-                // Other entries are metadata, such as the header in which Git stores the commit id.
+                // Other entries are metadata, such as the header where Git stores the commit id.
                 Ok(_) => {}
             }
             Ok(())

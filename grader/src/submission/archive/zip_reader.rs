@@ -12,7 +12,7 @@ use super::{
     display_name, normalize_path,
 };
 
-/// The maximum number of bytes to read for a list of the contents, per member. This is about the size
+/// The maximum number of bytes per member to read for listing the contents. This is about the size
 /// of its entry in the central directory.
 const DIRECTORY_BYTES: u64 = 168;
 
@@ -59,7 +59,7 @@ impl ZipReader {
     }
 
     pub(super) fn read(&self, member: &Member, longest: u64) -> Result<Vec<u8>, ArchiveError> {
-        // Compressed text is hardly longer than the text itself.
+        // Compressed text is at most slightly longer than the text itself.
         self.budget.reset(2 * longest + HEADER_BYTES);
         let mut bytes = Vec::new();
         let entry = self.zip.read(&self.zip.entries[member.index]);
@@ -71,7 +71,7 @@ impl ZipReader {
     }
 }
 
-/// Converts an error in a zip file, or in its member with this path.
+/// Converts an error in a zip file or in its member with this path.
 fn archive_error(error: &ZipError, path: &str) -> ArchiveError {
     match error {
         ZipError::Encrypted => ArchiveError::Encrypted(display_name(path)),

@@ -1,8 +1,9 @@
-//! Chooses which folder of a submission is graded, without any I/O.
+//! Chooses the folder of a submission to grade, without any I/O.
 //!
-//! People hand in more than they mean to: a copy at the top, an older version in a folder, the whole
-//! project. The folder with most of the task files counts. Other copies are ignored, with a note,
-//! as long as they could not be what is meant; otherwise a person has to choose.
+//! People hand in more than they intend to: a copy at the top, an older version in a folder, or the
+//! entire project. The folder with the most task files is graded. Other copies are ignored, with a
+//! note, as long as they can't be what the student meant to hand in. Otherwise, a person has to
+//! choose.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,8 +13,8 @@ use super::names::{Resemblance, is_archive_name};
 use super::{MAX_NOTES, SubmissionError, TaskFileError, display_name};
 use crate::handed_out::{HandedOut, is_unwritten};
 
-/// Names of folders that never hold what is handed in: metadata of systems and tools, old versions
-/// that tools keep, and compiled files. Those of the project itself are in the assignment's table.
+/// Names of folders that never contain handed-in files: metadata of systems and tools, old versions
+/// kept by tools, and compiled files. The project's own folders are listed in the assignment.
 const SKIPPED: [&str; 24] = [
     "__MACOSX",
     "target",
@@ -41,58 +42,59 @@ const SKIPPED: [&str; 24] = [
     ".DS_Store",
 ];
 
-/// A folder, or an archive in it, that has task files.
+/// A folder, possibly in an archive, that contains task files.
 #[derive(Debug, Default)]
 pub(super) struct Candidate {
     /// The path of the folder below the submission, with `/`. Empty for its top level.
     pub(super) folder: String,
-    /// The task files in it, by name.
+    /// The task files in the folder, by name.
     pub(super) task_files: BTreeMap<&'static str, FileContents>,
-    /// Other Rust files by name, with their bytes if they are to be compared with given files.
+    /// Other Rust files by name, with their bytes if they need to be compared with given files.
     pub(super) other_files: BTreeMap<String, Vec<u8>>,
 }
 
-/// The folder that is graded.
+/// The choice of the folder to grade.
 #[derive(Debug)]
 pub(super) struct Choice {
     /// The chosen folder.
     pub(super) chosen: Candidate,
-    /// Notes about the copies that are ignored.
+    /// Notes about ignored copies.
     pub(super) notes: Vec<String>,
-    /// Whether every task file was found, and differs from the starter's.
+    /// Whether every task file was found and differs from the starter's.
     pub(super) is_complete: bool,
 }
 
-/// A file that resembles a task file, in a folder or an archive, and is not graded as it.
+/// A file in a folder or an archive that resembles a task file but isn't graded as one.
 #[derive(Debug)]
 pub(super) struct Lookalike {
     /// The path of the file below the submission, with `/`.
     pub(super) path: String,
     /// The name of the task file.
     pub(super) file: &'static str,
-    /// How its name resembles that of the task file.
+    /// How its name resembles the task file's.
     pub(super) kind: Resemblance,
     /// The contents of the file.
     pub(super) contents: FileContents,
 }
 
-/// Returns whether nothing in a folder of this name is handed in, whatever the assignment is.
+/// Returns whether folders with this name are skipped in all assignments.
 pub fn is_skipped_name(name: &str) -> bool {
     SKIPPED.contains(&name)
 }
 
-/// Returns whether nothing in a folder of this name is handed in.
+/// Returns whether folders with this name are skipped.
 pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
     is_skipped_name(name) || handed_out.assignment.other_folders.contains(&name)
 }
 
-/// Chooses the folder with most task files that differ from the starter's. `None` if there are no
-/// candidates. `path` is that of the submission, for messages.
+/// Chooses the folder with the most task files that differ from the starter's. Returns `None` if
+/// there are no candidates. `path` is the submission's path, for messages.
 ///
-/// A folder whose files are all in the chosen one as well is ignored, with a note if they differ
-/// there. A folder that has as much as the chosen one, or a file that the chosen one lacks, could
-/// be what is meant: then the result is an error. So could a changed copy of a file that is as it was
-/// handed out, in an archive or under another name; other files that resemble task files are noted.
+/// A folder is ignored if the chosen folder contains all of its files too. If the files differ,
+/// there is a note. A folder that contains as many files as the chosen one, or a file that the
+/// chosen one lacks, could be the one the student meant to hand in, so the result is an error. The
+/// same is true for a changed copy, in an archive or under a different name, of a file that is
+/// unmodified in the chosen folder. Other files that resemble task files are only noted.
 pub(super) fn choose(
     path: &Path,
     mut candidates: Vec<Candidate>,
@@ -207,11 +209,10 @@ pub(super) fn choose(
     }))
 }
 
-/// The bytes of a task file, or the reason why it has none.
+/// The bytes of a task file, or why there are none.
 pub(super) type FileContents = Result<Vec<u8>, TaskFileError>;
 
-/// Returns the error for task files that are as they were handed out, and changed copies of them. Each
-/// is named once.
+/// Returns the error for unmodified task files with changed copies. Each file is named once.
 fn starter_beside_copies(
     path: &Path,
     starters: BTreeSet<&str>,
@@ -245,8 +246,8 @@ impl Candidate {
             .map(|(name, contents)| (*name, contents))
     }
 
-    /// Returns the files that are changed in this folder, which is in an archive, and are the
-    /// starter's in another folder, which is in none.
+    /// Returns the files that are changed in this folder, which is in an archive, but are the
+    /// starter's in another folder that isn't in an archive.
     fn archived_copies_of_starter(
         &self,
         other: &Candidate,
@@ -273,7 +274,7 @@ impl Candidate {
     }
 }
 
-/// Returns whether a task file is as it was handed out.
+/// Returns whether a task file is unmodified.
 pub(super) fn is_starter(name: &str, contents: &FileContents, handed_out: &HandedOut) -> bool {
     let text = contents
         .as_ref()
@@ -283,8 +284,8 @@ pub(super) fn is_starter(name: &str, contents: &FileContents, handed_out: &Hande
     matches!((file, text), (Some(file), Some(Ok(text))) if is_unwritten(file, text))
 }
 
-/// Returns the position of a folder in the assignment's list of folders, below the top or below a
-/// folder there. Other folders come last.
+/// Returns the position of a folder in the assignment's list of folders, which may be at the top
+/// level or in a folder there. Other folders come last.
 fn rank(folder: &str, handed_out: &HandedOut) -> usize {
     let folders = handed_out.assignment.folders;
     let position = |folder: &str| folders.iter().position(|known| *known == folder);
@@ -294,7 +295,7 @@ fn rank(folder: &str, handed_out: &HandedOut) -> usize {
         .unwrap_or(2 * folders.len())
 }
 
-/// Joins two paths with `/`. Either may be empty.
+/// Joins two paths with `/`. Either one may be empty.
 pub(super) fn join(folder: &str, name: &str) -> String {
     match (folder, name) {
         ("", name) | (name, "") => name.to_owned(),

@@ -1,4 +1,4 @@
-//! Tests of the choice, with listings made by hand and at random.
+//! Tests of the choice, with handmade and random listings.
 
 use proptest::prelude::*;
 
@@ -30,7 +30,7 @@ fn chosen(candidates: Vec<Candidate>) -> Result<Option<Choice>, SubmissionError>
     choose("hw".as_ref(), candidates, Vec::new(), &RAYS)
 }
 
-/// Returns the chosen folder and the notes, or the folders that could be meant.
+/// Returns the chosen folder and the notes, or the folders to choose from.
 fn choice(candidates: Vec<Candidate>) -> Result<(String, Vec<String>), Vec<String>> {
     match chosen(candidates) {
         Ok(choice) => Ok(choice
@@ -54,7 +54,7 @@ fn the_folder_with_most_that_is_written_is_chosen_and_the_assignments_is_preferr
             "student/src",
             vec![note],
         ),
-        // Files as handed out count as absent.
+        // Unmodified files are treated as absent.
         (
             vec![
                 candidate("", &all("")),
@@ -63,7 +63,7 @@ fn the_folder_with_most_that_is_written_is_chosen_and_the_assignments_is_preferr
             "my/deep/solution",
             Vec::new(),
         ),
-        // Equal copies are no choice.
+        // Equal copies leave nothing to choose.
         (
             vec![
                 candidate("backup", &all("new")),
@@ -82,12 +82,12 @@ fn the_folder_with_most_that_is_written_is_chosen_and_the_assignments_is_preferr
 fn two_folders_that_both_have_something_are_ambiguous() {
     for [one, other] in [
         [("src", all("new")), ("old", all("old"))],
-        // A file that only the smaller folder has.
+        // Only the smaller folder contains this file.
         [
             ("src", vec![(0, "a"), (1, "b"), (2, "")]),
             ("", vec![(2, "c")]),
         ],
-        // The smaller folder also has another one, which both have.
+        // The smaller folder also contains a file that both contain.
         [
             ("src", vec![(0, "a"), (1, "b"), (2, "c")]),
             ("", vec![(0, "x"), (3, "d")]),

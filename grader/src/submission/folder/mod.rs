@@ -1,5 +1,5 @@
-//! Reads the task files in a folder on disk and in all folders below it, and in the archives there.
-//! Links are not followed, and only regular files are read.
+//! Reads the task files in a folder on disk, its subfolders and the archives in them. Links aren't
+//! followed, and only regular files are read.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -18,7 +18,7 @@ use crate::machine::disk::{self, Operation};
 use crate::machine::files::{PathError, is_about_file};
 use crate::machine::system::{self, EntryKind, Folder};
 
-/// Looks for task files in a folder and everything below it, and in the archives there.
+/// Searches a folder, its subfolders and the archives in them for task files.
 pub(super) fn search(
     path: &Path,
     handed_out: &'static HandedOut,
@@ -29,7 +29,7 @@ pub(super) fn search(
     Ok(search)
 }
 
-/// Looks for task files in a folder, and not below it.
+/// Searches a folder for task files, but not its subfolders.
 pub(super) fn search_one(
     path: &Path,
     handed_out: &'static HandedOut,
@@ -41,7 +41,7 @@ pub(super) fn search_one(
     Ok(search)
 }
 
-/// Looks for task files among these files, each given by its name and its path, and in the archives
+/// Searches these files, given by their names and paths, for task files, including the archives
 /// among them.
 pub(super) fn search_files(
     path: &Path,
@@ -50,7 +50,7 @@ pub(super) fn search_files(
 ) -> Result<Search, SubmissionError> {
     let mut search = Search::new(path, handed_out);
     search.names = files.iter().map(|(name, _)| name.clone()).collect();
-    // Of several files with the same name, the last one counts.
+    // If several files have the same name, use the last one.
     let open = |name: &OsStr| {
         let file = files.iter().rfind(|(other, _)| OsStr::new(other) == name);
         file.map_or(Ok(None), |(_, path)| {
@@ -70,7 +70,7 @@ pub(super) fn search_files(
     Ok(search)
 }
 
-/// Looks for task files in a single archive.
+/// Searches a single archive for task files.
 pub(super) fn search_archive(
     path: &Path,
     handed_out: &'static HandedOut,
@@ -100,8 +100,8 @@ impl Search {
         found
     }
 
-    /// Looks for task files in a folder, whose path is `below` the submission's, and everything
-    /// below it.
+    /// Searches a folder, whose path below the submission's is `below`, and its subfolders for task
+    /// files.
     fn visit(&mut self, folder: &Folder, below: &str) -> Result<(), SubmissionError> {
         let path = self.submission.join(below);
         let names = list(folder, &path)?;
@@ -178,7 +178,7 @@ impl Search {
     }
 }
 
-/// Returns a name with replacements for what is not UTF-8.
+/// Returns a name with invalid UTF-8 replaced.
 fn shown(name: &OsStr) -> String {
     name.to_string_lossy().into_owned()
 }
@@ -210,7 +210,7 @@ fn unreadable(path: &Path, error: io::Error) -> SubmissionError {
     })
 }
 
-/// Reads a file. The outer error is the machine's; the inner one costs the file's points.
+/// Reads a file. The outer error is the machine's. The inner error costs the file's points.
 fn read_file(opened: io::Result<Option<File>>) -> io::Result<FileContents> {
     let read = || {
         let Some(file) = opened? else {

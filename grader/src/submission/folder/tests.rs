@@ -6,7 +6,7 @@ use crate::handed_out::RAYS;
 use crate::submission::Submission;
 use crate::submission::tests::{Files, collected, exceeded, folder, tar, text, texts};
 
-/// Returns what a search finds in a folder with these files.
+/// Returns the results of searching a folder with these files.
 fn searched(files: Files) -> Search {
     search(folder(files).path(), &RAYS).unwrap()
 }
@@ -96,7 +96,7 @@ fn a_single_folder_is_searched_without_those_below() {
     assert_eq!(search.candidates.len(), 1);
 }
 
-/// Folders that an old program has unpacked have names in its encoding.
+/// Old programs unpack folders with names in their own encoding.
 #[cfg(target_os = "linux")]
 #[test]
 fn folders_and_archives_whose_names_are_not_utf8_are_searched() {
@@ -107,7 +107,7 @@ fn folders_and_archives_whose_names_are_not_utf8_are_searched() {
     fs::create_dir(named(b"L\xf6sung")).unwrap();
     fs::write(named(b"L\xf6sung/bvh.rs"), b"new").unwrap();
     fs::write(named(b"L\xf6sung.tar"), tar(&[("bvh.rs", b"newer")])).unwrap();
-    // It is no task file, and only named.
+    // It isn't a task file, so it is only mentioned.
     fs::write(named(b"b\xf6x.rs"), b"").unwrap();
     let error = Submission::collect(folder.path(), &RAYS).unwrap_err();
     let SubmissionError::Ambiguous { copies, .. } = error else {

@@ -1,4 +1,4 @@
-//! Items with answers, right and wrong.
+//! Items with right and wrong answers.
 
 use super::*;
 
@@ -114,7 +114,7 @@ fn an_answer_of_the_wrong_kind_is_no_evidence() {
     assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
     let message = "the program sent an invalid answer: too short";
     assert_eq!((&*line.message, line.evidence), (message, None));
-    // Without judgements, an item earns nothing, either.
+    // An item without judgements earns nothing either.
     let line = answered(Vec::new(), Vec::new());
     assert_eq!((line.points, line.verdict), (0, Verdict::Protocol));
 }

@@ -1,4 +1,4 @@
-//! Tests of the scores of items, with small items and outcomes made by hand.
+//! Tests for the scores of items, with small handmade items and outcomes.
 
 use judging::exam::{ExamQuestion, Key};
 use protocol::{Panic, Question};
@@ -25,8 +25,8 @@ fn failed(credit: Credit, element: usize, kind: FailureKind) -> Judgement {
     }
 }
 
-/// Returns a judgement by which the interval is wrong at this element, and `count` says how many
-/// elements are wrong.
+/// Returns a judgement that the interval is wrong at this element. `count` says how many elements
+/// are wrong.
 fn wrong(credit: Credit, element: usize, count: Option<(usize, usize)>) -> Judgement {
     let [what, got, wanted] = ["interval", "None", "[0, 1]"].map(str::to_owned);
     let mut judgement = failed(credit, element, FailureKind::Wrong { what, got, wanted });
@@ -42,7 +42,7 @@ fn panicked(credit: Credit, message: &str, location: &str) -> Judgement {
     failed(credit, 0, FailureKind::Panicked(panic))
 }
 
-/// Returns the score of an item that has one of these questions for each judgement.
+/// Returns the score of an item with one of these questions for each judgement.
 fn answered(questions: Vec<ExamQuestion>, judgements: Vec<Judgement>) -> ItemScore {
     assert_eq!(questions.len(), judgements.len());
     let outcome = ItemOutcome::answered(judgements);

@@ -1,4 +1,4 @@
-//! Items without answers: faults, items that were not run, and files that are not compiled.
+//! Items without answers: faults, items that were not run, and files that aren't compiled.
 
 use crate::probe::{Crash, TimeLimit};
 use crate::submission::TaskFileError;
@@ -15,7 +15,7 @@ fn faults() -> [(Fault, Verdict); 4] {
     ]
 }
 
-/// Every reason why a file is not compiled.
+/// Every reason for not compiling a file.
 fn reasons() -> [NotCompiled; 4] {
     [
         NotCompiled::Unreadable(TaskFileError::Missing),

@@ -1,4 +1,4 @@
-//! Scores that depend on other items, and hints, which depend on the answers to a whole task.
+//! Scores that depend on other items, and hints that depend on the answers to a whole task.
 
 use super::*;
 
@@ -21,7 +21,7 @@ fn the_first_item_that_earned_nothing_blocks_those_that_depend_on_it() {
     for (id, points, blocking) in [
         ("triangle.inside", 1, Some(("bbox.through", "bbox"))),
         ("bbox.through", 4, Some(("bbox.flat", "bbox"))),
-        // Its own item has no points, either, and does not block itself.
+        // The item itself has no points either, but doesn't block itself.
         ("bbox.flat", 1, None),
         ("triangle.inside", 0, Some(("triangle.inside", "triangle"))),
     ] {
@@ -30,7 +30,7 @@ fn the_first_item_that_earned_nothing_blocks_those_that_depend_on_it() {
     }
 }
 
-/// Returns an item's score that has a value in every field.
+/// Returns an item's score with a value in every field.
 fn full_score() -> ItemScore {
     let judgement = panicked(Credit::NONE, "attempt to add with overflow", "bbox.rs:34:9");
     let line = answered(vec![boxes(1)], vec![judgement]);

@@ -26,7 +26,7 @@ const SCRIPT: &str = r#"
 /// The exit code of the script if it cannot mount the disk.
 const MOUNT_FAILED: i32 = 99;
 
-/// Grades on a disk of this size in kilobytes. Returns `None` if this system does not allow the
+/// Grades on a disk of this size in kilobytes. Returns `None` if this system doesn't allow the
 /// mount.
 fn grade_on_disk(
     kilobytes: usize,
@@ -54,8 +54,8 @@ fn grade_on_disk(
     output
 }
 
-/// Grades on disks of increasing size, from one on which nothing fits to one on which everything
-/// fits. A full disk must never cost the student points.
+/// Grades on disks of increasing size, from one that is too small for anything to one where
+/// everything fits. A full disk must never cost the student points.
 #[test]
 fn a_full_disk_is_reported_and_gives_no_score() {
     let workspace = WorkspaceCopy::with_dependencies();
@@ -74,7 +74,7 @@ fn a_full_disk_is_reported_and_gives_no_score() {
             }
             code => {
                 assert_eq!(code, Some(3), "{kilobytes} kB: {error}");
-                // The file that did not fit may be the page, which is written after a complete
+                // The file that didn't fit may be the page, which is written after a complete
                 // score.
                 let is_complete = score["complete"] == true;
                 assert!(!is_complete || score["points"] == 100, "{kilobytes} kB");
@@ -88,7 +88,7 @@ fn a_full_disk_is_reported_and_gives_no_score() {
     assert!(most && !least, "{complete:?}");
 }
 
-/// Denies `tmpfs` mounts to this thread from now on, and to all processes that it starts.
+/// Denies `tmpfs` mounts to this thread and all processes it starts from now on.
 fn deny_tmpfs_mounts() {
     // Only mounts with exactly these flags are denied: the sandbox mounts its new root with them.
     let flags = libc::MS_NOSUID | libc::MS_NODEV;

@@ -1,4 +1,4 @@
-//! Tests of a grader that is killed, and of one on a machine under load.
+//! Tests of a grader that is killed, and of a grader on a machine under load.
 
 use std::fs;
 use std::path::Path;
@@ -42,12 +42,12 @@ fn assert_outputs_parse(out: &Path) {
     }
 }
 
-/// Starts the grader this many times, and kills each run at a different moment. The moments are
+/// Starts the grader this many times and kills each run at a different moment. The moments are
 /// spread over the duration of a run.
 fn kill_at_moments(times: u32) {
     let submission = Submission::reference("killed");
     let out = submission.path().join("undisturbed");
-    // The run that is timed does not compile the dependencies.
+    // The timed run must not compile the dependencies.
     compile_dependencies();
     let began = Instant::now();
     start(&submission, &out).wait().unwrap();
@@ -56,7 +56,7 @@ fn kill_at_moments(times: u32) {
 
     let mut partial = 0;
     for time in 0..times {
-        // Multiples of the golden ratio, modulo 1, are spread evenly between 0 and 1.
+        // Multiples of the golden ratio, modulo 1, are evenly spread between 0 and 1.
         let moment = took.mul_f64(f64::from(time) * 0.618_034 % 1.0);
         let out = submission.path().join(format!("killed-{time}"));
         let mut grader = start(&submission, &out);
@@ -91,8 +91,8 @@ fn two_hundred_killed_runs_leave_no_incomplete_file_that_looks_complete() {
     kill_at_moments(200);
 }
 
-/// Kills the grader while it waits for a fake cargo, which has started another process and takes
-/// ten minutes.
+/// Kills the grader while it waits for a fake cargo that has started another process and takes ten
+/// minutes.
 #[cfg(target_os = "linux")]
 #[test]
 fn cargo_does_not_outlive_a_killed_grader() {

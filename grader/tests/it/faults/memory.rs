@@ -13,7 +13,7 @@ use crate::harness::{GradeRun, Submission, assert_fails, workspace};
 
 /// CPU time after which a process has certainly started its work.
 const BUSY: Duration = Duration::from_millis(100);
-/// The name of the honest program that shows whether the machine is the reason.
+/// The name of the control program that shows whether the machine is the reason.
 const CONTROL: &str = "control";
 
 fn kill(process: u32) {
@@ -22,8 +22,8 @@ fn kill(process: u32) {
     assert!(status.unwrap().success());
 }
 
-/// Grades a submission. Meanwhile, kills children of the grader: one with each name and at least
-/// this much CPU time, in this order.
+/// Grades a submission. In the meantime, kills children of the grader in this order, each with the
+/// given name and at least the given CPU time.
 fn grade_while_killing(victims: &[(&str, Duration)], submission: &Submission) -> GradeRun {
     compile_dependencies();
     let mut command = submission.command();
@@ -41,14 +41,14 @@ fn grade_while_killing(victims: &[(&str, Duration)], submission: &Submission) ->
     submission.results(grader.wait_with_output().unwrap())
 }
 
-/// The reference with another item in `sphere.rs`.
+/// Returns the reference with an additional item in `sphere.rs`.
 fn with_constant(name: &str, item: &str) -> Submission {
     let first = "use framework::math;";
     let submission = Submission::reference(name);
     submission.with_replaced("sphere.rs", first, &format!("{first}\n{item}"))
 }
 
-/// A submission that the compiler works on for a long time.
+/// Returns a submission that takes a long time to compile.
 fn long_to_compile() -> Submission {
     let long = "#[allow(long_running_const_eval)]\nconst LONG: u32 = {\nlet mut n = \
                 0_u32;\nwhile n < 2 { n = (n + 1) % 2; }\nn\n};";
@@ -91,11 +91,11 @@ fn if_only_the_submissions_program_is_killed_it_is_the_submissions_fault() {
     assert_eq!(item["verdict"], "crashed", "{item}");
 }
 
-/// A control group with a limit of memory, which is removed when this value is dropped.
+/// A control group with a memory limit. It is removed when this value is dropped.
 struct Group(PathBuf);
 
 impl Group {
-    /// Creates a group, if this machine lets us.
+    /// Creates a group, if this machine allows it.
     fn new(bytes: u64) -> Option<Self> {
         let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
         let mut lines = groups.lines();

@@ -1,5 +1,5 @@
-//! Faults of the machine or of the grader, which never cost a student points: the grader prints the
-//! reason, exits with 3, and writes no score. A run that was cut short leaves no file that looks
+//! Faults of the machine or of the grader, which never cost a student points. The grader prints the
+//! reason, exits with 3 and writes no score. An interrupted run never leaves a file that looks
 //! complete.
 
 #[cfg(target_os = "linux")]
@@ -45,7 +45,7 @@ fn without_a_linker_there_is_no_score() {
     assert_grader_fault(&graded, "not even the starter compiles");
 }
 
-/// Grades into `/dev/full`, the device that is always full.
+/// Grades into `/dev/full`, a device that is always full.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_writable_disk_there_is_no_score() {

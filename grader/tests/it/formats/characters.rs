@@ -1,5 +1,5 @@
-//! Characters that could affect the text around them, such as escape sequences and direction marks:
-//! nothing that a submission writes may bring them to a terminal, a page or a file for a platform.
+//! Characters that could affect the text around them, such as escape sequences and direction marks.
+//! Nothing a submission writes may put them in a terminal, a page or a file for a platform.
 
 use grader::exam_source::ExamSource;
 use grader::format::{FormatContext, StudentView};
@@ -21,7 +21,7 @@ use crate::formats::rendered;
 
 const NONE: [char; 0] = [];
 
-/// Returns a score with this text wherever a submission, or the name of its folder, can write.
+/// Returns a score with this text everywhere a submission or its folder's name can put it.
 pub fn score_with(text: &str) -> (Exam, Score) {
     let file = ExamSource::Practice.load(&RAYS).unwrap();
     let mut score = pending_score(&file.exam, file.name(), text, &RAYS);
@@ -65,7 +65,7 @@ fn texts(value: &Value) -> Vec<String> {
     }
 }
 
-/// Returns everything that people read of a score, by the name of the output.
+/// Returns everything people read about a score, by the name of the output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let (exam, score) = score_with(text);
     let view = StudentView::new(&score, &Policy::default(), Lateness::NONE);
@@ -93,14 +93,14 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
     outputs
 }
 
-/// Returns the characters in a text that could affect others, except line breaks.
+/// Returns the characters in a text that could affect the text around them, except line breaks.
 fn dangerous(text: &str) -> Vec<char> {
     let characters = text.chars();
     let dangerous = characters.filter(|c| *c != '\n' && affects_surroundings(*c));
     dangerous.collect()
 }
 
-/// Returns a text with every character that could affect others.
+/// Returns a text with every character that could affect the text around it.
 fn hostile_text() -> String {
     let characters = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
     let hostile: String = characters.filter(|c| affects_surroundings(*c)).collect();
@@ -112,7 +112,7 @@ fn no_output_has_a_character_that_affects_the_text_around_it() {
     let hostile = hostile_text();
     assert!(hostile.chars().count() > 200);
     for (output, text) in outputs(&hostile) {
-        // The terminal's own colours do not depend on the text.
+        // The terminal's own colours don't depend on the text.
         let text = match output {
             "terminal" => without_own_styles(&text),
             _ => text,
@@ -133,7 +133,7 @@ fn without_own_styles(text: &str) -> String {
 fn the_search_finds_dangerous_characters() {
     assert_eq!(dangerous("a\nb"), NONE);
     assert_eq!(dangerous("\u{1b}[2J\u{202e}"), ['\u{1b}', '\u{202e}']);
-    // Every output that shows a harmless text of a submission shows a hostile one escaped.
+    // Every output that shows a submission's harmless text must show a hostile text escaped.
     let showing = |text: &str, shown: &str| -> Vec<&str> {
         let found = outputs(text).into_iter();
         let found = found.filter(|(_, text)| text.contains(shown));

@@ -1,5 +1,5 @@
-//! Secrets that no format may show to students: notes for staff, and the questions and answers of a
-//! final exam.
+//! Secrets that formats must not show to students: notes for staff, and the questions and answers
+//! of a final exam.
 
 use std::fs;
 
@@ -81,7 +81,7 @@ fn hidden_items_are_left_out_or_summed_up() {
             "hidden", visible, visible, later, later, visible, visible, visible
         ]
     );
-    // Platforms that cannot reveal an item later get only the sum of the points.
+    // Platforms that cannot reveal an item later only get the sum of the points.
     let others = student_formats().filter(|format| format.id != "gradescope");
     for format in others.map(|format| format.id) {
         let text = models::readable(format, &written[format]);

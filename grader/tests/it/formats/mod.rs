@@ -23,7 +23,7 @@ pub fn student_formats() -> impl Iterator<Item = &'static FormatSpec> {
 }
 
 /// Returns everything that students can read in the formats, by the name of the output. Formats are
-/// taken from their table, so that a new one is tested, too.
+/// taken from their table, so that new formats are tested too.
 pub fn rendered(view: &StudentView, context: &FormatContext) -> FormatTexts {
     let files = student_formats().filter_map(|format| Some((format.id, format.render?)));
     let logs = FORMATS.into_iter();
@@ -85,7 +85,7 @@ pub static KNOWN_MISTAKE: LazyLock<FormatTexts> = LazyLock::new(|| {
     grade_in_all_formats(&submission, &small_exam("practice"), &[])
 });
 
-/// Grades a submission once, and returns the output in all formats.
+/// Grades a submission once. Returns the output in all formats.
 pub fn grade_in_all_formats(
     submission: &Submission,
     exam: &str,
@@ -115,8 +115,7 @@ pub fn grade_in_all_formats(
     written
 }
 
-/// Returns a submission whose panic messages and printed text attack the programs that display
-/// them.
+/// Returns a submission whose panic messages and output attack the programs that display them.
 pub fn hostile_submission() -> Submission {
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";
     let attack = r#"{head}

@@ -24,11 +24,11 @@ pub fn check(format: &str, text: &str) {
     }
 }
 
-/// Returns the text in a form that people can read in a snapshot.
+/// Returns the text in a readable form for snapshots.
 pub fn readable(format: &str, text: &str) -> String {
     match format {
         "html" => without_element(without_element(text, "style"), "script"),
-        // The replacement does not change the meaning of the XML. It is needed because quick-junit
+        // The replacement doesn't change the meaning of the XML. It is needed because quick-junit
         // ignores properties with a separate end tag.
         "junit" => {
             let text = text.replace("></property>", "/>");
@@ -150,7 +150,7 @@ enum AssignmentType {
     Group,
 }
 
-/// A test in classroom50's results. Unlike elsewhere, classroom50 allows additional keys here, and
+/// A test in classroom50's results. Unlike elsewhere, classroom50 allows additional keys here and
 /// keeps them.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]

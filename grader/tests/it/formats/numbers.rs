@@ -1,5 +1,5 @@
-//! No text that a submission writes changes a number that a platform reads: injected markup, keys or
-//! lines would.
+//! Text written by a submission never changes a number that a platform reads, as injected markup,
+//! keys or lines would.
 
 use grader::format::{FORMATS, FormatContext, StudentView};
 use grader::policy::{Lateness, Policy};
@@ -32,11 +32,11 @@ fn hostile_text() -> impl Strategy<Value = String> {
     proptest::collection::vec(part, 1..4).prop_map(|parts| parts.concat())
 }
 
-/// Returns the numbers in each format's file, for a submission that writes this text everywhere.
+/// Returns the numbers in each format's file for a submission that writes this text everywhere.
 fn all_numbers(text: &str) -> Vec<(&'static str, Vec<String>)> {
     let (_, score) = score_with(text);
     let view = StudentView::new(&score, &Policy::default(), Lateness::NONE);
-    // The folder is the teacher's, and its name is not a text of the submission.
+    // The folder is the teacher's, so its name is not controlled by the submission.
     let context = FormatContext::default();
     let rendered = FORMATS.into_iter().filter_map(|format| {
         let file = readable(format.id, &format.render?(&view, &context));
@@ -45,7 +45,7 @@ fn all_numbers(text: &str) -> Vec<(&'static str, Vec<String>)> {
     rendered.collect()
 }
 
-/// Returns the numbers in a file, each with its place.
+/// Returns the numbers in a file, each with its location.
 fn numbers(format: &str, file: &str) -> Vec<String> {
     if let Ok(value) = serde_json::from_str::<Value>(file) {
         let mut found = Vec::new();
@@ -60,13 +60,13 @@ fn numbers(format: &str, file: &str) -> Vec<String> {
             points.by_ref().map(text).collect()
         }
         "github" => markdown_rows(file),
-        // Every line of a text is for people, and no program reads it.
+        // Plain text is for people. No program reads it.
         "text" => Vec::new(),
         other => panic!("there is no reader of the numbers in {other}"),
     }
 }
 
-/// Returns the rows of tables outside of code blocks. A code block ends with as many backticks as it
+/// Returns the table rows outside code blocks. A code block ends with as many backticks as it
 /// begins with.
 fn markdown_rows(file: &str) -> Vec<String> {
     let mut rows = Vec::new();
@@ -86,7 +86,7 @@ fn markdown_rows(file: &str) -> Vec<String> {
 
 fn json_numbers(place: &str, value: &Value, found: &mut Vec<String>) {
     match value {
-        // A text is absent if it is empty.
+        // An empty text is omitted.
         Value::String(_) | Value::Null => {}
         Value::Array(values) => {
             found.push(format!("{place} has {}", values.len()));

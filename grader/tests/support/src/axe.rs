@@ -6,7 +6,7 @@ use crate::devtools::Tab;
 /// axe-core 4.14.1 by Deque Systems (MPL-2.0), unchanged from its npm package.
 const AXE: &str = include_str!("../../browser/axe/axe.min.js");
 
-/// Opens all collapsed sections of the loaded page, and returns the violations that axe-core finds.
+/// Opens all collapsed sections of the loaded page. Returns the violations found by axe-core.
 pub fn violations(tab: &mut Tab) -> Vec<String> {
     tab.eval("for (const details of document.querySelectorAll('details')) details.open = true; 0");
     tab.eval(&format!("{AXE}; 0"));

@@ -28,7 +28,7 @@ pub struct Chromium {
 }
 
 impl Chromium {
-    /// Starts Chromium. If it is not installed, prints a notice and returns `None`, or panics if
+    /// Starts Chromium. If it isn't installed, prints a notice and returns `None`, or panics if
     /// `CI` is set.
     pub fn start() -> Option<Self> {
         let Some(program) = find() else {
@@ -43,8 +43,8 @@ impl Chromium {
         let profile = TempDir::new().unwrap();
         let mut process = Command::new(program)
             .args(["--headless=new", "--remote-debugging-port=0"])
-            // Test machines often do not allow the user namespaces that the sandbox needs, and the
-            // pages are trusted.
+            // Test machines often don't allow the user namespaces needed for Chromium's sandbox,
+            // and the pages are trusted.
             .args([
                 "--no-sandbox",
                 "--disable-gpu",
@@ -85,7 +85,7 @@ impl Chromium {
 
 impl Drop for Chromium {
     fn drop(&mut self) {
-        // The process may have ended already.
+        // The process may already have ended.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

@@ -1,6 +1,6 @@
-//! The part of the DevTools protocol that these tests need: <https://chromedevtools.github.io>.
+//! The part of the DevTools protocol needed by these tests: <https://chromedevtools.github.io>.
 //!
-//! It is written by hand on top of a WebSocket, because crates for the whole protocol have a
+//! It is written by hand on top of a WebSocket, because crates for the complete protocol have a
 //! hundred dependencies.
 
 use std::net::TcpStream;
@@ -14,7 +14,7 @@ use tungstenite::{Message, WebSocket};
 /// The timeout for reading a message.
 const READ_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// The time in which an expression must become true.
+/// The timeout for an expression to become true.
 const WAIT_TIMEOUT: Duration = Duration::from_secs(300);
 
 /// The display settings of the page's reader.
@@ -24,7 +24,7 @@ pub struct Viewer {
     pub width: u32,
     /// Whether the system is in dark mode.
     pub dark: bool,
-    /// Whether motion is to be reduced.
+    /// Whether motion should be reduced.
     pub reduced_motion: bool,
 }
 
@@ -35,7 +35,7 @@ pub const DESKTOP: Viewer = Viewer {
     reduced_motion: false,
 };
 
-/// A browser tab, and the events that it has reported.
+/// A browser tab and the events it has reported.
 pub struct Tab {
     socket: WebSocket<TcpStream>,
     session: Option<String>,
@@ -69,12 +69,12 @@ impl Tab {
         tab
     }
 
-    /// Loads a file, and waits until it is loaded.
+    /// Loads a file and waits until it is loaded.
     pub fn load(&mut self, file: &Path, reader: Viewer) {
         self.open_url(&format!("file://{}", file.display()), reader);
     }
 
-    /// Loads an address, and waits until it is loaded.
+    /// Loads an address and waits until it is loaded.
     pub fn open_url(&mut self, url: &str, reader: Viewer) {
         let metrics = json!({
             "width": reader.width, "height": 900, "deviceScaleFactor": 1, "mobile": reader.width < 600,
@@ -119,7 +119,7 @@ impl Tab {
         answer["result"]["value"].clone()
     }
 
-    /// Shows this tab, and hides the others.
+    /// Shows this tab and hides the others.
     pub fn bring_to_front(&mut self) {
         self.call("Page.bringToFront", json!({}));
     }
@@ -141,7 +141,7 @@ impl Tab {
     }
 
     fn press_with_modifiers(&mut self, key: &str, code: u32, modifiers: u32) {
-        // Without a character, Enter would not open anything.
+        // Without a character, Enter wouldn't open anything.
         let text = if key == "Enter" { "\r" } else { "" };
         for kind in ["keyDown", "keyUp"] {
             let arguments = json!({
@@ -162,7 +162,7 @@ impl Tab {
         }
     }
 
-    /// Presses the left mouse button at a position, moves the mouse, and releases the button.
+    /// Presses the left mouse button at a position, moves the mouse and releases the button.
     pub fn drag(&mut self, from: (f64, f64), to: (f64, f64)) {
         let events = [
             ("mousePressed", from, 1),
@@ -189,7 +189,7 @@ impl Tab {
     /// Returns the errors on the console since the page was loaded, such as exceptions and
     /// violations of the content security policy.
     pub fn errors(&mut self) -> Vec<String> {
-        // Waits for an answer, so that all events sent before it are received.
+        // Wait for an answer, so that all events sent before it are received.
         self.eval("0");
         let is_error = |event: &&Value| match event["method"].as_str() {
             Some("Runtime.exceptionThrown") => true,

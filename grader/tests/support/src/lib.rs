@@ -1,7 +1,7 @@
-//! The parts that the tests of several packages share.
+//! The parts shared by the tests of several packages.
 //!
-//! Pages are tested in headless Chromium, which is controlled over the DevTools protocol. If Chromium
-//! is not installed, [`Chromium::start`] prints a notice and the tests pass, or fail if `CI` is set.
+//! Pages are tested in headless Chromium, controlled over the DevTools protocol. If Chromium isn't
+//! installed, [`Chromium::start`] prints a notice and the tests pass, or fail if `CI` is set.
 
 mod axe;
 mod chromium;

@@ -1,4 +1,4 @@
-//! Running processes, as Linux lists them in `/proc`. Elsewhere nothing is known.
+//! Running processes, as listed by Linux in `/proc`. Other systems don't provide this information.
 
 use std::fs;
 use std::thread;
@@ -20,7 +20,7 @@ pub fn eventually<T>(mut happened: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// Returns the name of a process, and the words after it: the state, the parent, and so on.
+/// Returns the name of a process and the words after it: the state, the parent and so on.
 fn stat(process: u32) -> Option<(String, Vec<String>)> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     // The name in parentheses may contain spaces and parentheses.
@@ -34,12 +34,12 @@ pub fn name(process: u32) -> Option<String> {
     stat(process).map(|(name, _)| name)
 }
 
-/// Returns whether a process has not ended.
+/// Returns whether a process hasn't ended.
 pub fn is_running(process: u32) -> bool {
     stat(process).is_some_and(|(_, words)| words[0] != "Z")
 }
 
-/// Returns the processes that a process has started, or that it has adopted.
+/// Returns the processes that a process has started or adopted.
 pub fn children(parent: u32) -> Vec<u32> {
     let parent = parent.to_string();
     let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
@@ -48,20 +48,20 @@ pub fn children(parent: u32) -> Vec<u32> {
     processes.filter(is_child).collect()
 }
 
-/// Returns a process, and all processes that it has started.
+/// Returns a process and all processes it has started.
 pub fn family(parent: u32) -> Vec<u32> {
     let below = children(parent).into_iter().flat_map(family);
     [parent].into_iter().chain(below).collect()
 }
 
-/// Returns the CPU time that a process has used, with that of threads that have ended.
+/// Returns the CPU time used by a process, including threads that have ended.
 pub fn cpu_time(process: u32) -> Option<Duration> {
     let (_, words) = stat(process)?;
     let ticks = words[11].parse::<u32>().ok()? + words[12].parse::<u32>().ok()?;
     Some(ticks * TICK)
 }
 
-/// Returns the largest memory that a process has had, in bytes.
+/// Returns the peak memory of a process, in bytes.
 pub fn peak_memory(process: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -6,14 +6,14 @@ use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// Writes a shell script that can be run, and its folder.
+/// Writes an executable shell script and creates its folder.
 pub fn write_program(path: &Path, script: &str) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, format!("#!/bin/sh\n{script}")).unwrap();
     make_executable(path);
 }
 
-/// Makes a file a program.
+/// Makes a file executable.
 pub fn make_executable(path: &Path) {
     fs::set_permissions(path, Permissions::from_mode(0o755)).unwrap();
 }

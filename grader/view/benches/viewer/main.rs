@@ -1,8 +1,7 @@
-//! Measures how fast the viewer draws, and what it costs, for the table in
-//! `grader/benches/README.md`.
+//! Measures the viewer's drawing speed and cost, for the table in `grader/benches/README.md`.
 //!
-//! Each round measures each quantity once, so that a busy machine affects all of them, and
-//! quantities are compared within a round.
+//! Each round measures each quantity once, so that a busy machine affects all of them. Quantities
+//! are compared within a round.
 
 #[expect(dead_code, reason = "the tests use more of it")]
 #[path = "../../tests/it/harness.rs"]
@@ -28,7 +27,7 @@ const SCENE: &str = "checkered-teapot";
 const SIZE: &str = "320x240";
 /// The samples per pixel for the rate of rays.
 const SAMPLES: u32 = 128;
-/// The time for which an idle viewer is measured.
+/// How long an idle viewer is measured.
 const IDLE: Duration = Duration::from_secs(20);
 /// The same in the short form.
 const BRIEFLY_IDLE: Duration = Duration::from_secs(1);
@@ -64,7 +63,7 @@ fn moves_and_rays() {
         viewer.wait_for(|state| state["picture"] != before["picture"]);
         viewer.get("/picture");
         moves.push(1e3 * start.elapsed().as_secs_f64());
-        // The rays of the scene's own camera are those of `cargo render`.
+        // The scene's own camera produces the same rays as `cargo render`.
         let cpu = cpu_time_of(&viewer);
         viewer.send(&json!("own_camera"));
         let state = viewer.wait_for_picture();
@@ -75,7 +74,7 @@ fn moves_and_rays() {
         let mut of_render = 0.0;
         let render = Cost::of(|| of_render = rate_of_render(folder.path()));
         ratios.push(1e-6 * rate / of_render);
-        // The pictures are the same, so the number of rays is.
+        // The pictures are the same, so the numbers of rays are too.
         costs.extend(cpu.map(|cpu| render.cpu.as_secs_f64() / cpu.as_secs_f64()));
     }
     moves.sort_by(f64::total_cmp);
@@ -95,7 +94,7 @@ fn moves_and_rays() {
     }
 }
 
-/// Returns the rate that `cargo render` reports, in millions of rays per second.
+/// Returns the rate reported by `cargo render`, in millions of rays per second.
 fn rate_of_render(folder: &Path) -> f64 {
     let program = Path::new(env!("CARGO_BIN_EXE_view")).with_file_name("reference");
     let mut command = Command::new(program);
@@ -132,7 +131,7 @@ fn saves() {
         let before = viewer.wait_for_picture();
         let start = Instant::now();
         change(&root, submission.path(), round);
-        // The old picture is composed again, greyed, while the files are compiled.
+        // While the files are being compiled, the old picture is shown in grey.
         viewer.wait_for(|state| state["picture"] != before["picture"] && is_fresh(state));
         viewer.get("/picture");
         let took = start.elapsed().as_secs_f64();
@@ -153,7 +152,7 @@ fn is_fresh(state: &Value) -> bool {
     state["build"] == "ready" && state["is_stale"] == false
 }
 
-/// Measures the CPU time of the viewer and its programs while a page shows a complete picture.
+/// Measures the CPU time of the viewer and its programs while a page is showing a complete picture.
 fn idle() {
     let arguments = &format!("{SCENE} --size {SIZE} --samples 4");
     let viewer = Viewer::start(&Submission::reference(), arguments);
@@ -231,7 +230,7 @@ fn large_mesh() {
     );
 }
 
-/// Returns the CPU time that a viewer and its programs have used.
+/// Returns the CPU time used by a viewer and its programs.
 fn cpu_time_of(viewer: &Viewer) -> Option<Duration> {
     family(viewer.process()).into_iter().map(cpu_time).sum()
 }

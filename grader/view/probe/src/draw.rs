@@ -1,4 +1,4 @@
-//! Draws pixels, and records single rays and paths.
+//! Draws pixels and records single rays and paths.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use crate::messages::{
 use crate::record;
 use crate::stage::Stage;
 
-/// Draws pixels until all are drawn or the time is over.
+/// Draws pixels until all are drawn or the time is up.
 pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Drawn {
     let mut stats = RenderStats::default();
     let mut pixels = Pixels {
@@ -45,14 +45,14 @@ pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Dr
     }
 }
 
-/// The pixels of a request, and the panics in them.
+/// The pixels of a request and the panics in them.
 struct Pixels<'a> {
     request: &'a Draw,
     panics: Vec<(Panic, Vec<u32>)>,
 }
 
 impl Pixels<'_> {
-    /// Computes the value of each pixel, until the time is over. A pixel with a panic gets
+    /// Computes the value of each pixel until the time is up. A pixel with a panic gets
     /// `replacement`.
     fn each<T: Clone>(&mut self, replacement: T, mut value: impl FnMut(u32, UVec2) -> T) -> Vec<T> {
         let deadline = Instant::now() + Duration::from_millis(self.request.milliseconds.into());
@@ -75,8 +75,9 @@ impl Pixels<'_> {
         values
     }
 
-    /// Adds a panic to the list. The messages of a panic at one location can differ in each pixel,
-    /// so only the first is kept. Those of very many locations are counted with the last one.
+    /// Adds a panic to the list. The message of a panic at one location can differ from pixel to
+    /// pixel, so only the first one is kept. If there are too many locations, the rest are counted
+    /// as the last one.
     fn add_panic(&mut self, panic: Panic, index: u32) {
         let same = |(known, _): &(Panic, Vec<u32>)| known.location == panic.location;
         let known = self.panics.iter().position(same);
@@ -100,10 +101,10 @@ struct Clock {
 impl Clock {
     /// The time between two readings above which the clock is read after each pixel.
     const SLOW: Duration = Duration::from_millis(1);
-    /// The maximum number of pixels between two readings.
+    /// The maximum number of pixels between two clock readings.
     const MAX_INTERVAL: u32 = 64;
 
-    /// Returns whether the time is over, after one more pixel.
+    /// Returns whether the time is up after one more pixel.
     fn is_over(&mut self) -> bool {
         self.left -= 1;
         if self.left > 0 {

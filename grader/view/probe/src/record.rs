@@ -1,8 +1,9 @@
-//! Records the tests that a submission's traversal makes.
+//! Records the tests made by a submission's traversal.
 //!
 //! The recording program is compiled from the same files as the drawing program, except that the
 //! viewer has renamed `BBox::hit` and `Primitive::hit`, and that methods with the old names call
-//! them and then [`box_test`] or [`primitive_test`]. So the submission's traversal runs unchanged.
+//! them and then [`box_test`] or [`primitive_test`]. This way, the submission's traversal runs
+//! unchanged.
 
 use std::cell::{Cell, RefCell};
 
@@ -17,7 +18,7 @@ thread_local! {
     static COUNTS: Cell<TestCounts> = const { Cell::new(TestCounts { boxes: 0, primitives: 0 }) };
     /// The recorded rays, if tests are being listed.
     static LIST: RefCell<Option<List>> = const { RefCell::new(None) };
-    /// Whether tests are being listed, so that counting does not access `LIST`.
+    /// Whether tests are being listed. This flag spares counting an access to `LIST`.
     static LISTING: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -27,7 +28,7 @@ struct List {
     left: u32,
 }
 
-/// Records a call of `BBox::hit`, and returns its result. `bbox` is the box with these corners. Only
+/// Records a call of `BBox::hit`. Returns its result. `bbox` is the box with these corners. Only
 /// its address is used.
 pub fn box_test<B>(
     bbox: &B,
@@ -48,7 +49,7 @@ pub fn box_test<B>(
     inside
 }
 
-/// Records a call of `Primitive::hit` and returns its result. `shape` is the index of the shape.
+/// Records a call of `Primitive::hit`. Returns its result. `shape` is the index of the shape.
 pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
     record(
         |counts| &mut counts.primitives,
@@ -61,7 +62,7 @@ pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace
     hit
 }
 
-/// Counts a test, and adds it to the current ray. A test outside of any ray is not listed.
+/// Counts a test and adds it to the current ray. A test outside any ray isn't listed.
 fn record(number: fn(&mut TestCounts) -> &mut u32, test: impl FnOnce() -> Test) {
     let add = |counts: &mut TestCounts| {
         let number = number(counts);
@@ -100,7 +101,7 @@ pub(crate) fn start(follow: &Follow) {
     LISTING.set(true);
 }
 
-/// Stops listing tests, and returns the rays.
+/// Stops listing tests. Returns the rays.
 pub(crate) fn finish() -> Vec<FollowedRay> {
     LISTING.set(false);
     LIST.take().map_or(Vec::new(), |list| list.rays)

@@ -1,4 +1,4 @@
-//! A scene as it is sent to a probe, which cannot read files.
+//! A scene as sent to a probe, which cannot read files.
 
 use framework::scene::{Camera, Material, Placement, Scene};
 use glam::{Mat3, Vec3};
@@ -29,9 +29,9 @@ pub struct SceneData {
 /// The tree to traverse.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum TreeSource {
-    /// The tree that the submission's `Bvh::build` builds.
+    /// The tree built by the submission's `Bvh::build`.
     Build,
-    /// A tree of the exam.
+    /// A tree from the exam.
     Prebuilt(Tree),
     /// No tree: all primitives are tested.
     List,
@@ -41,7 +41,8 @@ pub enum TreeSource {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneMaterial(#[serde(with = "MaterialDef")] pub Material);
 
-/// The variants of [`Material`], for `serde`: a scene file has other checks and another form.
+/// The variants of [`Material`], for `serde`. Scene files use a different form and different
+/// checks.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Material")]
 enum MaterialDef {
@@ -53,7 +54,7 @@ enum MaterialDef {
 }
 
 impl SceneData {
-    /// Returns the data of a scene whose tree is to be built.
+    /// Returns the data of a scene whose tree should be built.
     pub fn new(scene: &Scene, aim: Aim) -> Self {
         SceneData {
             environment: scene.environment,
@@ -85,7 +86,7 @@ impl SceneData {
     }
 }
 
-/// A camera, and the settings of paths.
+/// A camera and the settings of paths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
     /// The camera and its position.
@@ -98,7 +99,7 @@ pub struct Aim {
 /// The settings of paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PathSettings {
-    /// The maximum number of times that a path is scattered.
+    /// The maximum number of times a path is scattered.
     pub bounces: u32,
     /// The seed of all random numbers.
     pub seed: u64,

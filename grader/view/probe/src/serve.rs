@@ -40,7 +40,7 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
     loop {
         let response = match (request, &mut stage) {
             (Request::Open(data), stage) => {
-                // The old tree is freed first, so that there are never two.
+                // Free the old tree first, so that there are never two.
                 *stage = None;
                 let (opened, new) = Stage::open(submission, *data);
                 *stage = new;
@@ -61,8 +61,8 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
     }
 }
 
-/// Responds to requests that leave the scene and the camera as they are, and returns the first
-/// other request. So the integrator, which lists the scene's lights, is created once per camera.
+/// Responds to requests that don't change the scene or the camera. Returns the first other request.
+/// This way, the integrator, which lists the scene's lights, is only created once per camera.
 fn serve_aimed(stage: &Stage, first: Request, pipe: &mut Pipe) -> Result<Request, WireError> {
     let PathSettings { bounces, seed } = stage.aim.settings;
     let settings = RenderSettings {

@@ -1,4 +1,4 @@
-//! An open scene: the submission's camera and tree, and the parts that are not written yet.
+//! An open scene: the submission's camera and tree, and the parts that haven't been written yet.
 
 use std::borrow::Cow;
 
@@ -25,8 +25,8 @@ pub(crate) struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    /// Opens a scene. Shapes whose `hit` is not written yet are left out, so that the others can be
-    /// seen. Returns no stage if the tree cannot be built.
+    /// Opens a scene. Shapes whose `hit` hasn't been written yet are left out, so that the others
+    /// can be seen. Returns no stage if the tree cannot be built.
     pub(crate) fn open(submission: &'a dyn Submission, data: SceneData) -> (Opened, Option<Self>) {
         let (aim, is_recorded, source) = (data.aim, data.is_recorded, data.tree.clone());
         let scene = data.into_scene();
@@ -43,7 +43,7 @@ impl<'a> Stage<'a> {
         };
         let build = || match &source {
             TreeSource::Build => submission.build(&shapes, scene.max_leaf_size),
-            // A tree of the exam refers to all shapes.
+            // A tree from the exam refers to all shapes.
             TreeSource::Prebuilt(tree) => {
                 submission.prebuilt_tree(&scene.shapes, &tree.nodes, tree.root as usize)
             }
@@ -89,7 +89,7 @@ impl<'a> Stage<'a> {
         self.aim = aim;
     }
 
-    /// Calls `BBox::hit` for the whole range of the ray.
+    /// Calls `BBox::hit` for the ray's entire range.
     pub(crate) fn intersect_box(&self, corners: (Vec3, Vec3), ray: &Ray) -> Option<Interval> {
         let (min, max) = corners;
         let test = || self.submission.intersect_box(min, max, ray, ray.range);
@@ -105,8 +105,8 @@ fn camera(submission: &dyn Submission, aim: &Aim, has_camera: bool) -> Box<dyn C
     }
 }
 
-/// The viewer's own camera, which is used while a submission's camera is not written yet: a camera
-/// of the exam, whose rays `protocol` computes.
+/// The viewer's own camera, used as long as the submission's camera hasn't been written. It is an
+/// exam camera, whose rays are computed by `protocol`.
 struct ViewerCamera(ExamCamera);
 
 impl ViewerCamera {
@@ -129,7 +129,7 @@ impl CameraRays for ViewerCamera {
     }
 }
 
-/// Finds the parts that are not written yet by calling each once.
+/// Finds the parts that haven't been written yet by calling each one once.
 fn missing_parts(submission: &dyn Submission, scene: &Scene) -> Vec<(Part, Panic)> {
     let ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
     let hit = |is_sphere: bool| {

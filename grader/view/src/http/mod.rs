@@ -1,6 +1,6 @@
 //! A small HTTP server for one page on the loopback address: one thread per connection, one request
-//! per connection. `httparse` parses the requests. The rest is written here, because the servers that
-//! would do (tiny_http, rouille, axum) have had no release for years, or need many other crates.
+//! per connection. `httparse` parses the requests. The rest is written here, because suitable
+//! servers (tiny_http, rouille, axum) have had no release for years or need many other crates.
 
 mod request;
 mod response;

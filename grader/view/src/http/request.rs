@@ -33,19 +33,19 @@ pub struct Request {
     pub body: Vec<u8>,
 }
 
-/// A reason why a request cannot be read.
+/// A reason for not reading a request.
 #[derive(Debug, thiserror::Error)]
 pub enum RequestError {
     /// The connection ended or failed before the request was complete.
     #[error("the connection ended: {0}")]
     Io(#[from] std::io::Error),
-    /// The request is not valid HTTP/1.1, or uses a part of it that the server does not support.
+    /// The request is not valid HTTP/1.1 or uses a part of it that the server doesn't support.
     #[error("the request is malformed: {0}")]
     Malformed(String),
     /// The request is too long.
     #[error("the request is too long")]
     TooLong,
-    /// The method is neither GET nor POST.
+    /// The method is not GET or POST.
     #[error("the method is not supported")]
     Method,
 }
@@ -99,7 +99,7 @@ impl Request {
             headers: headers.collect(),
             body: Vec::new(),
         };
-        // A body in chunks has no length. No page of this server sends one.
+        // A chunked body has no length. This server's page never sends one.
         if request.header("transfer-encoding").is_some() {
             return Err(RequestError::Malformed(
                 "a body without a length".to_owned(),
@@ -124,8 +124,8 @@ impl Request {
         }
     }
 
-    /// Returns the value of a parameter in the query. It is not decoded: the server's own links have
-    /// only letters and digits there.
+    /// Returns the value of a parameter in the query. It is not decoded, because the server's own
+    /// links only use letters and digits there.
     pub fn parameter(&self, name: &str) -> Option<&str> {
         let parameters = self.query.split('&');
         parameters

@@ -9,13 +9,13 @@ pub struct Status(&'static str);
 impl Status {
     /// The request succeeded.
     pub const OK: Status = Status("200 OK");
-    /// There is nothing new.
+    /// Nothing has changed.
     pub const NO_CONTENT: Status = Status("204 No Content");
     /// The request is malformed.
     pub const BAD_REQUEST: Status = Status("400 Bad Request");
-    /// The request is not allowed.
+    /// The request isn't allowed.
     pub const FORBIDDEN: Status = Status("403 Forbidden");
-    /// There is no such page.
+    /// The page doesn't exist.
     pub const NOT_FOUND: Status = Status("404 Not Found");
     /// The server is busy.
     pub const UNAVAILABLE: Status = Status("503 Service Unavailable");
@@ -30,7 +30,7 @@ pub struct Response {
 }
 
 /// Headers of every response. Nothing is loaded from elsewhere, no other page may embed this one,
-/// and no link tells another site the address.
+/// and no link reveals the address to another site.
 const HEADERS: [(&str, &str); 7] = [
     (
         "Content-Security-Policy",
@@ -60,7 +60,7 @@ impl Response {
         Response::new(status, "text/plain; charset=utf-8", format!("{text}\n"))
     }
 
-    /// Creates a response that says that there is nothing new.
+    /// Creates a response which says that nothing has changed.
     pub fn nothing() -> Self {
         Response {
             status: Status::NO_CONTENT,

@@ -10,15 +10,15 @@ use std::time::{Duration, Instant};
 use super::request::{Request, RequestError};
 use super::response::{Response, Status};
 
-/// The maximum number of open connections that have sent no trusted request. Beyond it, the oldest
-/// is closed, so that connections that do nothing cannot keep the page from being answered.
+/// The maximum number of open connections without a trusted request. Beyond this, the oldest is
+/// closed, so that idle connections cannot keep the page from being answered.
 const MAX_UNTRUSTED: usize = 100;
-/// The maximum number of trusted requests that are answered at the same time. A browser opens at
-/// most six connections to one server.
+/// The maximum number of trusted requests to answer at the same time. A browser opens at most six
+/// connections to one server.
 const MAX_TRUSTED: usize = 64;
-/// The time in which a whole request must arrive.
+/// The time limit for a complete request to arrive.
 const READ_TIMEOUT: Duration = Duration::from_secs(10);
-/// The time in which a whole response must be read.
+/// The time limit for a complete response to be read.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(30);
 
 /// Answers requests.
@@ -31,14 +31,14 @@ pub trait Site: Send + Sync + 'static {
 
 struct Server<S> {
     site: S,
-    /// The connections without a trusted request, the oldest first.
+    /// The connections without a trusted request, oldest first.
     untrusted: Mutex<BTreeMap<u64, Arc<TcpStream>>>,
-    /// Has one clone for each trusted request that is being answered.
+    /// Cloned once for each trusted request being answered.
     trusted: Arc<()>,
 }
 
 /// Answers requests until the process ends. Each connection has its own thread, so that a request
-/// that waits for news delays no other.
+/// that waits for news doesn't delay others.
 pub fn serve(listener: &TcpListener, site: impl Site) {
     let server = Arc::new(Server {
         site,
@@ -47,7 +47,7 @@ pub fn serve(listener: &TcpListener, site: impl Site) {
     });
     for (number, stream) in (0..).zip(listener.incoming()) {
         let Ok(stream) = stream else {
-            // The other side has ended already, or the system is out of file descriptors.
+            // The peer has already disconnected, or the system is out of file descriptors.
             server.close_oldest();
             thread::sleep(Duration::from_millis(10));
             continue;
@@ -61,7 +61,7 @@ pub fn serve(listener: &TcpListener, site: impl Site) {
         let started = thread::Builder::new()
             .name("connection".to_owned())
             .spawn(move || {
-                // The other side may have ended the connection, which is its right.
+                // The peer may have closed the connection, which is fine.
                 let _ = of_thread.handle(number, &stream);
                 of_thread.untrusted().remove(&number);
             });
@@ -78,7 +78,7 @@ impl<S: Site> Server<S> {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Closes the oldest connection without a trusted request, whose thread then ends.
+    /// Closes the oldest connection without a trusted request. Its thread then ends.
     fn close_oldest(&self) {
         if let Some((_, stream)) = self.untrusted().pop_first() {
             let _ = stream.shutdown(Shutdown::Both);
@@ -107,8 +107,8 @@ impl<S: Site> Server<S> {
     }
 }
 
-/// A connection until a deadline. The timeouts of a socket hold for each piece, so a peer that sends
-/// or reads one byte at a time would never exceed them.
+/// A connection until a deadline. A socket's timeouts apply to each read or write, so a peer that
+/// sends or reads one byte at a time would never exceed them.
 struct Timed<'a> {
     stream: &'a TcpStream,
     deadline: Instant,

@@ -10,12 +10,12 @@ use super::tiles::Tiles;
 pub struct Layer<T> {
     /// The pixels that have been drawn.
     pub tiles: Tiles,
-    /// The sum of each pixel's samples, or its value; row by row from the bottom.
+    /// The sum of each pixel's samples, or its value, row by row from the bottom.
     values: Vec<T>,
 }
 
 impl<T: Copy + Default> Layer<T> {
-    /// Creates an empty picture, of which each pixel should get this many samples.
+    /// Creates an empty picture. Each pixel should get this many samples.
     pub fn new(film: UVec2, samples: u32) -> Self {
         let tiles = Tiles::new(film, samples);
         Layer {
@@ -24,8 +24,9 @@ impl<T: Copy + Default> Layer<T> {
         }
     }
 
-    /// Adds the values of the first pixels of a request, and marks the pixels with a panic, by their
-    /// indices in the request. `add` returns the new value of a pixel from the old one and a sample.
+    /// Adds the values of a request's first pixels and marks the pixels with a panic, given by
+    /// their indices in the request. `add` returns the new value of a pixel from the old one and a
+    /// sample.
     pub fn add(
         &mut self,
         index: usize,
@@ -41,8 +42,9 @@ impl<T: Copy + Default> Layer<T> {
         self.tiles.add(index, draw, values.len(), panicked);
     }
 
-    /// Returns the value and the number of samples of a pixel. A pixel that is not drawn yet shows
-    /// the nearest one below and to the left that is. Returns `None` if there is none.
+    /// Returns the value and the number of samples of a pixel. A pixel that hasn't been drawn yet
+    /// shows the nearest drawn pixel below and to the left. Returns `None` if no such pixel has
+    /// been drawn.
     pub fn shown(&self, pixel: UVec2) -> Option<Shown<T>> {
         let counts = &self.tiles.counts;
         let coarser = [1, 2, 4].map(|stride| self.tiles.index(pixel / stride * stride));
@@ -54,7 +56,7 @@ impl<T: Copy + Default> Layer<T> {
         })
     }
 
-    /// Returns all values, row by row from the bottom, with `None` for pixels that are not drawn.
+    /// Returns all values, row by row from the bottom, with `None` for pixels that aren't drawn.
     pub fn values(&self) -> impl Iterator<Item = Option<T>> {
         let drawn = self.tiles.counts.iter().zip(&self.values);
         drawn.map(|(count, value)| (*count > 0).then_some(*value))
@@ -66,7 +68,7 @@ impl<T: Copy + Default> Layer<T> {
 pub enum Shown<T> {
     /// The sum of its samples, or its value, and the number of samples.
     Value(T, u32),
-    /// Drawing it has caused a panic.
+    /// Drawing it caused a panic.
     Panicked,
 }
 
@@ -78,8 +80,8 @@ mod tests {
     use super::*;
     use crate::model::tiles::LayerKind;
 
-    /// Draws a picture whose pixels list the numbers of their samples as digits, and lets each
-    /// request draw at most `most` pixels.
+    /// Draws a picture whose pixels list the numbers of their samples as digits. Each request draws
+    /// at most `most` pixels.
     fn draw_all(film: UVec2, samples: u32, most: usize) -> Layer<u64> {
         let mut layer = Layer::new(film, samples);
         while let Some((index, draw)) = layer.tiles.take(LayerKind::Light, 1) {

@@ -1,22 +1,23 @@
-//! The order in which a picture's pixels are drawn: first every fourth pixel
-//! of every fourth row, then every second, then all, then one more sample for each.
+//! The order of drawing a picture's pixels: first every fourth pixel of every fourth row, then
+//! every second, then all, then one more sample for each.
 //!
-//! The film is divided into tiles. A tile is drawn by one probe at a time, and its samples one after
-//! the other, so that they are added in order, as in `cargo render`. No tile waits for another.
+//! The film is divided into tiles. Each tile is drawn by one probe at a time, one sample after the
+//! other, so that samples are added in order, as in `cargo render`. Tiles never wait for each
+//! other.
 
 use glam::{UVec2, uvec2};
 use view_probe::messages::{Draw, MAX_VALUES, Quantity};
 
 /// The side of a tile in pixels: a multiple of the largest stride.
 const TILE: u32 = 64;
-/// The maximum number of samples of a request. One sample of a tile takes only a few milliseconds, so
-/// that exchanging requests would take a tenth of the time.
+/// The maximum number of samples in a request. One sample of a tile only takes a few milliseconds,
+/// so with a single sample per request, exchanging requests would take a tenth of the time.
 const MAX_PASSES: u32 = 16;
 /// The strides of the first steps.
 const STRIDES: [u32; 3] = [4, 2, 1];
 const _: () = assert!((TILE * TILE * MAX_PASSES) as usize <= MAX_VALUES);
 
-/// A quantity that is drawn. Some views show the same one.
+/// A quantity to draw. Some views share the same quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerKind {
     /// Radiance.
@@ -46,7 +47,7 @@ impl LayerKind {
     }
 }
 
-/// The pixels of a picture that have been drawn, whatever their values.
+/// The pixels of a picture that have been drawn, regardless of their values.
 #[derive(Clone, Debug)]
 pub struct Tiles {
     /// The size of the picture.
@@ -54,9 +55,9 @@ pub struct Tiles {
     tiles: Vec<Tile>,
     /// The number of samples that each pixel should get.
     pub samples: u32,
-    /// The number of samples of each pixel; row by row from the bottom.
+    /// The number of samples of each pixel, row by row from the bottom.
     pub(super) counts: Vec<u32>,
-    /// Whether drawing a pixel has caused a panic.
+    /// Whether drawing a pixel caused a panic.
     pub(super) panicked: Vec<bool>,
 }
 
@@ -64,7 +65,7 @@ pub struct Tiles {
 struct Tile {
     origin: UVec2,
     size: UVec2,
-    /// The number of steps that are complete.
+    /// The number of complete steps.
     step: u32,
     /// The number of samples of each pixel in the current request.
     passes: u32,
@@ -95,8 +96,8 @@ impl Tiles {
         }
     }
 
-    /// Takes the tile with the fewest samples, if one needs more and is not being drawn. Returns its
-    /// index and the request for it.
+    /// Takes the tile with the fewest samples among those that need more and aren't being drawn, if
+    /// any. Returns its index and the request for it.
     pub fn take(&mut self, layer: LayerKind, milliseconds: u32) -> Option<(usize, Draw)> {
         let steps = self.steps();
         let samples = self.samples;
@@ -107,7 +108,7 @@ impl Tiles {
         Some((index, tile.draw(layer, samples, milliseconds)))
     }
 
-    /// Counts the first `drawn` pixels of a request, and marks the pixels with a panic, by their
+    /// Counts a request's first `drawn` pixels and marks the pixels with a panic, given by their
     /// indices in the request.
     pub fn add(
         &mut self,
@@ -142,7 +143,7 @@ impl Tiles {
         (STRIDES.len() as u32 - 1).saturating_add(self.samples)
     }
 
-    /// Returns whether every pixel has all of its samples.
+    /// Returns whether all samples of every pixel have been drawn.
     pub fn is_complete(&self) -> bool {
         let steps = self.steps();
         self.tiles.iter().all(|tile| tile.step >= steps)
@@ -153,7 +154,7 @@ impl Tiles {
         self.tiles.iter().all(|tile| tile.step > 0)
     }
 
-    /// Returns the number of samples that every pixel has at least.
+    /// Returns the minimum number of samples of all pixels.
     pub fn complete_samples(&self) -> u32 {
         let first_of_all = STRIDES.len() as u32 - 1;
         let steps = self.tiles.iter().map(|tile| tile.step);
@@ -167,7 +168,7 @@ impl Tiles {
         drawn as f64 / all.max(1.0)
     }
 
-    /// Returns the index of a pixel; row by row from the bottom.
+    /// Returns the index of a pixel, row by row from the bottom.
     pub fn index(&self, pixel: UVec2) -> usize {
         pixel.y as usize * self.film.x as usize + pixel.x as usize
     }
@@ -181,7 +182,7 @@ impl Tile {
             Some(stride) => (*stride, STRIDES[step - 1], 0),
             None => (1, 0, self.step + 1 - STRIDES.len() as u32),
         };
-        // At first every picture shows more; later it may show less often.
+        // At first, every picture shows more. Later, it may be shown less often.
         if self.first == 0 {
             let rest = samples.saturating_sub(sample);
             self.passes = rest.clamp(1, sample.clamp(1, MAX_PASSES));

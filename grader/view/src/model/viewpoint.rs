@@ -1,4 +1,4 @@
-//! The camera's position, and the ways to move it.
+//! The camera's position and the ways to move it.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// The largest angle between the view and the horizon, so that up stays up.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.01;
 
-/// A camera position, and the point that it turns around.
+/// A camera position and the point it turns around.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     /// The position and the axes.
@@ -38,7 +38,7 @@ pub enum Movement {
     Turn(f32, f32),
 }
 
-/// A direction from which a scene can be seen.
+/// A direction to view a scene from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
@@ -55,8 +55,8 @@ pub enum Side {
 }
 
 impl Viewpoint {
-    /// Returns the viewpoint of a scene's camera. It turns around the point in front of it that is
-    /// closest to the middle of the scene.
+    /// Returns the viewpoint of a scene's camera. It turns around the point in front of the camera
+    /// that is closest to the middle of the scene.
     pub fn of_scene(camera: &Camera, bounds: &Bounds) -> Self {
         let placement = camera.placement;
         let forward = -placement.axes.z_axis;
@@ -74,8 +74,8 @@ impl Viewpoint {
         }
     }
 
-    /// Returns a viewpoint at this side, from which the whole box can be seen at this vertical field
-    /// of view in degrees.
+    /// Returns a viewpoint at this side that shows the entire box, given the vertical field of view
+    /// in degrees.
     pub fn from_side(side: Side, bounds: &Bounds, vertical_fov: f32, aspect_ratio: f32) -> Self {
         let (toward, up) = match side {
             Side::Front => (Vec3::NEG_Z, Vec3::Y),
@@ -87,7 +87,7 @@ impl Viewpoint {
         Viewpoint::looking(toward, up, bounds, vertical_fov, aspect_ratio)
     }
 
-    /// Returns a viewpoint that looks in a direction, from which the whole box can be seen.
+    /// Returns a viewpoint that looks in a direction and shows the entire box.
     pub fn looking(
         toward: Vec3,
         up: Vec3,
@@ -111,7 +111,7 @@ impl Viewpoint {
     }
 
     /// Returns the viewpoint after a movement. `height` is the height of the picture at distance
-    /// one. Numbers that are not finite change nothing.
+    /// one. Movements with numbers that aren't finite are ignored.
     pub fn moved(self, movement: Movement, height: f32) -> Self {
         let Placement { position, axes } = self.placement;
         let forward = -axes.z_axis;

@@ -16,7 +16,7 @@ const MAX_SAMPLES: u32 = 4096;
 /// The maximum exposure, in stops.
 const MAX_EXPOSURE: f32 = 16.0;
 
-/// A command of the page. Scenes are given by name, never by path.
+/// A command from the page. Scenes are given by name, never by path.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
@@ -32,7 +32,7 @@ pub enum Command {
     Samples(u32),
     /// Moves the camera.
     Move(Movement),
-    /// Puts the camera at a side of the scene.
+    /// Moves the camera to a side of the scene.
     Side(Side),
     /// Returns to the scene's own camera.
     OwnCamera,
@@ -45,17 +45,17 @@ pub enum Command {
     },
     /// Explains the exam's ray.
     PickQuestion,
-    /// Explains no pixel.
+    /// Stops explaining a pixel.
     Unpick,
     /// Loads the tree.
     Tree,
 }
 
 impl Session {
-    /// Does what the page asks for. Returns the name of a scene that is to be loaded.
+    /// Executes a command from the page. Returns the name of a scene to load, if any.
     ///
     /// # Errors
-    /// Fails if a number is out of range, or a name is unknown.
+    /// Fails if a number is out of range or a name is unknown.
     pub fn apply(&mut self, command: &Command, now: Instant) -> Result<Option<String>, String> {
         match command {
             Command::Scene(name) => {
@@ -96,7 +96,7 @@ impl Session {
                     return Err(format!("a pixel can have 1 to {MAX_SAMPLES} samples"));
                 }
                 self.shown.samples = *samples;
-                // Samples that have been added cannot be taken away.
+                // Samples that have been added cannot be removed.
                 if *samples < self.light.tiles.samples {
                     self.restart(now);
                 } else {

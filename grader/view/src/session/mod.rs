@@ -1,5 +1,5 @@
-//! The state of the viewer: the scene, the camera, the picture so far, and the work that is to be
-//! done. It starts no threads and reads no files or clocks.
+//! The state of the viewer: the scene, the camera, the picture so far and the work to do. It starts
+//! no threads and reads no files or clocks.
 
 mod commands;
 mod notes;
@@ -34,7 +34,7 @@ pub use state::{Key, Pinned, Resources, Shown, View};
 use timing::Timing;
 pub use work::{Job, Work, Worker};
 
-/// The time after the last request of a page until drawing pauses.
+/// Drawing pauses this long after a page's last request.
 const WATCHED_FOR: Duration = Duration::from_secs(40);
 
 /// The state of the viewer.
@@ -45,25 +45,25 @@ pub struct Session {
     pub is_dirty: bool,
     settings: PathSettings,
     pub(crate) subject: Arc<Subject>,
-    /// The reason why the last scene was not loaded.
+    /// Why the last scene was not loaded.
     loading_error: Option<String>,
     viewpoint: Viewpoint,
     drawing: BuildState,
     recording: Option<BuildState>,
     is_recording_wanted: bool,
     numbers: Key,
-    /// Counts the versions of the submission that were compiled.
+    /// Counts the compiled versions of the submission.
     version_of_files: u64,
-    /// The submission's files, as they were last compiled.
+    /// The submission's files, as last compiled.
     submission: Option<Arc<Submission>>,
     opened: Option<Opened>,
-    /// The time that opening the scene last took.
+    /// How long opening the scene last took.
     last_opening: Duration,
-    /// The reason why drawing has stopped.
+    /// Why drawing has stopped.
     fault: Option<String>,
     /// The number of pixels that have ended the program.
     faults: u32,
-    /// Whether each request draws a single pixel, to find the one that ends the program.
+    /// Whether each request draws a single pixel, in order to find the one that ends the program.
     is_careful: bool,
     invalid_paths: u64,
     pub(crate) light: Layer<Vec3>,
@@ -72,7 +72,7 @@ pub struct Session {
     pub(crate) tree: Option<Arc<TreeModel>>,
     is_tree_wanted: bool,
     is_tree_busy: bool,
-    /// The reason why the tree could not be read.
+    /// Why the tree could not be read.
     tree_fault: Option<String>,
     pinned: Option<Pinned>,
     pub(crate) explanation: Option<Arc<Explanation>>,
@@ -160,14 +160,14 @@ impl Session {
         self.show_subject(now);
     }
 
-    /// Reports that the scene that is being loaded is invalid.
+    /// Reports that the scene being loaded is invalid.
     pub fn opening_failed(&mut self, why: String) {
         self.shown.loading = None;
         self.loading_error = Some(why);
         self.shown.version += 1;
     }
 
-    /// Starts with a new subject. The exam's ray is explained at once.
+    /// Starts with a new subject. The exam's ray is explained immediately.
     fn show_subject(&mut self, now: Instant) {
         if let Some(question) = &self.subject.question {
             self.is_tree_wanted = true;
@@ -184,9 +184,9 @@ impl Session {
         self.restart(now);
     }
 
-    /// Returns the camera as it is now.
+    /// Returns the current camera.
     pub fn camera(&self) -> Camera {
-        // Takes the aspect ratio of the film like `Scene::on_film`.
+        // Use the film's aspect ratio, like `Scene::on_film`.
         let own = self.subject.camera;
         let film = self.shown.film;
         let mut camera = own;
@@ -210,7 +210,7 @@ impl Session {
         self.numbers
     }
 
-    /// Starts the picture again: with another camera, program or scene.
+    /// Restarts the picture with a different camera, program or scene.
     fn restart(&mut self, now: Instant) {
         self.numbers.aim += 1;
         self.shown.is_picture_complete = false;
@@ -249,7 +249,7 @@ impl Session {
         &mut self.timings[self.shown.view.layer() as usize]
     }
 
-    /// Returns the progress of the layer that is shown.
+    /// Returns the progress of the shown layer.
     fn tiles(&self) -> &Tiles {
         match self.shown.view.layer() {
             LayerKind::Light => &self.light.tiles,
@@ -266,12 +266,12 @@ impl Session {
         }
     }
 
-    /// Returns whether everything is there that the picture needs besides its pixels.
+    /// Returns whether everything the picture needs besides its pixels is available.
     fn has_colours(&self) -> bool {
         self.shown.view != View::Bvh || self.tree.is_some()
     }
 
-    /// Returns whether there is something to show of the new picture. Until then, the old one stays.
+    /// Returns whether some of the new picture can be shown. Until then, the old one stays.
     pub fn has_picture(&self) -> bool {
         self.tiles().has_coarse_picture() && self.has_colours()
     }
@@ -286,11 +286,11 @@ impl Session {
         now.saturating_duration_since(self.started_at)
     }
 
-    /// Reports that the page has a new picture, of all samples or of some.
+    /// Reports that the page shows a new picture, with all samples or some of them.
     pub fn show_picture(&mut self, key: Key, is_complete: bool) {
         self.shown.picture += 1;
         self.shown.is_picture_complete = is_complete && key == self.numbers && !self.is_dirty;
-        // While there is no program, the picture is composed of old pixels.
+        // While there is no program, the picture is composed from old pixels.
         self.shown.is_stale &= !matches!(self.drawing, BuildState::Ready(_));
         self.shown.version += 1;
     }

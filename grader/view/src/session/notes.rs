@@ -1,4 +1,4 @@
-//! Remarks about the submission: tasks that are not written yet, panics, and faults.
+//! Remarks about the submission: tasks that haven't been written yet, panics and faults.
 
 use glam::UVec2;
 use grader::handed_out::TaskMethod;
@@ -11,7 +11,7 @@ use view_probe::messages::{Part, TreeSize};
 use super::{Session, View};
 use crate::program::{BuildState, FileError};
 
-/// The maximum number of panics that are listed.
+/// The maximum number of panics to list.
 const MAX_PANICS: usize = 20;
 
 /// A remark about the submission.
@@ -37,7 +37,7 @@ pub struct PanicNote {
 }
 
 impl Session {
-    /// Returns the remarks, the most important first.
+    /// Returns the remarks, most important first.
     pub(super) fn notes(&self) -> Vec<Note> {
         let recording = match (&self.recording, self.shown.view) {
             (Some(BuildState::Broken(why)), _) => Some(format!(
@@ -122,7 +122,7 @@ impl Session {
         }
     }
 
-    /// Returns whether a task's method is that of the starter.
+    /// Returns whether a task's method is the starter's.
     fn is_from_starter(&self, task: &TaskInfo) -> bool {
         self.method(task).is_some_and(|method| !method.is_changed)
     }
@@ -132,7 +132,7 @@ impl Session {
         self.submission.as_ref()?.task_method(task)
     }
 
-    /// Returns the file and line in which a task's method is declared.
+    /// Returns the file and line where a task's method is declared.
     fn line_of(&self, task: Option<&TaskInfo>) -> Option<String> {
         let task = task?;
         Some(format!("{}:{}", task.file, self.method(task)?.line))
@@ -162,7 +162,7 @@ fn without_location(text: String) -> Note {
     }
 }
 
-/// Returns the reason why tests cannot be recorded.
+/// Returns why tests cannot be recorded.
 pub(super) fn recording_failed(errors: &[FileError]) -> String {
     format!(
         "Your files compile, but not with the changes that record the tests, so the tests cannot be \
@@ -171,7 +171,7 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the task with this id. An assignment may have none, because the part is given.
+/// Returns the task with this id. An assignment may have none, because that part may be given code.
 fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
     submission.handed_out.assignment.find(id)
 }

@@ -1,4 +1,4 @@
-//! The state as the page sees it.
+//! The state as seen by the page.
 
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use super::{Note, Session, Shown, View};
 use crate::program::{BuildState, FileError};
 use crate::subject::ExamRay;
 
-/// The state as the page sees it.
+/// The state as seen by the page.
 #[derive(Debug, Serialize)]
 pub struct PageState<'a> {
     #[serde(flatten)]
@@ -49,7 +49,7 @@ pub struct PageState<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct CameraState {
     position: Vec3,
-    /// To the right, up, and backward.
+    /// To the right, up and backward.
     axes: [[f32; 3]; 3],
     /// Half the height of the picture at distance one.
     half_height: f32,
@@ -67,7 +67,7 @@ struct PinnedState {
 }
 
 impl Session {
-    /// Returns the state as the page sees it.
+    /// Returns the state as seen by the page.
     pub fn page_state(&self, now: Instant) -> PageState<'_> {
         let camera = self.camera();
         let (build, errors) = self.build_state();
@@ -134,7 +134,7 @@ impl Session {
         }
     }
 
-    /// Returns the reason why the pinned pixel is not explained.
+    /// Returns why the pinned pixel isn't explained.
     fn explanation_problem(&self) -> Option<String> {
         self.pinned?;
         if let (BuildState::Failed(_) | BuildState::Broken(_), None) =

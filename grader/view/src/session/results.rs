@@ -77,8 +77,8 @@ impl Session {
         }
     }
 
-    /// Reports that a program has ended while it was drawing. The pixels are drawn again, one by
-    /// one, to find the one at fault.
+    /// Reports that a program ended while drawing. The pixels are drawn again, one by one, to find
+    /// the one at fault.
     pub fn drawing_ended(&mut self, key: Key, tile: usize, draw: &Draw, fault: &Fault) {
         if key != self.numbers {
             return;
@@ -108,15 +108,15 @@ impl Session {
         self.shown.version += 1;
     }
 
-    /// Reports that a tile was not drawn, because the program could not be started.
+    /// Reports that a tile was not drawn because the program could not be started.
     pub fn not_started(&mut self, key: Key, why: &str) {
         if key == self.numbers {
             self.stop(format!("The program cannot be started: {why}"));
         }
     }
 
-    /// Reports the tree, or the reason why it could not be read. An empty one is shown then, and
-    /// drawing goes on.
+    /// Reports the tree, or why it couldn't be read. In that case, an empty tree is shown and
+    /// drawing continues.
     pub fn received_tree(&mut self, key: Key, tree: Result<TreeModel, String>) {
         if key.has_tree_of(&self.numbers) {
             let tree = tree.unwrap_or_else(|why| {
@@ -130,7 +130,7 @@ impl Session {
         }
     }
 
-    /// Reports an explanation, or the reason why there is none.
+    /// Reports an explanation, or why it failed.
     pub fn explained(&mut self, key: Key, pinned: &Pinned, result: Result<Explanation, String>) {
         if key.has_tree_of(&self.numbers) && self.pinned.as_ref() == Some(pinned) {
             let (explanation, fault) = match result {

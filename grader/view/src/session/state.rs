@@ -16,7 +16,7 @@ pub struct Resources {
     pub memory: u64,
 }
 
-/// The quantity that the picture shows.
+/// The quantity shown in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum View {
@@ -38,7 +38,7 @@ pub enum View {
 }
 
 impl View {
-    /// Returns the layer that the view shows.
+    /// Returns the layer shown by the view.
     pub(super) fn layer(self) -> LayerKind {
         match self {
             View::Shaded => LayerKind::Light,
@@ -48,7 +48,7 @@ impl View {
     }
 }
 
-/// Identifies what a job belongs to. A result with an old key is dropped.
+/// Identifies the program, scene and camera of a job. A result with an old key is dropped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Key {
     /// Changes with the program.
@@ -60,13 +60,13 @@ pub struct Key {
 }
 
 impl Key {
-    /// Returns whether both are of the same program and scene, and so of the same tree.
+    /// Returns whether both belong to the same program and scene, and therefore to the same tree.
     pub fn has_tree_of(&self, other: &Key) -> bool {
         (self.program, self.scene) == (other.program, other.scene)
     }
 }
 
-/// The pixel or ray that is explained. It stays the same when the camera moves.
+/// The pixel or ray to explain. It stays the same when the camera moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pinned {
     /// The camera at the time of the click.
@@ -77,7 +77,7 @@ pub struct Pinned {
     pub sample: Option<u32>,
 }
 
-/// The part of the state that the page sees as it is.
+/// The part of the state that the page sees unchanged.
 #[derive(Debug, Default, Serialize)]
 pub struct Shown {
     /// Changes with everything that the page shows.
@@ -91,10 +91,10 @@ pub struct Shown {
     pub(super) film: UVec2,
     pub(super) samples: u32,
     pub(super) panics: Vec<PanicNote>,
-    /// The number of the picture that is on the page.
+    /// The number of the picture on the page.
     pub(super) picture: u64,
-    /// Whether the picture on the page is of an earlier version of the code.
+    /// Whether the picture on the page was made by an earlier version of the code.
     pub(super) is_stale: bool,
-    /// Whether the picture on the page has all samples of the present camera and program.
+    /// Whether the picture on the page contains all samples for the current camera and program.
     pub(super) is_picture_complete: bool,
 }

@@ -1,18 +1,18 @@
-//! The time that drawing takes, and the rate of rays.
+//! The time spent drawing, and the rate of rays.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// The time for which the rate of rays is averaged.
+/// The time window for averaging the rate of rays.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
 
-/// The time that drawing a layer has taken, and the rays that it needed.
+/// The time spent drawing a layer, and the rays traced for it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Timing {
     /// The end of each request in the last seconds, with its rays.
     recent: VecDeque<(Instant, u64)>,
     rays: u64,
-    /// The time since when the layer is being drawn.
+    /// The time when drawing of the layer last started.
     since: Option<Instant>,
     drawn_for: Duration,
 }
@@ -23,7 +23,7 @@ impl Timing {
         self.since.get_or_insert(now);
     }
 
-    /// Stops the clock: the layer is complete, or another one is drawn.
+    /// Stops the clock, because the layer is complete or a different layer is drawn.
     pub(super) fn stop(&mut self, now: Instant) {
         if let Some(since) = self.since.take() {
             self.drawn_for += now.saturating_duration_since(since);
@@ -42,14 +42,14 @@ impl Timing {
         }
     }
 
-    /// Returns the time for which the layer has been drawn.
+    /// Returns how long the layer has been drawn.
     pub(super) fn drawn_for(&self, now: Instant) -> Duration {
         let running = self.since.map(|since| now.saturating_duration_since(since));
         self.drawn_for + running.unwrap_or_default()
     }
 
-    /// Returns the rays per second: of the last seconds, or of the whole time if the clock is
-    /// stopped.
+    /// Returns the rays per second in the last seconds or, if the clock is stopped, in the entire
+    /// time.
     pub(super) fn rays_per_second(&self) -> f64 {
         let (rays, time) = match (self.recent.front(), self.recent.back()) {
             // The first request started before the window.

@@ -1,4 +1,4 @@
-//! The builds of the submission's programs, and the work that these are to do.
+//! The builds of the submission's programs and the work for these programs.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,24 +12,24 @@ use crate::model::tiles::LayerKind;
 use crate::program::{BuildState, Program};
 use crate::subject::Subject;
 
-/// The time after which a program returns the pixels that it has drawn.
+/// The time after which a program returns the pixels it has drawn.
 const SLICE_MS: u32 = 30;
-/// The limit of CPU time for some pixels, and for one.
+/// The CPU time limits for several pixels and for a single one.
 const DRAW_LIMITS: [Duration; 2] = [Duration::from_secs(5), Duration::from_secs(2)];
-/// The limit of CPU time for opening a scene, and for each shape in it.
+/// The CPU time limits for opening a scene and for each shape in it.
 const OPEN_LIMIT: [Duration; 2] = [Duration::from_secs(10), Duration::from_micros(60)];
 /// The maximum memory of all programs together, in bytes.
 const MAX_MEMORY: u64 = 3 << 30;
-/// The least and the most memory that a program may use, in bytes: the most is enough for some
-/// millions of triangles. In between, all programs share the available memory.
+/// The minimum and maximum memory limits of a program, in bytes. The maximum is enough for several
+/// million triangles. In between, all programs share the available memory.
 const PROGRAM: [u64; 2] = [1 << 30, 4 << 30];
-/// An estimate of the memory that a program needs for each shape, while it builds the tree.
+/// An estimate of the memory that a program needs per shape while building the tree.
 const BYTES_PER_SHAPE: u64 = 700;
 
 /// A thread that runs one of the programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worker {
-    /// Runs the program that draws, beside others with lower numbers.
+    /// Runs the program that draws, alongside those with lower numbers.
     Drawing(usize),
     /// Runs the program that records.
     Recording,
@@ -46,9 +46,9 @@ pub struct Work {
     pub subject: Arc<Subject>,
     /// The camera.
     pub aim: Aim,
-    /// The limit of CPU time for opening the scene.
+    /// The CPU time limit for opening the scene.
     pub open_limit: Duration,
-    /// The limit of the program's memory, in bytes.
+    /// The program's memory limit, in bytes.
     pub memory: u64,
     /// The job.
     pub job: Job,
@@ -63,7 +63,7 @@ pub enum Job {
         tile: usize,
         /// The request.
         draw: Draw,
-        /// The limit of CPU time.
+        /// The CPU time limit.
         limit: Duration,
     },
     /// Return the tree.
@@ -74,7 +74,7 @@ pub enum Job {
 
 /// The builds.
 impl Session {
-    /// Reports that the files have been saved, and are being compiled.
+    /// Reports that the files have been saved and are being compiled.
     pub fn compiling(&mut self, submission: Submission) {
         self.version_of_files += 1;
         self.submission = Some(Arc::new(submission));
@@ -85,13 +85,13 @@ impl Session {
         self.shown.version += 1;
     }
 
-    /// Reports errors, or the program. The camera and the pixel stay.
+    /// Reports errors or the program. The camera and the pinned pixel stay unchanged.
     pub fn built(&mut self, state: BuildState, now: Instant) {
         if let BuildState::Ready(_) = state {
             self.numbers.program += 1;
             self.opened = None;
             self.forget_tree();
-            // The same pixel is explained again, with the new program.
+            // Explain the same pixel again with the new program.
             self.set_explanation(None);
             self.restart(now);
         }
@@ -99,7 +99,7 @@ impl Session {
         self.shown.version += 1;
     }
 
-    /// Returns the files and their version, if a program that records is wanted for them.
+    /// Returns the files and their version if a recording program is needed for them.
     pub fn wanted_recording(&self) -> Option<(u64, Arc<Submission>)> {
         let is_ready = matches!(self.drawing, BuildState::Ready(_));
         let is_wanted = is_ready && self.is_recording_wanted && self.recording.is_none();
@@ -107,7 +107,7 @@ impl Session {
         Some((self.version_of_files, Arc::clone(submission)))
     }
 
-    /// Reports the program that records, which was built from this version of the files.
+    /// Reports the recording program built from this version of the files.
     pub fn built_recording(&mut self, state: BuildState, version_of_files: u64) {
         if version_of_files == self.version_of_files {
             self.recording = Some(state);
@@ -122,13 +122,13 @@ impl Session {
 
 /// The work.
 impl Session {
-    /// Returns whether a result with this key is still wanted from a program. As soon as the files
-    /// are compiled again, it is not: a program that hangs must not compete with the compiler.
+    /// Returns whether a result with this key is still wanted from a program. It isn't as soon as
+    /// the files are compiled again, because a hanging program must not compete with the compiler.
     pub fn is_wanted(&self, key: Key) -> bool {
         matches!(self.drawing, BuildState::Ready(_)) && key.has_tree_of(&self.numbers)
     }
 
-    /// Returns work for a program, if there is some.
+    /// Returns work for a program, if any.
     pub fn next_work(&mut self, worker: Worker, now: Instant) -> Option<Work> {
         let state = match worker {
             Worker::Drawing(_) => Some(&self.drawing),
@@ -164,7 +164,7 @@ impl Session {
         Some(self.work(program, job))
     }
 
-    /// Returns the pinned pixel, unless it is explained already or being explained.
+    /// Returns the pinned pixel, unless it has already been explained or is being explained.
     fn next_explanation(&mut self) -> Option<Pinned> {
         let is_open = self.explanation.is_none() && self.explanation_fault.is_none();
         let pinned = self
@@ -189,8 +189,8 @@ impl Session {
         }
     }
 
-    /// Returns the number of programs that draw at the same time: one per core, or fewer if the tree
-    /// is large, since each has a tree of its own, and so has the program that records.
+    /// Returns the number of programs that draw at the same time: one per core, or fewer if the
+    /// tree is large, since each of them and the recording program has its own tree.
     pub fn programs(&self) -> usize {
         let shapes = self.subject.data.shapes.len() as u64;
         let fit = self.resources.memory.min(MAX_MEMORY) / (shapes * BYTES_PER_SHAPE).max(1);

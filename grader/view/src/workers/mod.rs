@@ -51,7 +51,7 @@ pub fn run(shared: &SharedSession, worker: Worker) {
     }
 }
 
-/// Returns a result as it is reported, or `None` if it is no longer wanted.
+/// Converts a result for reporting. Returns `None` if it is no longer wanted.
 fn reported<T>(result: Result<T, Stop>) -> Option<Result<T, String>> {
     match result {
         Err(Stop::Unwanted) => None,

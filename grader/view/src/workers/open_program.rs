@@ -1,4 +1,4 @@
-//! A program with the scene and the camera that it has.
+//! A program with its current scene and camera.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -16,12 +16,12 @@ use crate::probe::{Probe, Stop};
 use crate::session::{Key, Pinned, Work};
 use crate::shared_session::SharedSession;
 
-/// The maximum number of tests that are listed for a pixel.
+/// The maximum number of tests to list for a pixel.
 const MAX_TESTS: u32 = 4_000;
-/// The limit of CPU time for reading a tree, explaining a pixel, or moving the camera.
+/// The CPU time limit for reading a tree, explaining a pixel or moving the camera.
 const LIMIT: Duration = Duration::from_secs(10);
 
-/// A program that is started when it is needed, with the scene and the camera that it has.
+/// A program that is started when needed, with its current scene and camera.
 pub(super) struct OpenProgram<'a> {
     session: &'a SharedSession,
     is_recorded: bool,
@@ -56,7 +56,7 @@ impl<'a> OpenProgram<'a> {
         }
     }
 
-    /// Makes sure that the program has the scene and the camera of the work.
+    /// Ensures that the program has opened the work's scene and camera.
     pub(super) fn prepare(&mut self, work: &Work) -> Result<(), Stop> {
         if self.key.program != work.key.program {
             self.probe = None;
@@ -117,8 +117,8 @@ impl<'a> OpenProgram<'a> {
         Ok(())
     }
 
-    /// Asks the program. After a fault or an abandoned request, it is ended, and started again when
-    /// it is needed.
+    /// Sends a request to the program. After a fault or an abandoned request, the program is ended
+    /// and restarted when needed.
     fn ask(&mut self, work: &Work, request: &Request, limit: Duration) -> Result<Response, Stop> {
         let session = self.session;
         let is_abandoned = || !session.read(|session, _| session.is_wanted(work.key));
@@ -212,7 +212,7 @@ impl<'a> OpenProgram<'a> {
         Ok(explain(pixel, sample, &followed, &spans, &context))
     }
 
-    /// Returns the parts of a ray in the boxes of the nodes that its explanation needs.
+    /// Returns the parts of a ray inside the boxes of the nodes needed for its explanation.
     fn spans(
         &mut self,
         work: &Work,

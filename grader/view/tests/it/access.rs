@@ -59,8 +59,8 @@ fn only_the_users_browser_is_answered() {
     }
 }
 
-/// A browser sends cookies to all ports of a host, and lets the page of any port send commands, but
-/// only without the page's own headers, and with none of the answer shown.
+/// A browser sends cookies to all ports of a host and lets the page of any port send commands, but
+/// without custom headers and without access to the answer.
 #[test]
 fn a_page_of_another_port_can_send_no_command() {
     let viewer = Viewer::start(&Submission::starter(), "");
@@ -76,7 +76,7 @@ fn a_page_of_another_port_can_send_no_command() {
     ] {
         assert_eq!(post(&format!("{other}{cookie}")).status, 403, "{cookie}");
     }
-    // The browser's question whether the other page may send the header.
+    // The browser's preflight request for permission to send the header.
     let asked = format!("{other}Access-Control-Request-Headers: view-token\r\n");
     let answer = viewer.request("OPTIONS", "/command", &asked, "");
     assert_eq!(answer.status, 400);
@@ -85,7 +85,7 @@ fn a_page_of_another_port_can_send_no_command() {
     assert!(!head.contains("set-cookie"), "{head}");
 }
 
-/// Opens connections that send this and read nothing, until the viewer closes the oldest.
+/// Opens connections that send this text and read nothing, until the viewer closes the oldest.
 fn open_silent_connections(viewer: &Viewer, sent: &str) -> Vec<TcpStream> {
     let open = |_| {
         let mut stream = TcpStream::connect(("127.0.0.1", viewer.port)).unwrap();
@@ -184,7 +184,7 @@ fn an_error_of_the_user_says_what_to_do() {
     }
 }
 
-/// A CI system executes commands in a log.
+/// A CI system executes commands found in a log.
 #[test]
 fn no_name_in_an_error_is_a_command_in_a_log() {
     let name = "::error::a ##[set-env name=a]b";
@@ -196,7 +196,7 @@ fn no_name_in_an_error_is_a_command_in_a_log() {
     }
 }
 
-/// The browser gets the path of a file, since every user of a machine can read the arguments of
+/// The browser gets the path of a file, since any user of a machine can read the arguments of
 /// programs. The file is deleted as soon as the browser has opened the address in it.
 #[cfg(target_os = "linux")]
 #[test]

@@ -1,5 +1,5 @@
-//! The page for everybody: by the keyboard alone, in light and dark mode, on a phone, and by the rules of
-//! WCAG that axe checks.
+//! Accessibility of the page: by keyboard only, in light and dark mode, on a phone, and according
+//! to the WCAG rules checked by axe.
 
 use glam::Vec3;
 use serde_json::{Value, json};
@@ -29,7 +29,7 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     tab.press("Enter", 13);
     let node = text(&mut tab, "#node");
     assert!(node.contains("of the SAH cost"), "{node}");
-    // From node to node, and the boxes in the picture as a table.
+    // Go from node to node, and read the boxes in the picture as a table.
     tab.eval("document.getElementById('node-index').value = 0; 0");
     tab.eval("document.querySelector('#choose-node button').focus(); 0");
     tab.press("Enter", 13);
@@ -45,7 +45,7 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     assert_eq!(count, format!("{rows} boxes"));
 }
 
-/// Returns the camera's position and its direction backward.
+/// Returns the camera's position and its backward direction.
 fn position_and_backward(state: &Value) -> [Vec3; 2] {
     let camera = &state["camera"];
     [&camera["position"], &camera["axes"][2]]
@@ -71,8 +71,8 @@ fn keys_alone_move_the_camera_in_every_way() {
     let right: Vec3 = serde_json::from_value(own["axes"][0].clone()).unwrap();
     let up = backward.cross(right);
 
-    // Each movement begins at the scene's camera. It returns the change of the position, and the
-    // direction backward.
+    // Each movement starts at the scene's camera. Returns the change in position and the backward
+    // direction.
     let mut movement = |key: &str, code: u32, with_shift: bool| {
         if with_shift {
             tab.press_with_shift(key, code);
@@ -116,7 +116,7 @@ fn keys_alone_move_the_camera_in_every_way() {
     }
 }
 
-/// Opens the page and checks it as soon as it is as expected: by the rules, and for its width.
+/// Opens the page. As soon as it is in the expected state, checks the rules and its width.
 fn check(viewer: &Viewer, chromium: &Chromium, reader: Reader, is_shown: &str) {
     let mut tab = open(viewer, chromium, reader);
     wait(&mut tab, is_shown);

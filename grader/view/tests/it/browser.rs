@@ -1,4 +1,4 @@
-//! The page in a browser, used like a student does.
+//! The page in a browser, used as by a student.
 
 use glam::{UVec2, uvec2};
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ pub const IS_COMPLETE: &str = "document.body.dataset.complete === 'true'";
 pub const HAS_TABLE: &str = "document.querySelector('#explanation tbody tr') !== null";
 const TEXT: &str = "document.body.innerText";
 
-/// Opens the address that the viewer has printed.
+/// Opens the address printed by the viewer.
 pub fn open(viewer: &Viewer, chromium: &Chromium, reader: Reader) -> Tab {
     let mut tab = chromium.tab();
     tab.open_url(
@@ -31,8 +31,8 @@ pub fn property(tab: &mut Tab, id: &str, name: &str) -> Value {
     tab.eval(&format!("document.getElementById('{id}').{name}"))
 }
 
-/// Starts a browser and the viewer, and waits until the picture is complete. Returns `None` if there is
-/// no browser.
+/// Starts a browser and the viewer and waits until the picture is complete. Returns `None` if there
+/// is no browser.
 pub fn start(submission: &Submission, arguments: &str) -> Option<(Chromium, Viewer, Tab)> {
     let chromium = Chromium::start()?;
     let viewer = Viewer::start(submission, arguments);
@@ -104,7 +104,7 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     let rows = explanation["rays"][0]["rows"].as_array().unwrap().len();
     let shown = tab.eval("document.querySelectorAll('#explanation tbody tr').length");
     assert_eq!(shown, rows);
-    // No tree is drawn here, so the camera is the scene's own again.
+    // No tree is drawn here, so use the scene's own camera again.
     tab.eval("document.querySelector('[data-own]').click(); 0");
     viewer.wait_for(|state| state["camera"]["is_own"] == true);
     let expected = Expected::of_scene("checkered-teapot", uvec2(96, 72));
@@ -129,7 +129,7 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
         &correct.replace("pub fn hit(&self", "pub fn hit(&self,"),
     );
     submission.write("bvh.rs", &format!("{correct}\nlet oops\n"));
-    // The error of the first save may be shown before.
+    // The first save's error may be shown before.
     let is_second = "/let oops/.test(document.querySelector('#errors pre')?.innerText)";
     wait(&mut tab, is_second);
     let heading = text(&mut tab, "#errors h3");
@@ -200,7 +200,8 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
     };
     tab.eval("document.getElementById('load-tree').click(); 0");
     wait(&mut tab, "!document.getElementById('tree-content').hidden");
-    // Pointed at again until the page reacts, since it draws a canvas some time after it shows it.
+    // Point at it repeatedly until the page reacts, since a canvas is drawn some time after it is
+    // shown.
     let point = |canvas: &str, x: f64, y: f64| {
         format!(
             "(() => {{ const at = document.getElementById('{canvas}').getBoundingClientRect(); \
@@ -280,7 +281,7 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
     };
     let viewer = Viewer::start(&Submission::reference(), "flat --size 16x12 --samples 1");
     let mut tabs: Vec<Tab> = (0..10).map(|_| open(&viewer, &chromium, DESKTOP)).collect();
-    // A hidden tab waits until it is seen.
+    // A hidden tab waits until it is visible.
     for tab in &mut tabs {
         tab.bring_to_front();
         wait(tab, IS_COMPLETE);

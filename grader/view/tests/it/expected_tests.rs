@@ -1,4 +1,4 @@
-//! A list of the tests that a correct traversal makes for a pixel, computed independently of the
+//! A list of the tests made by a correct traversal for a pixel, computed independently of the
 //! viewer.
 
 use std::collections::BTreeSet;
@@ -16,8 +16,7 @@ use crate::harness::workspace;
 
 /// A scene with the reference's tree, or a question of the practice exam with its tree.
 pub struct Expected {
-    /// The shapes. In a scene, they are numbered, so that the tree says which is
-    /// where.
+    /// The shapes. In a scene, they are numbered, so that the tree shows the order of the shapes.
     shapes: Vec<Shape>,
     pub tree: Tree,
     scene: Option<Scene>,
@@ -88,7 +87,7 @@ impl Expected {
         tests(&self.tree, &self.shapes, &self.ray.unwrap())
     }
 
-    /// Returns the nodes that a traversal with these tests has entered.
+    /// Returns the nodes entered by a traversal with these tests.
     pub fn entered(&self, tests: &[String]) -> BTreeSet<u32> {
         let entered = tests.iter().map(|test| {
             let (kind, number) = test.split_once(' ').unwrap();
@@ -121,8 +120,8 @@ impl Expected {
     }
 }
 
-/// Returns the tests of a traversal that tests both children of a node before it enters the nearer
-/// one, as texts: an independent one, in double precision.
+/// Returns the tests, as texts, of an independent traversal in double precision that tests both
+/// children of a node before entering the nearer one.
 fn tests(tree: &Tree, shapes: &[Shape], ray: &Ray) -> Vec<String> {
     let mut tests = Vec::new();
     let mut closest = f64::INFINITY;
@@ -164,7 +163,7 @@ fn visit(
     }
 }
 
-/// Returns the time at which the ray enters a node's box, from the planes of its faces.
+/// Returns the distance where the ray enters a node's box, computed from the planes of its faces.
 fn entry(tree: &Tree, index: u32, ray: &Ray, tests: &mut Vec<String>) -> Option<f64> {
     tests.push(format!("node {index}"));
     let node = &tree.nodes[index as usize];

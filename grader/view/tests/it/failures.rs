@@ -1,4 +1,5 @@
-//! Submissions that are not finished or fail: the page shows as much as there is, and says why.
+//! Submissions that are unfinished or fail. The page shows as much as possible and says what is
+//! missing.
 
 use serde_json::{Value, json};
 #[cfg(target_os = "linux")]
@@ -103,13 +104,13 @@ impl Explored {
         }
     }
 
-    /// Checks that the picture is still there.
+    /// Checks that the picture is still shown.
     fn assert_stale(&self, state: &Value) {
         assert_eq!(state["is_stale"], true);
         assert!(self.viewer.picture() == self.picture, "the picture changed");
     }
 
-    /// Waits until the picture is drawn again, and checks that everything is as it was.
+    /// Waits until the picture is drawn again and checks that everything is as before.
     fn assert_restored(&self) {
         let after = self
             .viewer
@@ -181,7 +182,7 @@ fn a_hang_ends_and_its_pixel_is_found() {
     );
 }
 
-/// Makes `Bvh::build` endless.
+/// Makes `Bvh::build` loop forever.
 fn make_build_endless(submission: &Submission) {
     submission.insert_into_build("while max_leaf_size > 0 { std::hint::black_box(()); }");
 }
@@ -234,7 +235,7 @@ fn a_panic_or_a_stack_overflow_while_building_is_reported_and_can_be_fixed() {
     );
     let state = viewer.wait_for(|state| state["has_stopped"] == true);
     let overflow = notes(&state);
-    // The recursion may have been compiled to a loop.
+    // The compiler may have turned the recursion into a loop.
     assert!(
         overflow.contains("stack overflowed") || overflow.contains("stopped, because"),
         "{overflow}"

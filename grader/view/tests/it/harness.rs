@@ -1,4 +1,4 @@
-//! Starts the viewer on a submission, and talks to it like its page.
+//! Starts the viewer on a submission and talks to it like its page.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -11,7 +11,7 @@ use grader::handed_out::RAYS;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The time after which a state is no longer expected. The first test compiles the dependencies.
+/// The timeout for reaching a state. The first test compiles the dependencies.
 const TIMEOUT: Duration = Duration::from_secs(600);
 
 /// Returns the root folder of the workspace.
@@ -26,7 +26,7 @@ pub fn view() -> Command {
     command
 }
 
-/// Returns a command that starts the viewer, and opens the page.
+/// Returns a command that starts the viewer and opens the page.
 pub fn view_and_open() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_view"));
     command.current_dir(workspace());
@@ -93,7 +93,7 @@ impl Submission {
         self.replace("camera.rs", signature, &format!("{signature} {statement}"));
     }
 
-    /// Replaces text in a file, and panics if the file does not contain it.
+    /// Replaces text in a file. Panics if the file doesn't contain it.
     pub fn replace(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);
         assert!(text.contains(from), "{file} does not contain {from:?}");
@@ -101,7 +101,7 @@ impl Submission {
     }
 }
 
-/// A response of the viewer.
+/// A response from the viewer.
 pub struct Answer {
     pub status: u16,
     pub head: String,
@@ -114,13 +114,13 @@ pub struct Viewer {
     pub port: u16,
     /// The path of the first address, with the token.
     pub first: String,
-    /// Not read, but open, as a terminal is.
+    /// Not read, but kept open like a terminal.
     _output: BufReader<ChildStdout>,
     errors: ChildStderr,
 }
 
 impl Viewer {
-    /// Starts the viewer on a submission, with arguments that are separated by spaces.
+    /// Starts the viewer on a submission, with arguments separated by spaces.
     pub fn start(submission: &Submission, arguments: &str) -> Self {
         Viewer::try_start(submission, arguments).unwrap_or_else(|error| panic!("{error}"))
     }
@@ -132,12 +132,12 @@ impl Viewer {
         Viewer::run(command.args(arguments.split_whitespace()))
     }
 
-    /// Starts the viewer at any port.
+    /// Starts the viewer on any port.
     pub fn run(command: &mut Command) -> Result<Self, String> {
         Viewer::spawn(command.args(["--port", "0"]))
     }
 
-    /// Starts the viewer without a choice of the port.
+    /// Starts the viewer without choosing the port.
     pub fn spawn(command: &mut Command) -> Result<Self, String> {
         let mut child = command
             .stdout(Stdio::piped())
@@ -165,7 +165,7 @@ impl Viewer {
         })
     }
 
-    /// Kills the viewer, and returns what it has printed as errors.
+    /// Kills the viewer. Returns its standard error.
     pub fn kill(mut self) -> String {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -174,7 +174,7 @@ impl Viewer {
         errors
     }
 
-    /// Returns the number of the process.
+    /// Returns the process id.
     #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "used on Linux"))]
     pub fn process(&self) -> u32 {
         self.child.id()
@@ -208,13 +208,13 @@ impl Viewer {
         self.request("GET", path, &self.headers(), "")
     }
 
-    /// Sends a command of the page. Returns the status.
+    /// Sends a command from the page. Returns the status.
     pub fn send(&self, command: &Value) -> u16 {
         self.request("POST", "/command", &self.headers(), &command.to_string())
             .status
     }
 
-    /// Sends a command of the page that is accepted.
+    /// Sends a command from the page, which must be accepted.
     #[track_caller]
     pub fn command(&self, command: &Value) {
         assert_eq!(self.send(command), 204, "{command}");
@@ -240,7 +240,7 @@ impl Viewer {
         panic!("the state is still {state:#}");
     }
 
-    /// Waits until the whole picture is shown.
+    /// Waits until the complete picture is shown.
     #[track_caller]
     pub fn wait_for_picture(&self) -> Value {
         self.wait_for(|state| state["is_picture_complete"] == true)
@@ -256,7 +256,7 @@ impl Viewer {
         bytes.as_chunks().0.to_vec()
     }
 
-    /// Explains a pixel, and waits for the explanation.
+    /// Explains a pixel and waits for the explanation.
     #[track_caller]
     pub fn explain(&self, pixel: [u32; 2], sample: Option<u32>) -> Value {
         let command = json!({ "pick": { "pixel": pixel, "sample": sample } });

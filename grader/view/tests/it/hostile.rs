@@ -1,4 +1,5 @@
-//! Submissions that do harm on purpose: the page is still answered, in time and in bounded memory.
+//! Submissions that deliberately do harm. The page must still be answered, in time and with bounded
+//! memory.
 
 use std::time::{Duration, Instant};
 
@@ -45,8 +46,9 @@ fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
     assert!(why.contains("it has 1500000 nodes"), "{why}");
 }
 
-/// All that the page can ask for, with a tree whose leaves all hold everything and whose boxes are
-/// equal. It is as deep as it has nodes, and its end is its beginning.
+/// Requests everything the page can request, for a tree whose leaves all contain everything and
+/// whose boxes are all equal. The tree is as deep as it has nodes, and its last node leads back to
+/// the first.
 #[test]
 fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
     let submission = Submission::reference();
@@ -106,13 +108,13 @@ fn a_long_panic_with_odd_characters_is_short_and_harmless_on_the_page() {
     assert_eq!(state["panics"][0]["count"], 12);
 }
 
-/// Programs that write to the viewer's pipe themselves. Safe code can, outside of the sandbox.
+/// Programs that write to the viewer's pipe themselves, which safe code can do outside the sandbox.
 #[cfg(target_os = "linux")]
 mod pipe {
     use super::*;
     use test_support::processes::peak_memory;
 
-    /// Writes to the pipe of responses while the tree is built.
+    /// Writes to the pipe of responses while the tree is being built.
     fn write_to_pipe(submission: &Submission, code: &str) {
         submission.insert_into_build(&format!(
             "for number in 3..20 {{ \
@@ -148,7 +150,7 @@ mod pipe {
             ),
             // The response to another request.
             (frame("1u32") + "send(&[1]);", "does not belong"),
-            // Frames without end.
+            // Endless frames.
             (
                 format!("loop {{ {} send(&[0; 1000]); }}", frame("1000u32")),
                 "invalid answer",

@@ -1,4 +1,5 @@
-//! Tests of the real program: its rules of access, its pictures, and what it shows of submissions.
+//! Tests of the real program: its access rules, its pictures, and the information it shows about
+//! submissions.
 
 mod access;
 mod accessibility;

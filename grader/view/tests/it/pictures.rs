@@ -1,4 +1,4 @@
-//! Pictures: the same pixels as `cargo render`, for whichever camera.
+//! Pictures: the same pixels as `cargo render`, for any camera.
 
 use framework::render::film::{Film, Tone};
 use framework::render::integrator::{RenderSettings, render};
@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::harness::{Submission, Viewer, workspace};
 
-/// Renders a scene as `cargo render` does.
+/// Renders a scene like `cargo render`.
 fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Vec<[u8; 3]> {
     let scene = Scene::load(&workspace().join("scenes").join(scene)).unwrap();
     let settings = RenderSettings {
@@ -34,7 +34,7 @@ fn a_picture_is_that_of_the_render_command_pixel_for_pixel() {
     let film = uvec2(70, 66);
     assert!(viewer.picture() == rendered("spheres.json", film, 5, 7, 0.0));
 
-    // More samples are added to those that are there.
+    // More samples are added to the existing ones.
     viewer.command(&json!({ "samples": 9 }));
     viewer.command(&json!({ "exposure": -1.5 }));
     viewer.wait_for(|state| state["is_picture_complete"] == true && state["complete_samples"] == 9);

@@ -28,7 +28,7 @@ fn a_question_about_traversal_shows_the_exams_tree_and_the_steps() {
     assert!(ray["boxes"].as_u64() > Some(0), "{ray}");
 }
 
-/// Returns the listed tests of an exam's ray, and the nodes that are marked.
+/// Returns the listed tests of an exam's ray and the marked nodes.
 fn tests_and_marks(submission: &Submission, item: &str) -> (Vec<String>, BTreeSet<u32>) {
     let viewer = Viewer::start(submission, &format!("--item {item}"));
     let ray = &viewer.explanation()["rays"][0];
@@ -60,7 +60,7 @@ fn in_a_tree_with_decoys_exactly_the_wrong_steps_of_the_slides_pseudo_code_are_m
         let entered = expected.entered(&tests);
         let wrong: BTreeSet<u32> = entered.difference(&correct).copied().collect();
         assert!(marks.is_subset(&wrong), "{name}: {marks:?} {wrong:?}");
-        // Below a wrong node, the walk may look correct again.
+        // Below a wrong node, the traversal may look correct again.
         let first_wrong = wrong.iter().filter(|node| {
             let parent = expected.parent(**node);
             parent.is_some_and(|parent| correct.contains(&parent))

@@ -1,5 +1,5 @@
-//! Assignments as their authors have them. Everything here about exams, proofs and packages is
-//! derived from this data, so a new assignment changes no other module.
+//! Assignments as their authors see them. Everything about exams, proofs and packages is derived
+//! from this data, so a new assignment changes no other module.
 
 mod rays;
 
@@ -12,19 +12,20 @@ pub use rays::RAYS;
 /// The assignments that `--assignment` selects from. The first is the default.
 pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
 
-/// An assignment as its authors have it. Its other solutions are files in
-/// [`HandedOut::solutions`]: mistakes, variants and equivalent mutants.
+/// An assignment as its authors see it. Its other solutions are files in [`HandedOut::solutions`]:
+/// mistakes, variants and equivalent mutants.
 #[derive(Debug)]
 pub struct Authoring {
-    /// The assignment as it is handed out.
+    /// The assignment as handed out to students.
     pub handed_out: &'static HandedOut,
     /// The file of the practice exam, relative to the workspace's root.
     pub practice_exam: &'static str,
-    /// The tasks, in lecture order. The reference records the pictures whose keys only it can provide.
+    /// The tasks, in lecture order. Keys of pictures are recorded from the reference, because
+    /// nothing else can provide them.
     pub tasks: &'static [&'static AuthoredTask],
     /// The folders and files with oracles, relative to the workspace's root. Their formulas are secret.
     pub oracles: &'static [&'static str],
-    /// The attacks in the trial of a package whose exam is secret.
+    /// The attacks to try on a package whose exam is secret.
     pub attacks: &'static [Attack],
 }
 
@@ -40,7 +41,7 @@ pub struct Attack {
 }
 
 impl Authoring {
-    /// Returns the assignment with this id, or a message for people if there is none.
+    /// Returns the assignment with this id, or a human-readable message if it doesn't exist.
     pub fn find(id: &str) -> Result<&'static Authoring, String> {
         let handed_out = HandedOut::find(id)?;
         let mut all = ASSIGNMENTS.into_iter();

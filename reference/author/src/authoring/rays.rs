@@ -1,4 +1,4 @@
-//! The assignment `rays` as its authors have it.
+//! The assignment `rays` as its authors see it.
 
 use grader::handed_out;
 

@@ -53,8 +53,8 @@ pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
 
 /// Returns the bytes of an archive with all files below `top`, which is empty or ends with `/`.
 pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
-    // The time, system and permissions are fixed: otherwise the bytes would depend on when and
-    // where the archive is created.
+    // Fix the time, system and permissions. Otherwise, the bytes would depend on when and where the
+    // archive is created.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))
@@ -78,7 +78,7 @@ fn unix_mode(contents: &[u8]) -> u32 {
     }
 }
 
-/// Reads an archive, and removes the top folder from its paths.
+/// Reads an archive and strips the top folder from its paths.
 pub fn unzip(archive: &[u8]) -> Result<Bundle, ZipError> {
     let mut archive = ZipArchive::new(Cursor::new(archive))?;
     let mut bundle = Bundle::default();

@@ -27,7 +27,7 @@ pub fn check(root: &Path, handed_out: &HandedOut, bundle: &Bundle) -> Result<()>
     let without_students_files = bundle.clone().without_students_files(handed_out);
     files::write(&update, archive::zip(&without_students_files)?)?;
 
-    // The home folder has the crates that the bundle needs, and nothing else.
+    // The home folder contains only the crates the bundle needs.
     let home = folder.join("home");
     if home.exists() {
         fs::remove_dir_all(&home).at("remove", &home)?;
@@ -43,7 +43,7 @@ pub fn check(root: &Path, handed_out: &HandedOut, bundle: &Bundle) -> Result<()>
             command.env_remove(&name);
         }
     }
-    // Rustup's proxies would not work, since they look for toolchains in the home folder.
+    // Rustup's proxies wouldn't work, since they look for toolchains in the home folder.
     let cargo = env::var_os("CARGO").unwrap_or_default();
     let programs = Path::new(&cargo).parent();
     let programs = programs.context("CARGO is not set: run `cargo author bundle --check`")?;

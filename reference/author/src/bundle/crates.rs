@@ -21,7 +21,7 @@ struct Package {
 
 /// Returns the files of cargo's registry folder that are needed to build the crates of a lock file,
 /// with their paths in that folder: each crate's index entry and archive. Crates for other systems
-/// are skipped: cargo has not fetched them, and does not need them here.
+/// are skipped, because cargo hasn't fetched them and doesn't need them here.
 pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>> {
     let lock: LockFile = toml::from_str(lock)
         .map_err(|error| anyhow!("cannot read the bundle's lock file: {error}"))?;

@@ -19,8 +19,7 @@ const COPIED: [&str; 7] = [
     "student/framework",
     "student/protocol",
 ];
-/// Names of folders that only staff need. Folders with these names are never copied, wherever they
-/// are.
+/// Names of folders that only staff need. Folders with these names are never copied, at any depth.
 const EXCLUDED_NAMES: [&str; 5] = ["tests", "snapshots", "benches", "fuzz", "target"];
 /// Files and folders for staff, about grading a class or running untrusted code.
 const STAFF_PATHS: [&str; 6] = [
@@ -35,7 +34,7 @@ const STAFF_PATHS: [&str; 6] = [
 const SUMMARY: &str = "handout/src/SUMMARY.md";
 /// The heading of the staff pages in the table of contents.
 const STAFF_HEADING: &str = "# For instructors";
-/// The grader's copy of the starter. It is generated from the reference, not copied.
+/// The grader's copy of the starter. It isn't copied but generated from the reference.
 const STARTER: &str = "grader/starter";
 /// The folder of exams. It may contain final exams.
 const EXAMS: &str = "grader/exams";
@@ -49,7 +48,7 @@ pub(super) fn copy(root: &Path, bundle: &mut Bundle) -> Result<()> {
         .try_for_each(|path| copy_tree(&root.join(path), path, bundle))
 }
 
-/// Copies the file `source`, or everything below the folder `source`, to `path` in the bundle.
+/// Copies the file `source` or everything in the folder `source` to `path` in the bundle.
 pub(crate) fn copy_tree(source: &Path, path: &str, bundle: &mut Bundle) -> Result<()> {
     let kind = fs::symlink_metadata(source).at("read", source)?.file_type();
     if kind.is_file() {
@@ -93,7 +92,8 @@ pub(super) fn staff_pages(path: &str, bundle: &Bundle) -> Vec<String> {
         .collect()
 }
 
-/// Returns the offset of the first occurrence of `text`, or the length of `bytes` if there is none.
+/// Returns the offset of the first occurrence of `text`, or the length of `bytes` if it doesn't
+/// occur.
 fn offset_or_end(bytes: &[u8], text: &str) -> usize {
     let mut windows = bytes.windows(text.len());
     windows

@@ -11,12 +11,12 @@ use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
-/// The manifest of the only crate whose tests are in the bundle: the worked examples.
+/// The manifest of the only crate whose tests, the worked examples, are in the bundle.
 const STUDENT_MANIFEST: &str = "student/Cargo.toml";
-/// The manifest keys that are only for tests and benches, which are not in the bundle.
+/// The manifest keys for tests and benches, which aren't in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
-/// The profile for benches. It has settings of packages that are not in the bundle.
+/// The profile for benches. It configures packages that aren't in the bundle.
 const STAFF_PROFILE: &str = "bench";
 
 /// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
@@ -33,7 +33,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
         if path != STUDENT_MANIFEST {
             leave_out_tests(&mut manifest);
         }
-        // Default features exist only for staff commands.
+        // Only staff commands need default features.
         if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_mut) {
             features.remove("default");
         }
@@ -46,7 +46,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
         .and_then(Item::as_array_mut)
         .with_context(|| missing_key("Cargo.toml", "workspace.members"))?;
     keep_members(members, bundle);
-    // Cargo warns about profile settings of packages that are missing.
+    // Cargo warns about profile settings for missing packages.
     if let Some(profiles) = manifest["profile"].as_table_like_mut() {
         profiles.remove(STAFF_PROFILE);
     }
@@ -61,8 +61,8 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     Ok(())
 }
 
-/// Says that a crate has no tests and benches. What is left of its tests does not compile, and editors
-/// compile them after each save.
+/// Declares that a crate contains no tests or benches. Otherwise, editors would compile the
+/// leftovers of its tests after each save, and they don't compile.
 fn leave_out_tests(manifest: &mut DocumentMut) {
     let programs = manifest.get_mut("bin");
     let programs = programs.and_then(Item::as_array_of_tables_mut);

@@ -1,9 +1,9 @@
 //! The bundle that students get: a folder with the starter, the grader, the scenes and the handout,
-//! and without any solution.
+//! but no solutions.
 //!
-//! A bundle is always generated. The starter comes from the reference, the manifests and the lock
-//! file are the workspace's with staff entries removed, and the few files that only students see
-//! are in `templates/`. Before a bundle is written, it is searched for [`secrets`].
+//! A bundle is always generated. The starter comes from the reference. The manifests and the lock
+//! file are the workspace's, with staff entries removed. The few files that only students see are
+//! in `templates/`. Before a bundle is written, it is searched for [`secrets`].
 
 pub mod archive;
 pub mod check;
@@ -24,7 +24,7 @@ use grader::handed_out::HandedOut;
 
 use crate::starter;
 
-/// The paths in the bundle and the contents of the files that only students see.
+/// The files that only students see: their paths in the bundle and their contents.
 const STUDENT_ONLY: [(&str, &str); 8] = [
     ("README.md", include_str!("templates/README.md")),
     (".gitignore", include_str!("templates/gitignore")),
@@ -54,8 +54,8 @@ const STUDENT_ONLY: [(&str, &str); 8] = [
 /// The files of a bundle or package.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
-    /// The contents of each file, by its path, with `/` as the separator. Sorted, so that the same
-    /// workspace gives the same archive.
+    /// The contents of each file, keyed by its path with `/` as the separator. Sorted, so that the
+    /// same workspace always gives the same archive.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
@@ -68,7 +68,8 @@ impl Bundle {
         test_modules::remove(&mut bundle);
         if let Some(book) = book {
             folders::copy_tree(book, "handout/book", &mut bundle)?;
-            // With these pages, the book's search index has their words as well.
+            // Leaving out the pages wouldn't be enough, because the book's search index contains
+            // their words.
             let pages = folders::staff_pages("handout/book", &bundle);
             if !pages.is_empty() {
                 bail!(
@@ -81,7 +82,8 @@ impl Bundle {
         for (path, text) in STUDENT_ONLY {
             bundle.insert(path, text);
         }
-        // Generated instead of read from `student/src`, where staff may have solved the assignment.
+        // Generated rather than read from `student/src`, where staff may have solved the
+        // assignment.
         for file in starter::generated_files(root, handed_out)? {
             bundle.insert(file.path, file.contents);
         }
@@ -93,7 +95,7 @@ impl Bundle {
         Ok(bundle)
     }
 
-    /// Returns the version, or `None` if the bundle's manifests have none.
+    /// Returns the version, or `None` if the bundle's manifests don't contain one.
     pub fn version(&self) -> Option<String> {
         version::find(self.text("Cargo.toml")?)
     }

@@ -1,8 +1,8 @@
 //! Searches a bundle for secrets: lines of solutions, and final exams.
 //!
 //! A secret line is a line of code of a solution, variant, mistake, mutant or oracle. White space
-//! is ignored when lines are compared. Lines of the students' given files are not secret, nor are
-//! lines that compute nothing, such as `use std::fs;` or a closing brace.
+//! is ignored when lines are compared. Lines of the given files aren't secret. Neither are lines
+//! that compute nothing, e.g. `use std::fs;` or a closing brace.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt;
@@ -17,12 +17,12 @@ use crate::bundle::Bundle;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
-/// The folders of given code, whose lines solutions may repeat.
+/// The folders of given code. Solutions may repeat its lines.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
 /// The minimum length of a secret line, not counting white space. Shorter lines occur by
 /// coincidence.
 const MIN_LENGTH: usize = 21;
-/// Lines, without white space, that Rust code of any kind has.
+/// Lines, without white space, that occur in all kinds of Rust code.
 const IDIOMS: [&str; 1] = ["thread::scope(|scope|{"];
 /// The id of the only exam that students may have.
 const PRACTICE_ID: &str = "practice";
@@ -37,14 +37,14 @@ pub struct Secrets {
 /// A secret found in a bundle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Leak {
-    /// A secret line that is in the bundle.
+    /// The bundle contains a secret line.
     Line {
         /// The location in the bundle, as `file:line`.
         found: String,
         /// The location of the secret line, as `file:line`.
         source: String,
     },
-    /// An exam that is not the practice exam.
+    /// The bundle contains an exam other than the practice exam.
     Exam {
         /// The path of the exam in the bundle.
         found: String,
@@ -59,7 +59,7 @@ impl Secrets {
         let mut secrets = Secrets {
             lines: HashMap::new(),
         };
-        // Only the oracles' formulas are secret: other lines, such as the conversion of a ray to
+        // Only the oracles' formulas are secret. Other lines, e.g. the conversion of a ray to
         // `f64`, can occur in any code.
         for oracles in authoring.oracles {
             secrets.read(root, oracles)?;
@@ -77,7 +77,7 @@ impl Secrets {
                 secrets.read(root, &folder)?;
             }
         }
-        // The source with the name of the file replaces some of the file's functions.
+        // The source with the file's name replaces some of the file's functions.
         for substituted in handed_out.substitutions {
             let (folder, file) = (substituted.folder(), substituted.file);
             secrets.read(root, &format!("{solutions}/{folder}/{file}"))?;
@@ -142,7 +142,7 @@ impl Secrets {
     }
 }
 
-/// Returns a line without its white space, or `None` if it is too short or computes nothing.
+/// Returns a line without white space, or `None` if it is too short or computes nothing.
 fn normalize(line: &str) -> Option<String> {
     let computes = is_formula(line) || line.contains('(');
     let is_no_code = ["//", "use ", "pub use ", "#["]
@@ -153,7 +153,7 @@ fn normalize(line: &str) -> Option<String> {
     (computes && !is_no_code && !is_idiom && line.len() >= MIN_LENGTH).then_some(line)
 }
 
-/// Returns whether the line contains arithmetic. An arrow is none, nor is a field that is dereferenced.
+/// Returns whether the line contains arithmetic. An arrow or a dereferenced field isn't arithmetic.
 fn is_formula(line: &str) -> bool {
     let operators = line.replace("->", "").replace(": *", "").replace(":*", "");
     operators.contains(['+', '-', '*', '/'])

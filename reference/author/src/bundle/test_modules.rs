@@ -1,4 +1,4 @@
-//! Removes test modules from a bundle. The framework's tests need a submission that students do not
+//! Removes test modules from a bundle. The framework's tests need a submission that students don't
 //! have.
 
 use crate::bundle::Bundle;
@@ -6,7 +6,7 @@ use crate::bundle::Bundle;
 /// The attribute on the line above the declaration of a test module.
 const CFG_TEST: &str = "#[cfg(test)]";
 
-/// Removes every test module that is in a separate file, and its declaration.
+/// Removes every test module in a separate file, along with its declaration.
 pub(super) fn remove(bundle: &mut Bundle) {
     let sources: Vec<String> = bundle.files.keys().cloned().collect();
     for path in sources.iter().filter(|path| path.ends_with(".rs")) {

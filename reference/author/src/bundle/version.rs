@@ -1,8 +1,8 @@
-//! The version of a bundle: a hash of everything in it but the students' own files.
+//! The version of a bundle: a hash of everything in it except the students' own files.
 //!
-//! It is part of the version of each package, as in `0.1.0+3f9a1c02e1d4`. So Cargo compiles everything
-//! again after an update, although the unpacked files are older than what it has compiled; and the
-//! grader knows which version of each part there is.
+//! It is part of each package's version, as in `0.1.0+3f9a1c02e1d4`. This makes Cargo recompile
+//! everything after an update, even though the unpacked files are older than its build output, and
+//! it lets the grader recognise the version of each part.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::bundle::manifests::parse;
 /// The number of digits of a version.
 const DIGITS: usize = 12;
 
-/// Adds the version to all manifests of a bundle, which has no lock file yet.
+/// Adds the version to all manifests of a bundle, which must not have a lock file yet.
 pub(super) fn add(root: &Path, handed_out: &HandedOut, bundle: &mut Bundle) -> Result<()> {
     let mut hash = ContentHash::default();
     // The dependencies are part of what students get.
@@ -50,13 +50,13 @@ pub(super) fn find(manifest: &str) -> Option<String> {
     Some(version.to_owned())
 }
 
-/// Returns whether a file is one that students write.
+/// Returns whether students write this file.
 pub(super) fn is_students_own(path: &str, handed_out: &HandedOut) -> bool {
     let name = path.strip_prefix("student/src/");
     name.is_some_and(|name| handed_out.task_file(name).is_some())
 }
 
-/// Adds the version to the one in the table of a package, if there is one.
+/// Appends the bundle's version to the version in the table of a package, if any.
 fn add_to(package: Option<&mut Item>, version: &str) {
     if let Some(item) = package.and_then(|package| package.get_mut("version"))
         && let Some(plain) = item.as_str()

@@ -16,7 +16,7 @@ use crate::package::{self, Course, Platform, trial};
 pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> CommandResult {
     let handed_out = authoring.handed_out;
     let mut bundle = Bundle::collect(root, handed_out, args.book.as_deref())?;
-    // With the students' files: what their starter contains is no secret.
+    // Compare with the full bundle, because lines of the starter aren't secret.
     let secrets = Secrets::gather(root, authoring, &bundle)?;
     if args.update {
         bundle = bundle.without_students_files(handed_out);
@@ -42,8 +42,8 @@ fn report_leaks(bundle: &Bundle, secrets: &Secrets) -> CommandResult {
     report(&problems, &line)
 }
 
-/// Collects a platform's package, writes it, and runs it as the platform does if asked to. A template
-/// repository is searched for secrets first.
+/// Collects a platform's package, writes it and, if requested, runs it as the platform does. A
+/// template repository is searched for secrets first.
 pub(super) fn package(
     root: &Path,
     authoring: &'static Authoring,

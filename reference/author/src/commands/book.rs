@@ -8,7 +8,7 @@ use crate::cli::book_folder;
 use crate::exams;
 use crate::handout;
 
-/// Checks the handout's pages, and builds the book if a folder is given.
+/// Checks the handout's pages. Builds the book if a folder is given.
 #[allow(
     clippy::option_option,
     reason = "absent, without a value, with a value"

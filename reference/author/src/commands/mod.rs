@@ -1,5 +1,5 @@
-//! The subcommands of `cargo author`. Each generates, measures or checks something, prints the result
-//! and, if asked to, writes it into the table of long runs.
+//! The subcommands of `cargo author`. Each generates, measures or checks something, prints the
+//! result and, if requested, writes it into the table of long runs.
 
 mod archives;
 mod book;
@@ -26,10 +26,10 @@ use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-/// The entry of the table of long runs in place of seeds.
+/// The entry in the table of long runs that replaces the seeds.
 const PRACTICE: &str = "practice";
 
-/// The result of a command; the error is printed.
+/// The result of a command. The caller prints the error.
 pub type CommandResult = anyhow::Result<()>;
 
 /// Runs a subcommand for an assignment.
@@ -93,7 +93,7 @@ fn solutions(authoring: &'static Authoring) -> anyhow::Result<Solutions> {
     Solutions::load(Workbench::open(authoring)?)
 }
 
-/// Prints the problems and the summary line. Fails if there are problems.
+/// Prints the problems and the summary line. Fails if any problems were found.
 fn report(problems: &[String], line: &str) -> CommandResult {
     for problem in problems {
         print_error_line(problem);
@@ -106,7 +106,7 @@ fn report(problems: &[String], line: &str) -> CommandResult {
     }
 }
 
-/// Writes the result of a run into the table of long runs, if that is wanted.
+/// Writes the result of a run into the table of long runs if `wanted` says so.
 fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> CommandResult {
     if wanted.record {
         long_runs::record(Path::new(ROOT), run, exams, line)?;
@@ -114,7 +114,7 @@ fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> Comm
     Ok(())
 }
 
-/// Returns seeds as they are written on the command line.
+/// Formats seeds as on the command line.
 fn written(seeds: &Range<u64>) -> String {
     format!("{}..{}", seeds.start, seeds.end)
 }

@@ -22,8 +22,7 @@ use crate::proof::{self, failures, matrix};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
-/// Writes the lists of the items that each mistake fails and the table of the practice exam, or
-/// checks them.
+/// Writes or checks the lists of items each mistake fails and the table of the practice exam.
 pub(super) fn mistakes(
     root: &Path,
     authoring: &'static Authoring,
@@ -49,7 +48,7 @@ pub(super) fn mistakes(
         seeds.all,
         seeds.thinnest
     );
-    // Before the files are written, so that they do not count as changes of the commit.
+    // Record before writing the files, so that they don't make the commit look modified.
     record_result(args.record, "mistakes", &written(&(0..seeds.all)), &line)?;
     let committed = FailedItems::load(root, handed_out)?;
     if mode == Mode::Check {
@@ -58,7 +57,7 @@ pub(super) fn mistakes(
         let line = format!("seeds {}, mistakes {}", failed.seeds, failed.fails.len());
         report(&problems, &line)?;
     }
-    // A check with as many seeds must find the same lists.
+    // A check with the same number of seeds must find the same lists.
     if mode == Mode::Write || failed.seeds == committed.seeds {
         generate(&[failed.generated_file(handed_out)?], mode, "mistakes")?;
     }
@@ -76,7 +75,7 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
     generate(&[table], mode, "mistakes")
 }
 
-/// Makes mutants of the reference, and grades them, or only those of some tasks.
+/// Makes mutants of the reference and grades all of them or only those of some tasks.
 pub(super) fn mutants(
     authoring: &'static Authoring,
     fast: bool,
@@ -97,7 +96,8 @@ pub(super) fn mutants(
     report(&findings.problems(), &line)
 }
 
-/// Grades the variants with the exams of all seeds, and the mistakes with those of the first few.
+/// Grades the variants with the exams of all seeds, and the mistakes with those of the first few
+/// seeds.
 pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandResult {
     let all = solutions(authoring)?;
     let selected = match &args.variant {
@@ -113,7 +113,7 @@ pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandRe
     report(&summary.problems(), &summary.summary_line())
 }
 
-/// Measures the margins of all thresholds, and writes or checks their table.
+/// Measures the margins of all thresholds. Writes or checks their table.
 pub(super) fn calibrate(
     root: &Path,
     authoring: &'static Authoring,
@@ -135,7 +135,7 @@ pub(super) fn calibrate(
     report(&calibration.margins.problems(), &line)
 }
 
-/// Measures how mistakes are recognised, prints the result, and records it if asked to.
+/// Measures how mistakes are recognised, prints the result and, if requested, records it.
 pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs) -> CommandResult {
     let solutions = solutions(authoring)?;
     let practice = exams::load_practice(root, authoring)?;

@@ -2,12 +2,12 @@
 
 use judging::assignment::TaskInfo;
 
-/// Returns the sentences of the documentation of a task's method in the text of its file.
+/// Returns the sentences that document a task's method, given the text of its file.
 pub(super) fn sentences(file: &str, task: &TaskInfo) -> Vec<String> {
     split(&documentation(file, task.method))
 }
 
-/// Returns the documentation of a method as paragraphs and list items, one a line.
+/// Returns the documentation of a method as paragraphs and list items, one per line.
 fn documentation(file: &str, method: &str) -> Vec<String> {
     let declaration = format!("pub fn {method}(");
     let lines: Vec<&str> = file.lines().map(str::trim).collect();
@@ -30,7 +30,8 @@ fn documentation(file: &str, method: &str) -> Vec<String> {
     paragraphs
 }
 
-/// Splits paragraphs into sentences: a sentence ends with a full stop before a capital or a name.
+/// Splits paragraphs into sentences. A sentence ends with a full stop before a capital letter or a
+/// name.
 fn split(paragraphs: &[String]) -> Vec<String> {
     let mut sentences = Vec::new();
     for paragraph in paragraphs {

@@ -1,6 +1,6 @@
-//! The coverage of the contract: the items that ask each sentence of each task's documentation, and how
-//! often the exam asks each class of each function's domain. What is not asked has a reason, beside the
-//! task's items or the function's domain.
+//! The exam's coverage of the contract: the items that test each sentence of each task's
+//! documentation, and how often the exam tests each class of each function's domain. Anything
+//! untested needs a reason, which is declared next to the task's items or the function's domain.
 
 mod contract;
 
@@ -20,7 +20,7 @@ use crate::items::{AuthoredTask, Declaration};
 /// The table, relative to the folder of an assignment's solutions.
 const TABLE: &str = "coverage.md";
 
-/// The table, and what is wrong with it.
+/// The table and its problems.
 #[derive(Debug)]
 pub struct Coverage {
     /// The table as a file.
@@ -77,7 +77,7 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
     Ok(coverage)
 }
 
-/// Returns the authored task with the items of the task with this id.
+/// Returns the authored task with this id, which contains its items.
 fn authored_task(id: &str, tasks: &[&'static AuthoredTask]) -> Result<&'static AuthoredTask> {
     let is_of_task = |item: &Declaration| item.id.split_once('.').is_some_and(|it| it.0 == id);
     let mut tasks = tasks.iter().copied();
@@ -160,7 +160,8 @@ impl Coverage {
         }
     }
 
-    /// Returns a count, or the letter of the reason why it is small. Without a reason, that is a problem.
+    /// Formats a count, or the letter of the reason for a small count. A small count without a
+    /// reason is a problem.
     fn shown(&mut self, function: &str, cell: &Cell, reasons: &mut Vec<&'static str>) -> String {
         let count = cell.count;
         if count >= FEWEST {
@@ -183,7 +184,7 @@ impl Coverage {
     }
 }
 
-/// Returns whether a text is a sentence, or its beginning up to an ellipsis.
+/// Returns whether a text equals a sentence, or its beginning followed by an ellipsis.
 fn is_meant(text: &str, sentence: &str) -> bool {
     match text.strip_suffix('…') {
         Some(beginning) => sentence.starts_with(beginning),
@@ -203,7 +204,7 @@ mod tests {
     use crate::authoring::RAYS;
     use crate::items;
 
-    /// Returns the coverage of boxes by an exam of some of their items.
+    /// Returns the coverage problems of an exam with some of the items about boxes.
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let exam = items::exam_of_boxes().filter_items(keep);

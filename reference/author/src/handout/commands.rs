@@ -12,12 +12,12 @@ use super::pages::{Page, Snippet};
 use crate::cli::Cli;
 
 /// The files that define the options of `cargo render` and `cargo view`, each as a field. They are
-/// read as text, because the crates are not linked here.
+/// read as text, because the crates aren't linked here.
 const OPTIONS: [&str; 2] = [
     "student/framework/src/harness/cli/options.rs",
     "grader/view/src/cli.rs",
 ];
-/// The flags of `cargo examples`, whose command line is not linked here.
+/// The flags of `cargo examples`, whose command line isn't linked here.
 const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands of other programs that the handout uses.
 pub(super) const OTHER_COMMANDS: [&str; 10] = [
@@ -58,7 +58,7 @@ fn unknown_command(
     sources: &[SourceFile],
     aliases: &BTreeSet<String>,
 ) -> Option<String> {
-    // A redirection with `>` is not part of the command.
+    // A redirection with `>` isn't part of the command.
     let words = text.split_whitespace().take_while(|word| *word != ">");
     let words: Vec<&str> = words.collect();
     let (cargo, rest) = words.split_first()?;
@@ -71,7 +71,7 @@ fn unknown_command(
     if !own {
         return Some(format!("cargo has no command {command}"));
     }
-    // Replace placeholders with valid values.
+    // Replace placeholders with valid values so that clap accepts them.
     let arguments = arguments.iter().map(|word| match *word {
         "ITEM#N" | "ITEM#NUMBER" => "sphere.from_inside#7",
         "N" => "60",
@@ -100,7 +100,7 @@ fn unknown_command(
     Some(format!("`{text}`: {first}"))
 }
 
-/// Returns the problem with a flag, or `None` if some command has it.
+/// Returns the problem with a flag, or `None` if some command accepts it.
 fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');
@@ -120,8 +120,8 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     (!is_known).then(|| format!("no command has the flag {flag}"))
 }
 
-/// Returns the problem with the first argument of `cargo examples` that is neither the name of a
-/// file nor a flag of the test harness.
+/// Returns the problem with the first argument of `cargo examples` that isn't the name of a file or
+/// a flag of the test harness.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");

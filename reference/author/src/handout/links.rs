@@ -1,4 +1,4 @@
-//! Checks that every link, anchor and figure of the handout exists, and that every figure is shown.
+//! Checks that every link, anchor and figure of the handout exists and that every figure is used.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,8 +7,8 @@ use judging::section::Section;
 
 use super::pages::{Page, anchor};
 
-/// Returns the broken links in the chapters, and the files that no chapter links to. `figures` are
-/// the names of the figures' files, which are in the chapters' folder.
+/// Returns the broken links in the chapters and the files that no chapter links to. `figures` are
+/// the names of the figures' files in the chapters' folder.
 pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let anchors = anchors(pages);
     let mut problems = Vec::new();
@@ -48,8 +48,8 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
 /// The file with the table of contents.
 pub const SUMMARY: &str = "SUMMARY.md";
 
-/// Returns the sections that an exam, or the assignment as its challenge, names but the chapters do
-/// not have, and the items without a section.
+/// Returns the items without a section, and the sections that an exam or the assignment's challenge
+/// refers to but that don't exist.
 pub fn missing_sections(pages: &[Page], exam: &Exam, challenge: Option<&str>) -> Vec<String> {
     let problem = |section: &Section| {
         let chapter = pages.iter().find(|page| page.name == section.chapter());

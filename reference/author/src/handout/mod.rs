@@ -1,5 +1,5 @@
-//! The handout: writes its lists of tasks, checks its links, names and commands against the code, and
-//! builds it as a book.
+//! The handout: writes its lists of tasks, checks its links, names and commands against the code
+//! and builds it as a book.
 
 #[cfg(feature = "book")]
 pub mod book;
@@ -20,8 +20,8 @@ use judging::section::CHAPTERS;
 use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
 
-/// The folders in which the handout's names are looked up: the code that students see, and the code
-/// that writes files that students see.
+/// The folders to search for names used in the handout: the code students see, and the code that
+/// writes files students see.
 const SOURCES: [&str; 10] = [
     "student/src",
     "student/protocol/src",
@@ -35,10 +35,10 @@ const SOURCES: [&str; 10] = [
     "scenes",
 ];
 
-/// Folders that are not searched for files.
+/// Folders that aren't searched for files.
 const IGNORED_FOLDERS: [&str; 2] = [".git", "target"];
 
-/// A source file in which names are looked up.
+/// A source file to search for names.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     /// The path relative to the workspace's root, with `/` as the separator.

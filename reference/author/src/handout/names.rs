@@ -1,4 +1,4 @@
-//! Checks that every name that the handout mentions exists.
+//! Checks that every name mentioned in the handout exists.
 //!
 //! Every identifier in inline code must occur in the sources that students see. For `Type::member`,
 //! some file must declare the type and contain the member. Item ids must be in the exam, and files
@@ -11,8 +11,7 @@ use judging::exam::Exam;
 use super::pages::{Page, Snippet};
 use super::{SourceFile, commands};
 
-/// Identifiers that the handout uses and that are defined by Rust or by another crate, not by the
-/// course.
+/// Identifiers in the handout that Rust or another crate defines, rather than the course.
 const RUST_NAMES: [&str; 13] = [
     "Option",
     "Some",
@@ -28,13 +27,13 @@ const RUST_NAMES: [&str; 13] = [
     "sh",
     "split_at_mut",
 ];
-/// C++ identifiers, of the language and of the slides, that the handout translates to Rust.
+/// C++ identifiers from the language and the slides that the handout translates to Rust.
 const CPP_NAMES: [&str; 6] = ["float", "norm", "norm_squared", "hmin", "hmax", "push_back"];
 
-/// The sources, files and items that names can refer to.
+/// The sources, files and items names can refer to.
 #[derive(Debug)]
 pub struct KnownNames<'a> {
-    /// The code that students see, and the code that writes files that students see.
+    /// The code students see, and the code that writes files students see.
     pub sources: &'a [SourceFile],
     /// The paths of all files of the repository, relative to its root.
     pub files: &'a BTreeSet<String>,
@@ -101,7 +100,7 @@ fn item_id<'a>(text: &'a str, exam: &Exam) -> Option<&'a str> {
     (is_task && is_identifier(name) && name != "rs").then_some(id)
 }
 
-/// Returns whether a text has the form of a file or folder name.
+/// Returns whether a text looks like a file or folder name.
 fn is_path(text: &str) -> bool {
     let endings = [".rs", ".md", ".json", ".toml", ".obj", ".html", "/"];
     let plain = |letter: char| letter.is_alphanumeric() || "._-/".contains(letter);

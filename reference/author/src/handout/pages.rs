@@ -6,12 +6,12 @@ use std::path::Path;
 use grader::files::{self, PathError};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
-/// A piece of text from a chapter, and its line.
+/// A piece of text from a chapter and its line number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
     /// The text of the snippet.
     pub text: String,
-    /// The number of the line on which the text starts, counted from 1.
+    /// The number of the text's first line, counted from 1.
     pub line: usize,
 }
 
@@ -65,7 +65,7 @@ impl Page {
     }
 }
 
-/// The state of parsing a chapter: the heading and the code block that are open, if any.
+/// The parser's state: the currently open heading and code block, if any.
 #[derive(Default)]
 struct Reader {
     heading: Option<Snippet>,

@@ -11,14 +11,14 @@ use judging::section::CHAPTERS;
 use crate::generated_file::GeneratedFile;
 use crate::handout::pages::Page;
 
-/// The page with the book's table of contents, and what is above its list of tasks.
+/// The page with the book's table of contents, and the text above its list of tasks.
 const CONTENTS: (&str, &str) = ("SUMMARY.md", "# The tasks\n\n");
-/// The page with a table of the chapters, and the head of this table.
+/// The page with a table of the chapters, and the table's header.
 const START: (&str, &str) = (
     "start.md",
     "| chapter | file | you write | points |\n|---|---|---|---|\n",
 );
-/// The page with a table of the tasks, and the head of this table.
+/// The page with a table of the tasks, and the table's header.
 const GRADING: (&str, &str) = (
     "grading.md",
     "| task | file | method | points |\n|---|---|---|---|\n",
@@ -26,8 +26,8 @@ const GRADING: (&str, &str) = (
 /// The beginning of a chapter's last line, which links to the next chapter.
 const NEXT: &str = "Next: ";
 
-/// Generates the pages that list an assignment's tasks in the workspace at `root`: each with its list
-/// replaced, and everything else unchanged. A chapter ends with a link to the next one.
+/// Generates the pages that list an assignment's tasks in the workspace at `root`. Only the list in
+/// each page is replaced. A chapter also ends with a link to the next chapter.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let mut chapters: Vec<&str> = Vec::new();
     let (mut links, mut chapter_rows, mut task_rows) = (Vec::new(), Vec::new(), Vec::new());

@@ -93,8 +93,7 @@ impl Bounds {
         }
     }
 
-    /// Returns the part of the ray's range in which the ray is in the box, or `None` if there is
-    /// none.
+    /// Returns the part of the ray's range that is inside the box, or `None` if it misses the box.
     pub fn span(&self, ray: &Ray64) -> Option<(f64, f64)> {
         let mut inside = (ray.min, ray.max);
         for axis in 0..3 {

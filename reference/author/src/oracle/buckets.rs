@@ -1,5 +1,5 @@
-//! The cost of trees built with bucketed SAH: by correct builders with several kinds of buckets,
-//! and by builders with a known mistake.
+//! The cost of trees built with bucketed SAH, both by correct builders with several kinds of
+//! buckets and by builders with a known mistake.
 
 use crate::oracle::bbox::Bounds;
 
@@ -12,7 +12,7 @@ pub enum BucketExtent {
     Bounds,
 }
 
-/// The buckets that are counted as the two sides of a plane.
+/// The buckets that make up the two sides of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideRule {
     /// All buckets to the left of the plane, and all to the right.
@@ -32,15 +32,15 @@ pub struct BucketedBuilder {
     pub sides: SideRule,
 }
 
-/// Returns the cost of the tree that this builder builds, with C_trav = C_isect = 1 and areas
-/// relative to the root's. The builder follows Wald, "On fast Construction of SAH-based Bounding
-/// Volume Hierarchies", 2007, section 3.
+/// Returns the cost of this builder's tree, with C_trav = C_isect = 1 and areas relative to the
+/// root's. The builder follows Wald, "On fast Construction of SAH-based Bounding Volume
+/// Hierarchies", 2007, section 3.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
     cost_with_halves(boxes, max_leaf_size, builder, &|_| false)
 }
 
-/// Returns the cost of the tree that this builder builds if it splits some nodes by count instead, along
-/// the longest axis: those whose number of primitives `is_halved`.
+/// Returns the cost of this builder's tree if it halves some nodes by count along the longest axis
+/// instead. `is_halved` selects these nodes by their number of primitives.
 pub fn cost_with_halves(
     boxes: &[Bounds],
     max_leaf_size: usize,
@@ -93,7 +93,8 @@ fn subtree_cost(
 }
 
 impl BucketedBuilder {
-    /// Returns the index of the bucket of a primitive's centre along an axis of the box `over`.
+    /// Returns the index of the bucket that contains a primitive's centre along an axis of the box
+    /// `over`.
     fn bucket_of(self, bounds: &Bounds, over: &Bounds, axis: usize) -> usize {
         let size = over.max[axis] - over.min[axis];
         let part = (bounds.center()[axis] - over.min[axis]) / size;
@@ -124,8 +125,8 @@ impl BucketContents {
         }
     }
 
-    /// Returns the area times the count. Returns 0 if there are no primitives, because the area of
-    /// an empty box is undefined.
+    /// Returns the area times the count, or 0 without primitives, because the area of an empty box
+    /// is undefined.
     fn cost(self) -> f64 {
         match self.count {
             0 => 0.0,

@@ -1,5 +1,5 @@
 //! Correct answers in double precision, computed from the definitions. The formulas differ from
-//! those that students are taught, so that a solution and its key do not contain the same mistake.
+//! those taught to students, so that a solution and its key cannot contain the same mistake.
 
 pub mod bbox;
 pub mod buckets;
@@ -18,11 +18,11 @@ use protocol::{Interval, Ray, Trace};
 pub struct Ray64 {
     /// The point where the ray starts.
     pub origin: DVec3,
-    /// The direction. Its length is one, except for the rounding of the question's ray.
+    /// The direction. Its length is one, up to the rounding of the question's ray.
     pub dir: DVec3,
-    /// The minimum distance at which hits count.
+    /// The minimum distance of a valid hit.
     pub min: f64,
-    /// The maximum distance at which hits count. May be infinite.
+    /// The maximum distance of a valid hit. May be infinite.
     pub max: f64,
 }
 
@@ -79,7 +79,7 @@ pub struct Intersection {
 }
 
 impl Intersection {
-    /// Converts the intersection to the trace that is expected of a ray.
+    /// Converts the intersection to the trace expected for a ray.
     pub fn to_trace(&self, ray: &Ray) -> Trace {
         Trace {
             distance: self.distance as f32,

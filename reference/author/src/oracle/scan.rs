@@ -1,4 +1,4 @@
-//! Linear scans: finds the closest hit of a ray by testing every shape in a list.
+//! Linear scans: find a ray's closest hit by testing every shape in a list.
 
 use glam::DVec3;
 use protocol::{Record, Shape, Value};
@@ -65,8 +65,8 @@ pub fn bounds(shape: &Shape) -> Bounds {
     }
 }
 
-/// Returns the box around the shapes and points of a subject, which is larger by its lengths, such as a
-/// radius. Returns `None` if the subject has neither.
+/// Returns the box around a subject's shapes and points, enlarged by its lengths, such as a radius.
+/// Returns `None` if the subject contains no shapes or points.
 pub fn extent(subject: &dyn Record) -> Option<Bounds> {
     let (mut boxes, mut margin) = (Vec::new(), 0.0_f64);
     for value in subject.values() {
@@ -85,8 +85,8 @@ pub fn extent(subject: &dyn Record) -> Option<Bounds> {
     })
 }
 
-/// Returns whether all correct formulas in single precision agree on whether and where the ray hits
-/// this shape, because the hit or miss is not close to an edge, a tangent or an end of the range.
+/// Returns whether all correct formulas in single precision agree on the ray's hit or miss of this
+/// shape, because it isn't close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
     /// The minimum difference between a distance and the ends of the range, in sizes of the shape.
     const END_MARGIN: f64 = 1e-2;

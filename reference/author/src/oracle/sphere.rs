@@ -22,7 +22,7 @@ pub struct LineIntersection {
     /// The smallest distance from the centre to the line, in radii. The line hits the sphere if
     /// this distance is below 1.
     pub closest_approach: f64,
-    /// The distances at which the line enters and leaves the sphere, or NaN if it misses.
+    /// The distances where the line enters and leaves the sphere, or NaN if it misses.
     pub roots: [f64; 2],
 }
 
@@ -56,7 +56,7 @@ impl Sphere {
 }
 
 /// Returns the texture coordinates in this direction from the centre. u goes once around the
-/// y-axis, from +x toward +z; v is proportional to the angle, from 0 at −y to 1 at +y.
+/// y-axis, from +x toward +z. v is proportional to the angle, from 0 at −y to 1 at +y.
 pub fn uv(dir: DVec3) -> DVec2 {
     let u = libm::atan2(dir.z, dir.x) / TAU;
     let v = libm::acos(-dir.y.clamp(-1.0, 1.0)) / PI;

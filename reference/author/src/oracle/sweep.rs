@@ -4,14 +4,13 @@ use judging::drawing_data::{LevelNode, Sweep};
 
 use super::bbox::Bounds;
 
-/// Returns the cost of the tree that the greedy sweep builds, with C_trav = C_isect = 1: the sum of
-/// S/S_root over all interior nodes, plus the sum of S/S_root times the number of primitives over
-/// all leaves.
+/// Returns the cost of the greedy sweep's tree, with C_trav = C_isect = 1: the sum of S/S_root over
+/// all interior nodes, plus the sum of S/S_root times the number of primitives over all leaves.
 ///
 /// At each node with more than `max_leaf_size` primitives, the sweep takes the cheapest partition
 /// between two consecutive centres along any axis (MacDonald and Booth, "Heuristics for ray tracing
 /// using space subdivision", The Visual Computer 6, 1990). Primitives whose centres coincide along
-/// the axis stay together; if they coincide along all axes, half of them go to each side.
+/// the axis stay together. If they coincide along all axes, half of them go to each side.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
     let mut indices: Vec<usize> = (0..boxes.len()).collect();
     SweepBuilder::new(boxes, max_leaf_size).node_cost(&mut indices, 0, 0)
@@ -69,9 +68,9 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
     below(boxes, &mut indices, max_leaf_size)
 }
 
-/// Returns the gap between two centres at which the best partition splits along this axis. Returns
-/// `None` if the best partition is along another axis, or if another one is nearly as good. That includes
-/// partitions of a few primitives by no plane.
+/// Returns the gap between the two centres where the best partition splits along this axis. Returns
+/// `None` if the best partition is along another axis, or if a different partition is nearly as
+/// good, including partitions of a few primitives that no plane separates.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)
@@ -98,10 +97,10 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
 
-/// Returns whether rounding does not decide if a plane across this axis has these sides, too: the centres of
-/// the sides are clearly apart, or clearly mixed, or all are equal.
+/// Returns whether it is clear despite rounding whether a plane across this axis gives these sides
+/// too: the sides' centres are clearly separated, clearly mixed, or all equal.
 fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {
-    /// How wrong a centre may be, relative to the largest coordinate.
+    /// The maximum error of a centre, relative to the largest coordinate.
     const ERROR: f64 = 5e-7;
     let ends = |side: &[usize]| {
         let centers = side.iter().map(|&index| boxes[index].center()[axis]);
@@ -117,18 +116,18 @@ fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) ->
     are_equal || gaps.iter().all(|gap| gap.abs() > error)
 }
 
-/// Returns whether it is worse to split the primitives in the order they are given in, which a builder keeps
-/// along an axis where all centres coincide.
+/// Returns whether splitting the primitives in their given order is worse. A builder keeps this
+/// order along an axis where all centres coincide.
 fn given_order_is_worse(boxes: &[Bounds], cost: f64) -> bool {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let costs = partition_costs(boxes, &indices);
     costs.into_iter().all(|other| other >= MIN_RATIO * cost)
 }
 
-/// Returns whether all ways to divide a few primitives cost at least as much, by a plane or not. Where
-/// centres coincide along an axis, rounding may sort them in any order.
+/// Returns whether every way to divide a few primitives costs at least as much, with a plane or
+/// without. Such divisions are possible because rounding may sort coinciding centres in any order.
 fn no_sides_are_cheaper(boxes: &[Bounds], cost: f64) -> bool {
-    /// The largest number of primitives for which all ways are tried.
+    /// All ways are tried for at most this many primitives.
     const FEW: usize = 10;
     if boxes.len() > FEW {
         return true;
@@ -171,7 +170,7 @@ impl SweepBuilder<'_> {
     /// primitives to the left of the subtree.
     fn node_cost(&mut self, indices: &mut [usize], level: u32, start: usize) -> f64 {
         let relative_area = match self.root_area {
-            // All primitives lie on a line.
+            // All primitives are on a line.
             0.0 => 1.0,
             root_area => bounds_of(self.boxes, indices).area() / root_area,
         };
@@ -206,7 +205,7 @@ impl SweepBuilder<'_> {
     }
 }
 
-/// A partition in which the first `left` primitives, sorted along `axis`, go to the left.
+/// A partition that puts the first `left` primitives, sorted along `axis`, on the left side.
 struct Partition {
     axis: usize,
     left: usize,
@@ -233,7 +232,7 @@ fn partitions(boxes: &[Bounds], indices: &[usize], axis: usize) -> Vec<Partition
         .collect()
 }
 
-/// Returns the costs of splitting a row of primitives after the first, after the second, and so on.
+/// Returns the cost of splitting a row of primitives after the first, after the second and so on.
 fn partition_costs(boxes: &[Bounds], row: &[usize]) -> Vec<f64> {
     // The areas of the boxes around all primitives up to and including each one.
     let accumulated_areas = |order: &mut dyn Iterator<Item = &usize>| -> Vec<f64> {
@@ -254,7 +253,7 @@ fn partition_costs(boxes: &[Bounds], row: &[usize]) -> Vec<f64> {
 }
 
 fn sort_by_center(boxes: &[Bounds], indices: &mut [usize], axis: usize) {
-    // Ties are broken by index, so that the result does not depend on the order of `indices`.
+    // Break ties by index, so that the result doesn't depend on the order of `indices`.
     indices.sort_by(|&a, &b| {
         let (left, right) = (boxes[a].center()[axis], boxes[b].center()[axis]);
         left.total_cmp(&right).then(a.cmp(&b))
@@ -341,8 +340,8 @@ mod tests {
                     Bounds::around([at, at + DVec3::splat(rng.uniform(0.1, 1.0))])
                 })
                 .collect();
-            // Leaves may hold 5 of the 6 primitives, so there is one split: find the best by brute
-            // force.
+            // Leaves may contain 5 of the 6 primitives, so there is one split: find the best by
+            // brute force.
             let all: Vec<usize> = (0..6).collect();
             let root = bounds_of(&boxes, &all).area();
             let mut least = f64::INFINITY;

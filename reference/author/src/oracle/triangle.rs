@@ -48,8 +48,8 @@ pub fn corners([p0, p1, p2]: &[Vertex; 3]) -> [DVec3; 3] {
     [p0, p1, p2].map(|vertex| vertex.position.as_dvec3())
 }
 
-/// Intersects the ray with the plane of the corners, and returns the intersection if it is inside
-/// the triangle and in the ray's range.
+/// Intersects the ray with the plane of the corners. Returns the intersection if it is inside the
+/// triangle and in the ray's range.
 pub fn intersect_inside(ray: &Ray64, corners: [DVec3; 3]) -> Option<PlaneIntersection> {
     intersect_plane(ray, corners).filter(|intersection| {
         ray.is_in_range(intersection.distance) && intersection.least_weight() >= 0.0

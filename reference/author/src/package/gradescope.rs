@@ -1,5 +1,5 @@
-//! The package for Gradescope: a zip file with two scripts at its root, the grader and the crates
-//! that it is built from, the reference, and the final exam.
+//! The package for Gradescope: a zip file with two scripts at its root, the grader and its crates,
+//! the reference and the final exam.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::bundle::folders::copy_tree;
 use crate::bundle::{Bundle, crates};
 use crate::package::{grader_files, package_path};
 
-/// The two scripts that Gradescope runs, and the one that both of them call.
+/// The two scripts that Gradescope runs, and the script that both of them call.
 const SCRIPTS: [(&str, &str); 3] = [
     ("setup.sh", include_str!("templates/gradescope/setup.sh")),
     (
@@ -22,7 +22,7 @@ const SCRIPTS: [(&str, &str); 3] = [
         include_str!("templates/gradescope/grade"),
     ),
 ];
-/// The text in the scripts that stands for the names of the task files.
+/// The placeholder in the scripts for the names of the task files.
 const TASK_FILES: &str = "TASK_FILES";
 
 /// Collects all files of the zip.

@@ -1,5 +1,5 @@
-//! Autograder packages that instructors upload to a platform: the grader, everything that it needs,
-//! and the platform's scripts.
+//! Autograder packages that instructors upload to a platform: the grader, everything it needs and
+//! the platform's scripts.
 //!
 //! A package is made from the students' bundle ([`crate::bundle`]), so that both grade the same
 //! way.
@@ -95,7 +95,7 @@ pub fn collect(
     }
 }
 
-/// Returns the files of the students' bundle that the grader needs: all but the handout, the
+/// Returns the files of the students' bundle that the grader needs: all except the handout, the
 /// scenes, the workflow and the README.
 fn grader_files(students: &Bundle) -> impl Iterator<Item = (&str, &Vec<u8>)> {
     const EXCLUDED: [&str; 4] = ["handout/", "scenes/", ".github/", "README.md"];

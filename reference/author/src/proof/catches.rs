@@ -1,5 +1,5 @@
-//! How clearly the exam catches each mistake: by how many questions, and by which share of an item.
-//! A mistake that a single ray catches is caught by luck.
+//! Measures how clearly the exam catches each mistake: with how many questions, and with what share
+//! of an item. A mistake that only a single ray catches is caught by luck.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,32 +13,32 @@ use crate::generated_file::GeneratedFile;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{Answers, BuiltSolution};
 
-/// The fewest wrong answers in a table, unless they are the share below.
+/// The minimum number of wrong answers in a table, unless their share is large enough.
 const TABLE_ANSWERS: usize = 3;
-/// The smallest share of wrong answers in a table.
+/// The minimum share of wrong answers in a table.
 const TABLE_SHARE: f64 = 0.2;
-/// The fewest wrong positions in a picture, as a multiple of those that are tolerated.
+/// The minimum number of wrong positions in a picture, as a multiple of the tolerated number.
 const PICTURE_MULTIPLE: f64 = 3.0;
-/// The fewest wrong trees, unless all are wrong.
+/// The minimum number of wrong trees, unless all are wrong.
 const TREES: usize = 2;
 
-/// The way in which an item catches a mistake.
+/// How an item catches a mistake.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Catch {
     /// The id of the item.
     pub item: String,
-    /// The number of wrong answers in tables, and of all of them.
+    /// The number of wrong answers in tables, and the total.
     pub answers: (usize, usize),
-    /// The number of wrong trees, and of all of them.
+    /// The number of wrong trees, and the total.
     pub trees: (usize, usize),
-    /// The wrong positions of a picture, as a multiple of those that are tolerated.
+    /// The number of wrong positions in a picture, as a multiple of the tolerated number.
     pub picture: f64,
-    /// Whether the item has no answers.
+    /// Whether the submission gave no answers to the item.
     pub is_unanswered: bool,
 }
 
 impl Catch {
-    /// Returns how an item catches a mistake that gives these answers, or `None` if it does not.
+    /// Returns how an item catches a mistake with these answers, or `None` if it doesn't.
     pub fn of_item(item: &Item, answers: &Answers) -> Option<Catch> {
         let mut caught = Catch {
             item: item.id.clone(),
@@ -70,7 +70,7 @@ impl Catch {
         is_caught.then_some(caught)
     }
 
-    /// Returns how clear the catch is, as a multiple of the least that is required.
+    /// Returns how clear the catch is, as a multiple of the required minimum.
     pub fn clarity(&self) -> f64 {
         if self.is_unanswered {
             return f64::INFINITY;
@@ -111,11 +111,11 @@ impl fmt::Display for Catch {
     }
 }
 
-/// The clearest catch of each mistake, in the exam in which it is least clear.
+/// The clearest catch of each mistake, in the exam that catches it least clearly.
 #[derive(Clone, Debug, Default)]
 pub struct Catches {
-    /// The number of exams of each mistake, and its catch there, by the id of the mistake. `None` if
-    /// an exam does not catch it at all.
+    /// For each mistake's id, the number of exams and its least clear catch. `None` if an exam
+    /// doesn't catch it at all.
     thinnest: BTreeMap<String, (u64, Option<Catch>)>,
 }
 
@@ -154,7 +154,7 @@ impl Catches {
         all
     }
 
-    /// Returns the mistakes that some exam catches less clearly than required, one line each.
+    /// Returns the mistakes that some exam doesn't catch clearly enough, one line each.
     pub fn problems(&self) -> Vec<String> {
         let all = self.by_clarity().into_iter();
         let thin = all.filter(|(.., caught)| caught.is_none_or(|caught| caught.clarity() < 1.0));
@@ -193,7 +193,7 @@ impl Catches {
     }
 }
 
-/// Returns how clear a catch is; less than any catch if there is none.
+/// Returns how clear a catch is. The absence of a catch is less clear than any catch.
 fn clarity(caught: Option<&Catch>) -> f64 {
     caught.map_or(-1.0, Catch::clarity)
 }

@@ -1,7 +1,7 @@
 //! Determines which items each mistake fails with every seed.
 //!
-//! Some items catch a mistake only by luck: with other random numbers, no ray would show it. Only
-//! the items that fail with each of many seeds are required to fail with any seed.
+//! Some items catch a mistake only by luck: with other random numbers, no ray would reveal it. So
+//! only items that fail with each of many seeds are required to fail with any seed.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -24,10 +24,10 @@ pub const FEW_SEEDS: SeedCounts = SeedCounts {
     all: 1,
     thinnest: 2,
 };
-/// The number of mistakes that are caught least clearly, which are graded with more seeds.
+/// The number of least clearly caught mistakes to grade with more seeds.
 pub const THINNEST: usize = 50;
 
-/// The numbers of seeds, counted from 0, whose exams grade the mistakes.
+/// How many seeds, counted from 0, are used to grade the mistakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeedCounts {
     /// The number of seeds for each mistake.
@@ -37,7 +37,7 @@ pub struct SeedCounts {
 }
 
 impl SeedCounts {
-    /// Returns ten times as many seeds for the mistakes that are caught least clearly.
+    /// Returns counts with ten times as many seeds for the least clearly caught mistakes.
     pub const fn of(all: u64) -> Self {
         SeedCounts {
             all,
@@ -46,8 +46,8 @@ impl SeedCounts {
     }
 }
 
-/// Determines the items that each mistake fails in the practice exam and in the exams of the seeds,
-/// and how clearly they catch it. The mistakes that are caught least clearly are graded with more seeds.
+/// Determines the items each mistake fails in the practice exam and in the exams of the seeds, and
+/// how clearly they catch it. The least clearly caught mistakes are graded with more seeds.
 pub fn failed_items(
     solutions: &Solutions,
     practice: &Exam,
@@ -105,7 +105,7 @@ fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<V
     caught.collect()
 }
 
-/// Returns the catches of a mistake by the items of its tasks, without the reference's parts.
+/// Returns the catches of a mistake by the items of its tasks, without substituted parts.
 fn catches(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Catch>> {
     let mut caught = Vec::new();
     for task in &mistake.expected.tasks {
@@ -118,8 +118,8 @@ fn catches(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<
     Ok(caught)
 }
 
-/// Returns the differences between the committed lists and those of a check, one line each. A check
-/// with fewer seeds finds longer lists, so only items that a mistake passes are reported.
+/// Returns the differences between the committed lists and a check's, one line each. A check with
+/// fewer seeds finds longer lists, so only items that a mistake passes are reported.
 pub fn problems(committed: &FailedItems, found: &FailedItems) -> Vec<String> {
     let command = "run `cargo author mistakes`";
     let path = failed_items::FILE;

@@ -1,4 +1,4 @@
-//! Grades solutions with an exam, and compares the points that they lose with the expected ones.
+//! Grades solutions with an exam and compares the points they lose with the expected loss.
 
 use anyhow::Result;
 use grader::score::{ItemScore, Score};
@@ -8,7 +8,7 @@ use judging::exam::{Exam, Item};
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, Workbench};
 
-/// Returns the items in which a variant loses points although it must not.
+/// Returns the items where a variant loses points although it must not.
 pub fn variant_losses(
     workbench: &Workbench,
     variant: &Solution,
@@ -46,7 +46,7 @@ impl<'a> Graded<'a> {
         Ok(Graded { solution, score })
     }
 
-    /// Returns the differences between the expected and the actual loss of points of a mistake.
+    /// Returns the differences between a mistake's expected and actual loss of points.
     pub fn problems(&self) -> Vec<String> {
         let id = &self.solution.id;
         let passed = self.passed_items().into_iter();
@@ -61,8 +61,8 @@ impl<'a> Graded<'a> {
         listed.filter(is_passed).cloned().collect()
     }
 
-    /// Returns the differences that are problems with any seed: no loss in a mistake's own task,
-    /// or a loss in a task that it does not declare.
+    /// Returns the differences that are problems with any seed: no loss in a mistake's own task, or
+    /// a loss in an undeclared task.
     pub fn task_problems(&self) -> Vec<String> {
         let Solution { id, expected, .. } = self.solution;
         let is_of = |item: &ItemScore, task: &Task| item.id.starts_with(&format!("{task}."));

@@ -1,4 +1,4 @@
-//! The table of which mistake fails which item. Building it checks that every mistake loses points
+//! The table of the items each mistake fails. Building it checks that every mistake loses points
 //! where it must.
 
 use std::fmt::Write;
@@ -17,8 +17,8 @@ use crate::solutions::solution::Solution;
 /// The path of the table, relative to the folder of an assignment's solutions.
 const FILE: &str = "mistakes/matrix.md";
 
-/// Builds the table for the practice exam. Returns an error if a mistake does not lose the
-/// points that it must lose.
+/// Builds the table for the practice exam. Returns an error if a mistake doesn't lose the points it
+/// must lose.
 pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFile> {
     let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
     let graded = run(workbench, mistakes, "mistakes", |mistake, built| {
@@ -87,7 +87,7 @@ fn task_table<'a>(
 }
 
 fn cell(line: &ItemScore, mistake: &Solution) -> &'static str {
-    // The lists of failed items do not include items that are graded with the reference's parts.
+    // The lists of failed items don't include items graded with the reference's parts.
     let is_certain = line.carried_forward || mistake.expected.fails.contains(&line.id);
     match (line.points, is_certain) {
         (points, _) if points == line.max_points => "",

@@ -1,5 +1,5 @@
-//! The proof: for many seeds, grades every variant, which must lose no points, and every mistake,
-//! which must lose some.
+//! The proof. For many seeds, it grades every variant, which must lose no points, and every
+//! mistake, which must lose some.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -18,9 +18,10 @@ use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
-/// Grades all solutions with the exam of one seed. With a seed from which the lists of failed items
-/// come, a mistake must fail all of its items. With any other seed, one of them can pass by luck:
-/// an item that one exam in 200 does not catch is likely to be in a list from 20 seeds.
+/// Grades all solutions with the exam of one seed. With a seed that the lists of failed items were
+/// made from, a mistake must fail all of its items. With any other seed, it can pass one of them by
+/// luck: an item that fails to catch it in one exam out of 200 is likely to be in a list made from
+/// 20 seeds.
 fn prove_seed(
     solutions: &Solutions,
     seed: u64,
@@ -59,7 +60,7 @@ fn prove_seed(
     Ok(result)
 }
 
-/// Runs the proof for these seeds; mistakes are graded only with the first `with_mistakes` of them.
+/// Runs the proof for these seeds. Mistakes are only graded with the first `with_mistakes` of them.
 /// The result of every seed is saved, so that an interrupted proof can be continued.
 pub fn prove(solutions: &Solutions, seeds: Range<u64>, with_mistakes: u64) -> Result<ProofSummary> {
     let workbench = &solutions.workbench;
@@ -115,13 +116,13 @@ impl ProofCache {
     fn append(&self, result: &SeedResult) -> Result<(), PathError> {
         let line = serde_json::to_string(result).expect("all map keys are strings");
         let mut file = self.file.lock().expect("no thread panics while writing");
-        // Starts with a line break, in case a killed run has left an incomplete line.
+        // Start with a line break, in case a killed run left an incomplete line.
         writeln!(file, "\n{line}").at("write", &self.path)
     }
 }
 
-/// Returns a hash of everything that a proof depends on: this program, all solutions, and the lists
-/// of failed items.
+/// Returns a hash of everything a proof depends on: this program, all solutions and the lists of
+/// failed items.
 fn cache_key(solutions: &Solutions, listed_seeds: u64) -> Result<String, PathError> {
     let program = std::env::current_exe().unwrap_or_default();
     let mut hash = ContentHash::default()

@@ -1,5 +1,5 @@
-//! The runner of all solutions: builds each of them and asks it. Also generates the exams of many
-//! seeds. Both take long, so they show progress bars.
+//! Builds all solutions and runs them on exams. Also generates the exams of many seeds. Both take a
+//! long time, so they show progress bars.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, NotCompiledError, Workbench};
 
-/// Builds solutions and returns what `ask` returns for each. A solution that does not compile is an
+/// Builds solutions and returns what `ask` returns for each. A solution that doesn't compile is an
 /// error. `unit` is shown with the progress.
 pub(super) fn run<'a, R: Send>(
     workbench: &Workbench,
@@ -27,7 +27,7 @@ pub(super) fn run<'a, R: Send>(
     })
 }
 
-/// Does the same with solutions that need not compile. If one does not, `ask` gets no program.
+/// Like [`run`], for solutions that may not compile. If one doesn't, `ask` gets no program.
 pub(super) fn run_compiled<'a, R: Send>(
     workbench: &Workbench,
     solutions: impl IntoIterator<Item = &'a Solution>,

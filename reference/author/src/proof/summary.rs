@@ -16,10 +16,10 @@ pub struct SeedResult {
     pub with_mistakes: bool,
     /// The variants that lost points although they are correct, each with the items that it failed.
     pub false_fails: BTreeMap<String, Vec<String>>,
-    /// The mistakes that did not lose the points that they must lose, each with the problems found.
+    /// The mistakes that didn't lose the points they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
-    /// The mistakes that passed items which they fail with all seeds of `fails.toml`, each with
-    /// these items. They are caught nevertheless.
+    /// The mistakes that passed items they fail with all seeds of `fails.toml`, each with these
+    /// items. Other items still caught them.
     #[serde(default)]
     pub passed: BTreeMap<String, Vec<String>>,
 }
@@ -75,7 +75,7 @@ impl ProofSummary {
         lines
     }
 
-    /// Returns what is worth knowing and no problem, one line each.
+    /// Returns notes that are worth knowing but aren't problems, one line each.
     pub fn notes(&self) -> Vec<String> {
         let results = self.results.iter();
         let notes = results.flat_map(|result| {

@@ -2,14 +2,14 @@
 //! `mistakes` of an assignment's solutions:
 //!
 //! - Known mistakes in `TASK/*.toml`, with hints for students.
-//! - Independent mistakes in `independent/*.toml`: known mistakes in the code of a variant, where they
-//!   look as in the solution of a student who never saw the reference.
-//! - Other code with the answers of known mistakes in `same_answers/*.toml`: the hints must be true of
-//!   it, too.
-//! - Unknown mistakes in `unknown/*.toml`: no hint is written for them, so they tell whether wrong code
-//!   gets a hint that is not true of it.
+//! - Independent mistakes in `independent/*.toml`: known mistakes in a variant's code, where they
+//!   look as they would in the solution of a student who never saw the reference.
+//! - Other code with the answers of known mistakes in `same_answers/*.toml`. The hints must be true
+//!   of it too.
+//! - Unknown mistakes in `unknown/*.toml`. No hint is written for them, so they show whether wrong
+//!   code gets false hints.
 //!
-//! [`methods`](crate::solutions::methods) reads more of the last kind.
+//! [`methods`](crate::solutions::methods) reads further unknown mistakes.
 
 use std::path::Path;
 
@@ -26,20 +26,20 @@ use crate::solutions::read_toml;
 use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
 
-/// A wrong solution, as it is written in a catalogue.
+/// A wrong solution, as written in a catalogue.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mistake {
     /// The task's id, a dot, and a name, such as `sphere.far_first`.
     pub id: String,
-    /// A description of what the wrong code does. Independent mistakes have that of the known one.
+    /// A description of what the wrong code does. An independent mistake uses its known mistake's
+    /// description.
     #[serde(default)]
     pub title: String,
     /// The id of the variant that an independent mistake is in.
     #[serde(default)]
     pub variant: Option<String>,
-    /// The sources in which the mistake was seen, by their numbers in
-    /// `reference/mistakes/README.md`.
+    /// The sources where the mistake was seen, by their numbers in `reference/mistakes/README.md`.
     #[serde(default)]
     pub seen: Vec<String>,
     /// A question for students that helps them find the mistake.
@@ -48,39 +48,37 @@ pub struct Mistake {
     /// An explanation for students of what is wrong.
     #[serde(default)]
     pub hint: String,
-    /// The mistake whose nudge and hint this one shares, because the exam cannot tell them apart, so
-    /// that the texts must fit both.
+    /// The mistake whose nudge and hint this mistake shares, because the exam cannot tell them
+    /// apart. The texts must fit both.
     #[serde(default)]
     pub same_hint_as: Option<String>,
-    /// Other mistakes of which every sentence of the hint is also true.
+    /// Other mistakes for which every sentence of the hint is also true.
     #[serde(default)]
     pub also_true_of: Vec<String>,
-    /// Pairs of other mistakes that together do the same, so that the hint is true of code that makes
-    /// both.
+    /// Pairs of other mistakes that together have the same effect, so the hint is true for code
+    /// that makes both.
     #[serde(default)]
     pub true_of_pairs: Vec<[String; 2]>,
     /// The section of the handout about the mistake, if it differs from the section of the items
     /// that fail.
     #[serde(default)]
     pub section: Option<Section>,
-    /// The tasks in addition to its own that may lose points, for two combined mistakes that hide
-    /// each other.
+    /// Additional tasks that may lose points, for two combined mistakes that hide each other.
     #[serde(default)]
     pub other_tasks: Vec<Task>,
-    /// The known mistakes whose hints are true of an independent or unknown mistake, in addition to
-    /// the mistake itself.
+    /// Additional known mistakes whose hints are true for an independent or unknown mistake.
     #[serde(default)]
     pub true_hints: Vec<String>,
-    /// The changes to the reference or the variant. Nearly always, there is only one.
+    /// The changes to the reference or the variant. Nearly always a single change.
     #[serde(rename = "change")]
     pub changes: Vec<Change>,
 }
 
-/// A replacement of a text that occurs exactly once in a file.
+/// The replacement of a text that occurs exactly once in a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
-    /// The task file to change. By default, the file of the mistake's task, or of the variant.
+    /// The task file to change. Defaults to the file of the mistake's task, or of the variant.
     pub file: Option<String>,
     /// The text that is replaced.
     pub was: String,
@@ -89,7 +87,7 @@ pub struct Change {
 }
 
 /// Reads all known mistakes of an assignment in the workspace at `root`, ordered by task and then
-/// by file. A task without a folder has none.
+/// by file. A task without a folder doesn't have any mistakes.
 pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     let mut all: Vec<Mistake> = Vec::new();
     for task in handed_out.assignment.tasks() {
@@ -109,7 +107,7 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     Ok(all)
 }
 
-/// Copies the texts that mistakes share, and checks the ids by which mistakes refer to each other.
+/// Copies the texts that mistakes share. Checks the ids that mistakes use to refer to each other.
 fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
     let known = mistakes.to_vec();
     let find = |id: &String| known.iter().find(|other| other.id == *id);
@@ -154,7 +152,7 @@ fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Ve
     Ok(files.into_iter().flat_map(|file| file.mistake).collect())
 }
 
-/// Reads the TOML files in a folder of the catalogue. There are none if the folder does not exist.
+/// Reads the TOML files in a folder of the catalogue. Returns none if the folder doesn't exist.
 pub(super) fn read_folder<T: DeserializeOwned>(
     root: &Path,
     handed_out: &HandedOut,
@@ -169,13 +167,14 @@ pub(super) fn read_folder<T: DeserializeOwned>(
     paths.iter().map(|path| read_toml(path)).collect()
 }
 
-/// Reads the independent mistakes, and applies them to their variants.
+/// Reads the independent mistakes and applies them to their variants.
 pub fn independent_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("independent")?.into_iter();
     all.map(|mistake| mistake.in_variant(solutions)).collect()
 }
 
-/// Reads other code with the answers of known mistakes: changes to the reference for another reason.
+/// Reads other code with the answers of known mistakes. It is the reference with changes that have
+/// another cause.
 pub fn other_causes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("same_answers")?.into_iter();
     all.map(|mistake| {
@@ -192,7 +191,7 @@ pub fn other_causes(solutions: &Solutions) -> Result<Vec<Solution>> {
     .collect()
 }
 
-/// Reads the unknown mistakes, and applies them to the reference.
+/// Reads the unknown mistakes and applies them to the reference.
 pub fn unknown_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("unknown")?.into_iter();
     all.map(|mistake| {
@@ -209,8 +208,8 @@ impl Solutions {
         read_mistakes(self.workbench.root(), self.workbench.handed_out(), folder)
     }
 
-    /// Returns the task of a wrong solution in a folder for those that are no known mistakes, and
-    /// checks the ids that its entry contains.
+    /// Returns the task of a wrong solution that isn't a known mistake. Checks the ids in its
+    /// entry.
     pub(super) fn check_unknown(
         &self,
         id: &str,
@@ -301,7 +300,7 @@ impl Mistake {
     }
 }
 
-/// Applies changes to a solution: to `own_file`, or to the files that they name. If a text does not
+/// Applies changes to a solution: to the files they name, or else to `own_file`. If a text doesn't
 /// occur exactly once, returns the file and the number of occurrences.
 fn apply_changes(
     base: &Sources,

@@ -1,5 +1,5 @@
 //! The items that each known mistake fails with every seed: `fails.toml` in the folder of the
-//! mistakes. The file is generated, since people cannot tell which items fail only by luck of the
+//! mistakes. The file is generated because it isn't obvious which items only fail by luck of the
 //! seed.
 
 use std::collections::BTreeMap;
@@ -19,10 +19,10 @@ pub const FILE: &str = "mistakes/fails.toml";
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailedItems {
-    /// The number of seeds, from 0, whose exams the mistakes failed, in addition to the practice
-    /// exam.
+    /// The number of seeds, counted from 0, that the lists were made from, in addition to the
+    /// practice exam.
     pub seeds: u64,
-    /// The ids of the failed items, in the order of the exam, by the id of the mistake.
+    /// For each mistake's id, the ids of the failed items in exam order.
     pub fails: BTreeMap<String, Vec<String>>,
 }
 
@@ -37,12 +37,12 @@ impl FailedItems {
         read_toml(&path).map_err(|error| anyhow!("{error}; run `cargo author mistakes`"))
     }
 
-    /// Returns the items that a mistake fails, or none if the mistake is not in the file.
+    /// Returns the items that a mistake fails, or none if the mistake isn't in the file.
     pub fn of_mistake(&self, id: &str) -> &[String] {
         self.fails.get(id).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the file, with one item per line, so that a diff shows which items changed.
+    /// Returns the file. It lists one item per line, so that a diff shows which items changed.
     pub fn generated_file(&self, handed_out: &HandedOut) -> Result<GeneratedFile> {
         let lists = toml::to_string_pretty(self)?;
         let text = format!(

@@ -1,6 +1,6 @@
-//! Wrong methods, in the folder `methods` of an assignment's mistakes. Like unknown mistakes they have
-//! no hint of their own, but each is what a student might write instead of the reference's method, with
-//! helpers of its own.
+//! Wrong methods, in the folder `methods` of an assignment's mistakes. Like unknown mistakes, they
+//! have no hints of their own. Each is something a student might write instead of the reference's
+//! method, with its own helpers.
 
 use anyhow::{Result, anyhow};
 use judging::assignment::Task;
@@ -15,7 +15,8 @@ use crate::solutions::solution::{Expected, Solution};
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
-    /// The variant whose items the methods replace. By default, they complete the given code.
+    /// The variant whose items the methods replace. By default, the methods complete the given
+    /// code.
     #[serde(default)]
     variant: Option<String>,
     method: Vec<Method>,
@@ -29,18 +30,18 @@ struct Method {
     id: String,
     /// A description of what the method does wrong.
     title: String,
-    /// The tasks in addition to its own that may lose points.
+    /// Additional tasks that may lose points.
     #[serde(default)]
     other_tasks: Vec<Task>,
-    /// The known mistakes whose hints are true of it.
+    /// The known mistakes whose hints are true for it.
     #[serde(default)]
     true_hints: Vec<String>,
-    /// The method with its imports and helpers. An item that it defines replaces the item of the same
+    /// The method with its imports and helpers. Each item it defines replaces the item of the same
     /// name in the given code or the variant.
     code: String,
 }
 
-/// Reads the wrong methods, and completes the files that they are in.
+/// Reads the wrong methods and inserts each into its file.
 pub fn wrong_methods(solutions: &Solutions) -> Result<Vec<Solution>> {
     let files: Vec<File> = read_folder(
         solutions.workbench.root(),

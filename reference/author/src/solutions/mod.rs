@@ -1,10 +1,10 @@
-//! The solutions of this repository: the reference, known mistakes, known correct variants, and
-//! mutants; how they are read, built and run.
+//! The solutions in this repository: the reference, known mistakes, known correct variants and
+//! mutants. Reads, builds and runs them.
 //!
-//! `reference/mistakes` contains mistakes, which are small changes to the reference or to a variant,
-//! `reference/variants` other correct solutions, and [`mutants`] makes mechanical changes. Each
-//! is built and run like any submission. The exams take their recorded keys and their hints from
-//! solutions, and the proof grades them.
+//! `reference/mistakes` contains mistakes, which are small changes to the reference or to a
+//! variant. `reference/variants` contains other correct solutions, and [`mutants`] makes mechanical
+//! changes. Each solution is built and run like any submission. The exams get their recorded keys
+//! and their hints from solutions, and the proof grades them.
 
 pub mod catalogue;
 pub mod failed_items;
@@ -29,7 +29,7 @@ use crate::solutions::solution::Solution;
 use crate::solutions::variants::variants;
 use crate::solutions::workbench::Workbench;
 
-/// The known mistakes and variants, and the means to build and run them.
+/// The known mistakes and variants, and the tools to build and run them.
 #[derive(Debug)]
 pub struct Solutions {
     /// The catalogue of known mistakes, with their hints.
@@ -45,7 +45,7 @@ pub struct Solutions {
 }
 
 impl Solutions {
-    /// Reads all mistakes and variants, and applies them to the reference.
+    /// Reads all mistakes and variants and applies the mistakes to the reference.
     pub fn load(workbench: Workbench) -> Result<Self> {
         let root = workbench.root();
         let handed_out = workbench.handed_out();
@@ -67,7 +67,7 @@ impl Solutions {
         Ok(solutions)
     }
 
-    /// Replaces the lists of the items that each mistake fails with every seed.
+    /// Replaces the lists of the items each mistake fails with every seed.
     pub fn set_failed_items(&mut self, failed: &FailedItems) {
         for mistake in &mut self.mistakes {
             mistake.expected.fails = failed.of_mistake(&mistake.id).to_vec();
@@ -79,7 +79,7 @@ impl Solutions {
         self.mistakes.iter().find(|mistake| mistake.id == id)
     }
 
-    /// Returns whether two mistakes, given by their ids, have the same hint.
+    /// Returns whether two mistakes, given by their ids, share a hint.
     pub fn have_same_hint(&self, one: &str, other: &str) -> bool {
         let hint = |id: &str| {
             let mut mistakes = self.catalogue.iter();
@@ -88,7 +88,7 @@ impl Solutions {
         hint(one) == hint(other)
     }
 
-    /// Returns whether the hint of the first mistake is true of the second.
+    /// Returns whether the first mistake's hint is true for the second.
     pub fn is_hint_true_of(&self, hint: &str, mistake: &str) -> bool {
         let mut fits = self.catalogue.iter().filter(|other| {
             let true_of = other.also_true_of.iter().any(|id| id == mistake);
@@ -97,7 +97,7 @@ impl Solutions {
         fits.any(|other| self.have_same_hint(&other.id, hint))
     }
 
-    /// Returns whether the hint of a mistake is true of code that makes two others, given by their ids.
+    /// Returns whether a mistake's hint is true for code that makes two others, given by their ids.
     pub fn is_hint_true_of_pair(&self, hint: &str, pair: [&str; 2]) -> bool {
         let is_pair = |[one, other]: &[String; 2]| {
             pair == [one.as_str(), other.as_str()] || pair == [other.as_str(), one.as_str()]
@@ -110,7 +110,7 @@ impl Solutions {
             })
     }
 
-    /// Keeps one variant, and drops all others and the mistakes.
+    /// Keeps one variant and drops all others and the mistakes.
     pub fn only_variant(mut self, id: &str) -> Result<Self> {
         self.mistakes.clear();
         self.variants.retain(|variant| variant.id == id);
@@ -122,7 +122,7 @@ impl Solutions {
     }
 }
 
-/// Reads a TOML file. If it is not TOML, or does not have the expected keys, the error says where.
+/// Reads a TOML file. If it isn't TOML or lacks the expected keys, the error says where.
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T> {
     let text = files::read_to_string(path)?;
     toml::from_str(&text).map_err(|error| anyhow!("{}: {error}", path.display()))

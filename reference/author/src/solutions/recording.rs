@@ -23,7 +23,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Reads the reference's files, and builds the reference.
+    /// Reads and builds the reference.
     pub fn open(workbench: &Workbench) -> Result<Self> {
         let sources = Sources::reference(workbench.root(), workbench.handed_out())?;
         let reference = workbench.build(&sources, "reference");

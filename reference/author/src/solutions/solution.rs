@@ -1,15 +1,15 @@
-//! A solution, correct or wrong, and what is expected of it.
+//! A correct or wrong solution and its expected results.
 
 use judging::assignment::Task;
 
 use crate::solutions::sources::Sources;
 
-/// A solution of an assignment: the reference, a variant, or one of them with a mistake.
+/// A solution of an assignment: the reference or a variant, possibly with a mistake.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// The id of the variant or mistake, the ids of a mistake and its variant, or a mutant's name.
+    /// The id of the variant or mistake, the ids of both, or a mutant's name.
     pub id: String,
-    /// A description of its method, or of what the wrong code does.
+    /// A description of the solution's method, or of what the wrong code does.
     pub title: String,
     /// Its files.
     pub sources: Sources,
@@ -20,21 +20,21 @@ pub struct Solution {
 /// The results that a solution must have.
 #[derive(Clone, Debug, Default)]
 pub struct Expected {
-    /// The tasks that it is about. A wrong solution must lose points in the first of them, and may
-    /// lose some in the others.
+    /// The tasks it is about. A wrong solution must lose points in the first task and may lose some
+    /// in the others.
     pub tasks: Vec<Task>,
-    /// The only items in which a correct solution may lose points.
+    /// The only items where a correct solution may lose points.
     pub may_lose: Vec<String>,
     /// The items that a wrong solution fails with every seed.
     pub fails: Vec<String>,
-    /// The known mistakes whose hints are true of it.
+    /// The known mistakes whose hints are true for it.
     pub true_hints: Vec<String>,
-    /// Whether the code keeps something from one call to the next.
+    /// Whether the code keeps state from one call to the next.
     pub keeps_state: bool,
 }
 
 impl Solution {
-    /// Returns the task that a wrong solution must lose points in.
+    /// Returns the task where a wrong solution must lose points.
     ///
     /// # Panics
     ///

@@ -1,4 +1,4 @@
-//! The task files of a solution: those of the reference, some of them changed.
+//! The task files of a solution: the reference's files, some of them changed.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use grader::submission::Submission;
 pub struct Sources {
     handed_out: &'static HandedOut,
     files: Vec<(TaskFile, String)>,
-    /// The crates that the files use in addition to those that submissions may use.
+    /// The crates the files use beyond those that submissions may use.
     crates: Vec<String>,
 }
 
@@ -50,20 +50,20 @@ impl Sources {
         self
     }
 
-    /// Writes the files to a folder, which is created if it does not exist.
+    /// Writes the files to a folder, which is created if it doesn't exist.
     pub fn write(&self, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         let mut files = self.files.iter();
         files.try_for_each(|(file, text)| std::fs::write(folder.join(file.name), text))
     }
 
-    /// Allows these crates in addition to those that submissions may use.
+    /// Allows these crates beyond those that submissions may use.
     pub fn with_crates(self, crates: &[String]) -> Self {
         let crates = crates.to_vec();
         Sources { crates, ..self }
     }
 
-    /// Returns the crates that the files use in addition to those that submissions may use.
+    /// Returns the crates the files use beyond those that submissions may use.
     pub fn crates(&self) -> &[String] {
         &self.crates
     }

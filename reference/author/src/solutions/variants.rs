@@ -1,6 +1,6 @@
-//! Variants: known correct solutions that differ from the reference. With the given code of the
-//! reference's `STEM.rs`, a variant's files in the folder `variants/STEM` of an assignment's solutions
-//! replace that file.
+//! Variants: known correct solutions that differ from the reference. A variant's files in the
+//! folder `variants/STEM` of an assignment's solutions, together with the given code of the
+//! reference's `STEM.rs`, replace that file.
 
 use std::path::{Path, PathBuf};
 
@@ -18,23 +18,24 @@ use crate::solutions::sources::Sources;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// The stem of the file that it replaces, or of one of them, a dot, and a name, such as `sphere.stable_quadratic`.
+    /// The stem of the replaced file (or one of them), a dot and a name, such as
+    /// `sphere.stable_quadratic`.
     pub id: String,
     /// A description of its method.
     pub title: String,
     /// A publication that describes the method.
     #[serde(default)]
     pub source: Option<String>,
-    /// The only items in which it may lose points: the items about the cost of a tree, for a
-    /// builder that does not use the surface area heuristic.
+    /// The only items where it may lose points: the items about tree cost, for a builder that
+    /// doesn't use the surface area heuristic.
     #[serde(default)]
     pub may_lose: Vec<String>,
-    /// The paths of its parts, relative to the folder of the variants and without `.rs`. Their first
-    /// components are the stems of the files that it replaces. Empty if it is one file, named as its
-    /// id says.
+    /// The paths of its parts, relative to the folder of variants and without `.rs`. Their first
+    /// components are the stems of the files it replaces. Empty if it is a single file, named after
+    /// its id.
     #[serde(default)]
     pub parts: Vec<String>,
-    /// The crates that it uses although submissions may not.
+    /// The crates it uses although submissions may not.
     #[serde(default)]
     pub crates: Vec<String>,
 }

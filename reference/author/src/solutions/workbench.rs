@@ -20,13 +20,13 @@ use protocol::Answer;
 use crate::authoring::Authoring;
 use crate::solutions::sources::Sources;
 
-/// The time limits of an item. A correct solution takes milliseconds; the limit is for mistakes that
-/// never terminate.
+/// The time limits of an item. A correct solution takes milliseconds. The limit is for mistakes
+/// that never terminate.
 const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(2));
-/// The limit of CPU time for a process, which is asked all items of a task.
+/// The CPU time limit of a process, which answers all items of a task.
 const PROCESS_CPU: Duration = Duration::from_secs(120);
 
-/// The answers to the questions of an item, or the reason that there are none.
+/// The answers to an item's questions, or why there are none.
 pub type Answers = Result<Vec<Answer>, Fault>;
 
 /// Builds solutions of an assignment in a workspace.
@@ -37,7 +37,7 @@ pub struct Workbench {
     builder: Builder,
 }
 
-/// A solution does not compile.
+/// A solution doesn't compile.
 #[derive(Debug, thiserror::Error)]
 #[error("{id} does not compile:\n{message}")]
 pub struct NotCompiledError {
@@ -71,7 +71,7 @@ impl Workbench {
         self.authoring
     }
 
-    /// Returns the assignment as it is handed out.
+    /// Returns the assignment as handed out to students.
     pub fn handed_out(&self) -> &'static HandedOut {
         self.authoring.handed_out
     }
@@ -81,12 +81,12 @@ impl Workbench {
         self.workspace.root()
     }
 
-    /// Returns the folder for cached results, which can be computed again.
+    /// Returns the folder for cached results. It can be deleted at any time.
     pub fn scratch(&self) -> PathBuf {
         self.workspace.output_folder()
     }
 
-    /// Builds a solution. Returns an error if any of its files does not compile.
+    /// Builds a solution. Returns an error if any of its files doesn't compile.
     pub fn build(&self, sources: &Sources, id: &str) -> Result<BuiltSolution> {
         let builder = match sources.crates() {
             [] => Cow::Borrowed(&self.builder),
@@ -111,7 +111,7 @@ impl Workbench {
     }
 }
 
-/// A solution that was built and can be run.
+/// A solution that is built and ready to run.
 #[derive(Debug)]
 pub struct BuiltSolution {
     /// The solution's id.
@@ -127,14 +127,14 @@ impl BuiltSolution {
         &self.launcher
     }
 
-    /// Runs the solution in a new probe, and returns its answers to one item.
+    /// Runs the solution in a new probe. Returns its answers to one item.
     pub fn answers(&self, item: &Item) -> Result<Answers> {
         Ok(self.answers_to_each(&[item])?.remove(0))
     }
 
-    /// Runs the solution, and returns its answers to each item. As in grading, one process answers
-    /// all items of a task, and after a fault a new one is started: mistakes that keep state from
-    /// one call to the next show only in later items.
+    /// Runs the solution. Returns its answers to each item. As in grading, one process answers all
+    /// items of a task, and a new one is started only after a fault, because mistakes that keep
+    /// state from one call to the next only show in later items.
     pub fn answers_to_each(&self, items: &[&Item]) -> Result<Vec<Answers>> {
         let mut running = None;
         let mut all = Vec::new();

@@ -18,7 +18,7 @@ pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
 /// order of the shapes.
 pub fn chain(shapes: Vec<Shape>) -> Tree {
     let mut tree = Tree::default();
-    // From the deepest node upward.
+    // Build from the deepest node upward.
     let mut below: Option<usize> = None;
     for shape in shapes.into_iter().rev() {
         let leaf = tree.add_leaf(vec![shape]);
@@ -32,7 +32,7 @@ pub fn chain(shapes: Vec<Shape>) -> Tree {
 }
 
 impl Tree {
-    /// Adds a leaf with these shapes and a tight box, and returns its index.
+    /// Adds a leaf with these shapes and a tight box. Returns its index.
     pub fn add_leaf(&mut self, shapes: Vec<Shape>) -> usize {
         let (min, max) = corners_around(&shapes);
         let (start, size) = (self.shapes.len(), shapes.len());
@@ -42,7 +42,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Adds an interior node around two others, and returns its index.
+    /// Adds an interior node around two others. Returns its index.
     pub fn add_interior(&mut self, l: usize, r: usize) -> usize {
         let (left, right) = (&self.nodes[l], &self.nodes[r]);
         let (min, max) = (left.min.min(right.min), left.max.max(right.max));
@@ -51,7 +51,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Makes the boxes tight again of all nodes below these, whose primitives have been moved.
+    /// Refits the boxes of all nodes below `tops`, whose primitives have been moved.
     pub fn refit_below(&mut self, tops: &[usize]) {
         for &top in tops {
             // Children come before their parents.
@@ -96,7 +96,7 @@ fn corners_around(shapes: &[Shape]) -> (Vec3, Vec3) {
     (min, max)
 }
 
-/// Rounds a corner of a box to single precision, outward if it is not exact. The corners of flat
+/// Rounds a corner of a box to single precision, outward if it isn't exact. The corners of flat
 /// triangles are exact, so flat boxes stay flat. The extents of a sphere may be inexact.
 fn round_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
     let component = |axis: usize| {

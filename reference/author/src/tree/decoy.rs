@@ -1,5 +1,5 @@
-//! Decoys: primitives outside the box of the leaf that holds them, which a correct traversal never
-//! tests. A traversal that tests a decoy returns a wrong hit.
+//! Decoys: primitives outside their leaf's box, which a correct traversal never tests. A traversal
+//! that tests a decoy returns a wrong hit.
 
 use protocol::{Ray, Shape, TreeNode};
 
@@ -8,7 +8,7 @@ use super::traversal::{MARGIN, Traversal, TraversalRule};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
-/// The reason why a correct traversal never enters a leaf.
+/// Why a correct traversal never enters a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SkipReason {
     /// The ray misses the leaf's own box.
@@ -24,8 +24,9 @@ pub enum SkipReason {
 /// Returns one of the two children of a node.
 pub type Child = fn(&TreeNode) -> u32;
 
-/// Returns whether the leaf is this child of a node that every correct traversal enters, and the ray
-/// clearly misses the leaf's box. So the boxes of the two children alone decide about the leaf.
+/// Returns whether the leaf is this child of a node that every correct traversal enters and the ray
+/// clearly misses the leaf's box. If so, only the boxes of the two children decide whether the leaf
+/// is entered.
 pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
     let path = tree.path(leaf);
     let [.., parent, _] = path[..] else {
@@ -57,9 +58,8 @@ pub fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
 }
 
-/// Returns the reason why no correct traversal with this ray enters the leaf, or `None` if one may
-/// enter it. A reason is returned only if it holds by a clear margin: [`MARGIN`] times the diagonal
-/// of a box.
+/// Returns why no correct traversal with this ray enters the leaf, or `None` if one may enter it. A
+/// reason must hold by a clear margin: [`MARGIN`] times the diagonal of a box.
 pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason> {
     let bounds = tree.bounds(leaf);
     let grown = bounds.grown(MARGIN * bounds.diagonal());
@@ -79,12 +79,12 @@ pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason
     }
     // A traversal that opens several levels at once, or always takes the nearest open node, may
     // enter the side of `leaf` before it has finished the side of the hit. It still enters the leaf
-    // of the hit first, if that leaf begins first.
+    // of the hit first if that leaf begins first.
     (entry(fork.hit_leaf)? + margin <= entry(fork.toward_leaf)? && is_beyond(leaf))
         .then_some(SkipReason::LeafPruned)
 }
 
-/// The node at which the paths to a leaf and to the closest hit diverge.
+/// The node where the paths to a leaf and to the closest hit diverge.
 #[derive(Clone, Copy, Debug)]
 pub struct PathFork {
     /// The last node on both paths.
@@ -127,7 +127,7 @@ pub fn find_fork(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<PathFork> {
     })
 }
 
-/// Returns the distance at which the ray enters a node's box, or `None` if it misses the box.
+/// Returns the distance where the ray enters a node's box, or `None` if it misses the box.
 fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
     Some(tree.bounds(index).span(&ray64.ahead())?.0)
 }
@@ -165,8 +165,8 @@ pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
 
 /// Returns whether every decoy that would change the answer for this ray is out of reach.
 fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
-    /// The minimum distance between the hit and a decoy behind it that cannot be mistaken for it, in
-    /// sizes of the decoy.
+    /// The minimum distance for a decoy behind the hit that cannot be mistaken for it, in sizes of
+    /// the decoy.
     const BEHIND: f64 = 0.03;
     let hit = tree.expected_hit(ray64);
     let expected = hit.map_or(ray64.max, |hit| hit.distance);
@@ -190,12 +190,12 @@ fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
         .all(|rule| Traversal::correct(tree, ray64, rule).closest == expected)
 }
 
-/// Returns whether the expected hit does not depend on rounding: all ordinary primitives up to the
+/// Returns whether the expected hit doesn't depend on rounding: all ordinary primitives up to the
 /// closest hit are clearly hit or clearly missed, and no two are hit at the same distance.
 fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
-    /// The minimum distance between the hit and a shape behind it, in sizes of the shape.
+    /// The minimum distance from the hit to a shape behind it, in sizes of the shape.
     const BEHIND: f64 = 0.03;
-    /// The minimum distance between the ray and a shape that is not looked at, in sizes of the shape.
+    /// The minimum distance from the ray to a shape that can be ignored, in sizes of the shape.
     const BESIDE: f64 = 0.07;
     let ordinary = tree.ordinary_primitives();
     let expected = tree.expected_hit(ray64);
@@ -215,8 +215,8 @@ fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
     })
 }
 
-/// Returns a flat triangle that is perpendicular to the ray at this distance, and small enough that
-/// other rays rarely hit it.
+/// Returns a flat triangle perpendicular to the ray at this distance, small enough that other rays
+/// rarely hit it.
 pub fn triangle_across(rng: &mut Rng, ray: &Ray, distance: f64, size: f64, shape: u32) -> Shape {
     let dir = ray.dir.as_dvec3();
     let middle = ray.origin.as_dvec3() + distance * dir;
@@ -279,8 +279,8 @@ mod tests {
         )
     }
 
-    /// Returns the skip reason of the last leaf in a tree of three leaves: the left child of the
-    /// root is a leaf, and the right child has two leaves.
+    /// Returns the skip reason of the last leaf in a tree of three leaves: the root's left child is
+    /// a leaf, and its right child has two leaves.
     fn skip_reason_of_last(hit: [f64; 2], middle: [f64; 2], last: [f64; 2]) -> Option<SkipReason> {
         let mut tree = Tree::default();
         let left = tree.add_leaf(vec![slanted_triangle(hit[0], hit[1], true, 0)]);

@@ -13,7 +13,7 @@ use crate::seed::Rng;
 /// A tree of an exam question.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// The primitives, in the order to which the leaves refer. Some may be in no leaf.
+    /// The primitives, in the order the leaves refer to. Some may be in no leaf.
     pub shapes: Vec<Shape>,
     /// The nodes. Some may be unreachable from the root.
     pub nodes: Vec<TreeNode>,
@@ -33,7 +33,7 @@ pub enum RootPosition {
 }
 
 impl Tree {
-    /// Returns the tree of a question about traversal, and its rays.
+    /// Returns the tree and the rays of a question about traversal.
     pub fn in_question(question: &Question) -> Option<(Tree, &Rows<Ray>)> {
         let Question::Hit(table) = question else {
             return None;
@@ -60,7 +60,7 @@ impl Tree {
         Bounds::new(node.min, node.max)
     }
 
-    /// Returns the indices of a node and of all nodes below it, parents before children.
+    /// Returns the indices of a node and all nodes below it, parents before children.
     pub fn subtree(&self, index: usize) -> Vec<usize> {
         let mut found = vec![index];
         let mut next = 0;
@@ -91,7 +91,7 @@ impl Tree {
         node.start as usize..(node.start + node.size) as usize
     }
 
-    /// Returns the path from the root down to a node, both included.
+    /// Returns the path from the root down to a node, inclusive.
     pub fn path(&self, to: usize) -> Vec<usize> {
         let mut path = vec![to];
         let nodes = self.subtree(self.root);
@@ -116,7 +116,7 @@ impl Tree {
         Some(if l == index { r } else { l })
     }
 
-    /// Returns for each primitive whether it is ordinary, that is, in a reachable leaf and inside
+    /// Returns, for each primitive, whether it is ordinary, i.e. in a reachable leaf and inside
     /// that leaf's box. All other primitives are decoys or unreferenced.
     pub fn ordinary_primitives(&self) -> Vec<bool> {
         let leaves = self.leaves();
@@ -153,7 +153,8 @@ impl Tree {
         Some(closest)
     }
 
-    /// Returns the leaf that holds the primitive of the expected hit, or `None` if there is no hit.
+    /// Returns the leaf that contains the primitive of the expected hit, or `None` if the ray hits
+    /// nothing.
     pub fn leaf_of_hit(&self, ray64: &Ray64) -> Option<usize> {
         let hit = self.expected_hit(ray64)?;
         let is_hit = |index: usize| self.shapes[index].number() == hit.shape;
@@ -197,16 +198,15 @@ impl Tree {
     }
 
     /// Returns the same tree with its root first, followed by a copy of the whole tree with its
-    /// root last. A traversal that starts at the first or the last node instead of at `root` is
-    /// still correct in it.
+    /// root last. In it, a traversal that starts at the first or the last node instead of at `root`
+    /// is still correct.
     ///
-    /// The copy has nodes of its own. If only the root were copied, its children would have two
-    /// parents, which would confuse code that computes parents or depths in one pass over all
-    /// nodes.
+    /// The copy has its own nodes. If only the root were copied, its children would have two
+    /// parents. That would confuse code that computes parents or depths in one pass over all nodes.
     pub fn with_roots_at_both_ends(&self, rng: &mut Rng) -> Tree {
         let mut tree = self.with_nodes_shuffled(rng, RootPosition::First);
         let count = tree.nodes.len();
-        // Node 1 is copied to the index after the last node, and so on.
+        // Node 1 is copied to the index after the last node and so on.
         let copied = |node: &TreeNode| renumbered(*node, |index| index + count - 1);
         let mut copy: Vec<TreeNode> = tree.nodes.iter().map(copied).collect();
         copy.rotate_left(1);
@@ -214,7 +214,7 @@ impl Tree {
         tree
     }
 
-    /// Swaps two nodes, and updates all indices that refer to them.
+    /// Swaps two nodes and updates all indices that refer to them.
     pub fn swap_nodes(&mut self, a: usize, b: usize) {
         let moved = |index: usize| match index {
             index if index == a => b,
@@ -228,7 +228,7 @@ impl Tree {
         self.root = moved(self.root);
     }
 
-    /// Returns the tree as the subject of a question.
+    /// Returns the tree as a question's subject.
     pub fn geometry(&self) -> Geometry {
         Geometry::Tree {
             shapes: self.shapes.clone(),

@@ -4,8 +4,8 @@ use super::Tree;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// The choices that the contract leaves open to a correct traversal, and those that depend on
-/// rounding in single precision.
+/// The choices the contract leaves to a correct traversal, and those that depend on rounding in
+/// single precision.
 #[derive(Clone, Copy, Debug)]
 pub struct TraversalRule {
     /// Whether the left child goes first if the ray enters both at nearly the same distance.
@@ -27,19 +27,19 @@ impl TraversalRule {
     }
 }
 
-/// The margin by which decoys are out of reach, as a fraction of a box's diagonal.
+/// The minimum distance of a decoy beyond reach, as a fraction of a box's diagonal.
 pub const MARGIN: f64 = 0.01;
 
-/// The result and the record of a traversal.
+/// The result and the log of a traversal.
 #[derive(Clone, Debug)]
 pub struct Traversal<'a> {
     tree: &'a Tree,
     ray64: Ray64,
     /// The closest hit.
     pub closest: Option<Intersection>,
-    /// The indices of all primitives that were tested.
+    /// The indices of all tested primitives.
     pub tested_primitives: Vec<usize>,
-    /// The indices of all nodes that were reached, in order, and whether they were entered.
+    /// The indices of all reached nodes, in order, and whether they were entered.
     pub reached_nodes: Vec<(usize, bool)>,
 }
 
@@ -54,8 +54,8 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Traverses the tree correctly: nodes that the ray misses are not entered, the nearer child
-    /// goes first, and nodes that begin beyond the closest hit are not entered.
+    /// Traverses the tree correctly. It doesn't enter nodes that the ray misses or that begin
+    /// beyond the closest hit, and visits the nearer child first.
     pub fn correct(tree: &'a Tree, ray64: &Ray64, rule: TraversalRule) -> Self {
         let mut traversal = Traversal::new(tree, ray64);
         if !tree.nodes.is_empty() {
@@ -107,10 +107,10 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Returns the distance at which the ray enters a node's box, or `None` if the node is skipped.
+    /// Returns the distance where the ray enters a node's box, or `None` if the node is skipped.
     fn entry_distance(&self, index: usize, rule: TraversalRule) -> Option<f64> {
         let exact = self.tree.bounds(index);
-        // Conservative traversal tests the whole ray; otherwise the closest hit limits the ray.
+        // Conservative traversal tests the whole ray. Otherwise, the closest hit limits the ray.
         if rule.conservative {
             let ahead = self.ray64.ahead();
             let (grazed, _) = exact.grown(MARGIN * exact.diagonal()).span(&ahead)?;
@@ -144,7 +144,7 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Traverses the tree by the slides' pseudo-code, taken literally: it enters `first` even if
+    /// Traverses the tree with the slides' pseudo-code, taken literally: it enters `first` even if
     /// both boxes are missed, and compares `hit2.t` even if child 2 is `first`. The `t` of a miss
     /// is ∞.
     pub fn by_the_slides(tree: &'a Tree, ray64: &Ray64) -> Self {

@@ -1,4 +1,4 @@
-//! The students' bundle is complete, reproducible, and free of secrets.
+//! The students' bundle is complete, reproducible and free of secrets.
 //!
 //! `cargo author bundle --check`, which takes minutes, also checks that the bundle builds and
 //! grades with an empty home directory.
@@ -22,7 +22,7 @@ fn secrets() -> Secrets {
     Secrets::gather(&root(), &authoring::RAYS, &BUNDLE).unwrap()
 }
 
-/// Returns the arguments of `cargo author bundle --out OUT`, with further ones.
+/// Returns the arguments of `cargo author bundle --out OUT`, followed by more arguments.
 fn bundle_to<'a>(out: &'a Path, more: &[&'a OsStr]) -> Vec<&'a OsStr> {
     let arguments = ["bundle", "--out"].map(OsStr::new);
     [&arguments[..], &[out.as_os_str()], more].concat()
@@ -60,7 +60,7 @@ fn finds_an_inserted_secret_of_each_kind() {
             panic!("{line}: {leaks:?}");
         };
         assert_eq!(found, "scenes/notes.txt:3");
-        // Other files of the same folder may have the same line.
+        // Other files in the same folder may contain the same line.
         let folder = source.rsplit_once('/').map_or(source, |(folder, _)| folder);
         assert!(of.starts_with(folder), "{of}");
     }
@@ -124,8 +124,8 @@ fn a_book_with_chapters_for_instructors_is_refused() {
 fn its_lock_file_is_a_subset_of_the_workspaces() {
     let ours = text("Cargo.lock");
     let theirs = BUNDLE.text("Cargo.lock").unwrap();
-    // Compares the name, version, source and checksum of each package, but not its dependencies, of
-    // which the bundle may have fewer.
+    // Compare the name, version, source and checksum of each package, but not its dependencies,
+    // since the bundle may have fewer.
     fn blocks(lock: &str) -> Vec<Vec<&str>> {
         let blocks = lock.split("[[package]]\n").skip(1);
         let foreign = blocks.filter(|block| block.contains("checksum"));

@@ -1,4 +1,4 @@
-//! Runs `cargo author`, and reads files of the workspace.
+//! Runs `cargo author` and reads files of the workspace.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -9,8 +9,9 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use author::bundle::Bundle;
 use grader::handed_out::RAYS;
 
-/// Held while solutions are built. Two commands that build the same solutions at the same time would
-/// compile each of them twice; the second one alone finds the programs of the first.
+/// Held while solutions are built. Two commands that build the same solutions at the same time
+/// would compile each of them twice. One after the other, the second command reuses the first
+/// command's programs.
 static BUILDS: Mutex<()> = Mutex::new(());
 /// The commands that build solutions.
 const BUILDING: [&str; 4] = ["calibrate", "mistakes", "mutants", "prove"];
@@ -24,12 +25,12 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Returns the text of a file of the workspace.
+/// Returns the text of a workspace file.
 pub fn text(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// Waits until nothing else builds solutions, and keeps others waiting until the guard is dropped.
+/// Waits until nothing else builds solutions. Keeps others waiting until the guard is dropped.
 pub fn lock_builds() -> impl Drop {
     BUILDS.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -42,7 +43,7 @@ fn author(arguments: &[impl AsRef<OsStr>]) -> Output {
     author.args(arguments).output().unwrap()
 }
 
-/// Runs `cargo author`, which must succeed, and returns its output.
+/// Runs `cargo author`, which must succeed. Returns its output.
 #[track_caller]
 pub fn author_succeeds(arguments: &[impl AsRef<OsStr>]) -> String {
     let output = author(arguments);
@@ -52,7 +53,7 @@ pub fn author_succeeds(arguments: &[impl AsRef<OsStr>]) -> String {
     printed
 }
 
-/// Runs `cargo author`, which must fail, and returns its error.
+/// Runs `cargo author`, which must fail. Returns its error.
 #[track_caller]
 pub fn author_fails(arguments: &[impl AsRef<OsStr>]) -> String {
     let output = author(arguments);

@@ -42,7 +42,7 @@ fn the_handout_has_the_limits_of_the_grader() {
     let page: Vec<&str> = page.split_whitespace().collect();
     let page = page.join(" ");
     let limits = Budget::default().single_item();
-    // The second sentence has these as words.
+    // The second sentence contains these numbers as words.
     assert_eq!((MAX_TIMEOUTS, MAX_CRASHES), (1, 2));
     for sentence in [
         format!(
@@ -79,7 +79,7 @@ fn the_starter_is_formatted() {
         .args(["--check", "--edition", "2024"])
         .args(starter_files())
         .output();
-    // If rustfmt is not installed, the format cannot be checked.
+    // If rustfmt isn't installed, the format can't be checked.
     if let Ok(output) = check {
         let differences = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{differences}");

@@ -1,4 +1,4 @@
-//! The modules of a crate use each other only from top to bottom, in the order of the table in its
+//! The modules of a crate only use each other from top to bottom, in the order of the table in its
 //! `lib.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,5 @@
-//! Tests of the whole package: the exam, the proof that it is right, and what is made for students.
+//! Tests of the whole package: the exam, the proof that it is right, and the files made for
+//! students.
 
 mod bundle;
 mod calibration;

@@ -12,7 +12,7 @@ use grader::handed_out::RAYS;
 
 use crate::harness::{BUNDLE, author_succeeds, root, text};
 
-/// A course with a substitute for a final exam: the practice exam with another id.
+/// A course with a substitute for a final exam: the practice exam with a different id.
 static FINAL: LazyLock<Course> = LazyLock::new(|| {
     let exam = RAYS.practice_exam.replacen("\"practice\"", "\"final\"", 1);
     let exam = Some(exam);
@@ -76,8 +76,8 @@ fn a_gradescope_package_needs_a_final_exam() {
     assert!(refused.to_string().starts_with(message), "{refused}");
 }
 
-/// The version of Rust that packages install. A newer one may only be entered here after CI has
-/// passed with it.
+/// The version of Rust that packages install. Only enter a newer one here after CI has passed with
+/// it.
 const RUST: &str = "1.95.0";
 
 #[test]

@@ -37,7 +37,8 @@ fn a_few_seeds_are_proven() {
     assert!(summary.contains("seeds 3, false fails 0"), "{summary}");
 }
 
-/// Checks that so many mistakes are measured, that nine of ten are recognised, and that so few are misled.
+/// Checks that this many mistakes are measured, that nine in ten are recognised, and that at most
+/// this many are misled.
 fn assert_recognised(recognition: &Recognition, count: usize, misled: usize) {
     assert_eq!(recognition.problems, [""; 0]);
     assert!(recognition.count >= count, "{recognition}");
@@ -48,7 +49,7 @@ fn assert_recognised(recognition: &Recognition, count: usize, misled: usize) {
 
 #[test]
 fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
-    // The others give no answers at all, which says little about the cause.
+    // The others give no answers at all, which doesn't say much about the cause.
     let _lock = lock_builds();
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     // Three end with a stack overflow, and get the hint of another that does so with the same lists. What

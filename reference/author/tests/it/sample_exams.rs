@@ -19,7 +19,7 @@ pub fn exam_of(seed: u64) -> &'static Exam {
     &EXAMS[index.expect("the seed is in SEEDS")]
 }
 
-/// Generates an exam, whose path-traced picture is not recorded.
+/// Generates an exam without recording its path-traced picture.
 fn make_exam(seed: u64) -> Exam {
     assemble(&RAYS, "test", Seed(seed))
 }

@@ -1,5 +1,5 @@
-//! A second assignment fits in without a changed line: the toy goes through the starter, the exam,
-//! its coverage, mistakes and proof, grading, a replay, a class, the bundle and a package.
+//! A second assignment works without changing a line of code. The toy goes through the starter, the
+//! exam, its coverage, mistakes and proof, grading, a replay, a class, the bundle and a package.
 //!
 //! `INSTA_UPDATE=always cargo test -p author --test it toy` writes the toy's generated files.
 
@@ -35,7 +35,7 @@ mod assignment;
 
 use assignment::TOY;
 
-/// Returns the text of a file of the toy.
+/// Returns the text of one of the toy's files.
 fn text(path: &str) -> String {
     harness::text(&format!("reference/author/tests/toy/{path}"))
 }
@@ -89,7 +89,7 @@ fn the_toy_is_graded_like_any_assignment() {
     );
     assert_eq!(starter.points, 0);
 
-    // A file that does not compile costs its own tasks only.
+    // A file that doesn't compile only costs its own tasks.
     let broken = grade_texts(
         &solved_ball,
         "struct Mirror; fn reflect() { fn nearest }",
@@ -98,7 +98,7 @@ fn the_toy_is_graded_like_any_assignment() {
     assert_eq!(points(&broken), [40, 0, 0]);
     assert_eq!(broken.build.not_compiled[0].file, "mirror.rs");
 
-    // A wrong ball costs the first task only, thanks to the reference's ball.
+    // A wrong ball only costs the first task, thanks to the reference's ball.
     let far_side = solved_ball.replace("middle - half", "middle + half");
     let wrong_ball = grade_texts(&far_side, &solved_mirror, with_reference);
     assert_eq!(points(&wrong_ball), [0, 20, 40]);
@@ -125,8 +125,7 @@ fn a_report_and_a_replay_show_a_known_mistake() {
     assert!(replayed.contains("distance"), "{replayed}");
 }
 
-/// The toy's exam, mistakes, coverage and proof come from the same commands as those of any
-/// assignment.
+/// The toy's exam, mistakes, coverage and proof come from the same commands as any assignment's.
 #[test]
 fn the_generated_files_of_the_toy_are_in_sync_and_its_exam_is_proven() {
     let _lock = lock_builds();
@@ -210,7 +209,7 @@ fn an_exam_of_another_assignment_is_refused() {
     assert!(error.contains("it is for the assignment `toy`"), "{error}");
 }
 
-/// Returns how many lines of the bundle are lines of the toy's solution.
+/// Returns the number of lines in the bundle that come from the toy's solution.
 fn toy_leaks(secrets: &Secrets, bundle: &Bundle) -> usize {
     let leaks = secrets.search(bundle);
     let of_toy =

@@ -1,5 +1,5 @@
-//! Tests of the workflow that grades every push. The workflow is parsed with a strict model of
-//! GitHub's format.
+//! Tests of the workflow that grades every push. It is parsed with a strict model of GitHub's
+//! format.
 
 use std::collections::BTreeMap;
 
@@ -66,7 +66,7 @@ fn is_one_short_read_only_job_of_pinned_actions_that_shows_the_points_of_every_p
             assert_eq!((digits, commit.len()), (40, 40), "{action}");
         }
     }
-    // It shows the points, and does not fail for lack of them.
+    // It shows the points and doesn't fail for lack of them.
     let last = job.steps.last().and_then(|step| step.run.as_deref());
     assert_eq!(last, Some("cargo grade --out score --format github"));
     let mut runs = job.steps.iter().filter_map(|step| step.run.as_deref());

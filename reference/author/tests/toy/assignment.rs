@@ -1,5 +1,5 @@
 //! The toy: an assignment with two files, three tasks, a substitution, two mistakes and a variant.
-//! A course can copy this folder to start an assignment of its own.
+//! A course can copy this folder to start its own assignment.
 
 mod items;
 
@@ -88,7 +88,7 @@ fn main() -> std::process::ExitCode {
     }],
 };
 
-/// The toy as its authors have it.
+/// The toy as its authors see it.
 pub static TOY: Authoring = Authoring {
     handed_out: &HANDED_OUT,
     practice_exam: "reference/author/tests/toy/practice.json",

@@ -1,4 +1,4 @@
-//! The items of the toy. Correct answers are computed in double precision, from the definitions.
+//! The items of the toy. Correct answers are computed from the definitions, in double precision.
 
 use author::domains::{Aspect, FunctionDomain};
 use author::items::{AuthoredTask, Declaration, Group, hits_key, ray};
@@ -9,10 +9,10 @@ use glam::DVec3;
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::{Geometry, LocalDirection, Question, Ray, Shape, Table};
 
-/// The items about a ball, which is hit as often in a list of balls.
+/// The items about balls, where single balls and lists of balls are hit equally often.
 const BALLS: Group = Group("balls");
 
-/// The number of rays that hit, and of rays that miss.
+/// The number of rays that hit and the number that miss.
 const OF_EACH: usize = 8;
 
 /// The task `ball`.
@@ -61,7 +61,7 @@ const REFLECTS: Declaration = Declaration {
     section: "sphere.md#the-figure",
     tests: &["Returns the direction that is reflected toward the viewer."],
     questions: |rng| {
-        // A direction in each quadrant in turn.
+        // Use a direction in each quadrant in turn.
         let sign = |is_negative: bool| if is_negative { -1.0 } else { 1.0 };
         let signs = |number: usize| DVec3::new(sign(number & 1 > 0), sign(number & 2 > 0), 1.0);
         let directions = (0..2 * OF_EACH).map(|number| rng.direction().abs() * signs(number));
@@ -119,7 +119,7 @@ const OF_TWO: Declaration = Declaration {
         let balls = [random_ball(rng, center, 0), random_ball(rng, -center, 1)];
         let mut tree = construction::median_split(balls.into(), 2);
         let (rays, key) = rays_and_key(rng, &tree);
-        // In each of the two orders, some rays hit the first ball first, and some the second.
+        // In both orders, some rays hit the first ball first and some the second.
         let in_one_order = Question::hits(tree.geometry(), rays.clone());
         tree.shapes.reverse();
         let in_the_other = Question::hits(tree.geometry(), rays);
@@ -141,8 +141,8 @@ fn random_ball(rng: &mut Rng, center: DVec3, shape: u32) -> Shape {
     }
 }
 
-/// Returns rays from outside that hit every ball in a tree, as many that miss all of them, and the
-/// key. No answer depends on rounding.
+/// Returns rays from outside that hit every ball in a tree, an equal number that miss all of them,
+/// and the key. No answer depends on rounding.
 fn rays_and_key(rng: &mut Rng, tree: &Tree) -> (Vec<Ray>, Key) {
     let wanted = (0..2 * OF_EACH).map(|number| number < OF_EACH);
     let rays = wanted.map(|is_hit| {

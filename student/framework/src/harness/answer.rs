@@ -1,4 +1,4 @@
-//! Answers the grader's questions element by element, so that a panic affects only its own element.
+//! Answers the grader's questions element by element, so that a panic only affects its own element.
 
 use protocol::{Answer, ElementOutcome, Question};
 
@@ -42,7 +42,7 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
             };
             Answer::Picture(match Scene::from_text(scene) {
                 Ok(scene) => attempt(|| render(submission, &scene, &settings)).into(),
-                // This is not the submission's fault, so it must not look like a wrong answer or a
+                // This isn't the submission's fault, so it must not look like a wrong answer or a
                 // panic. The grader reports the missing answer.
                 Err(error) => {
                     eprintln!("error in the exam's scene: {error}");

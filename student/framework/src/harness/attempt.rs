@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use protocol::{Attempts, ElementOutcome, Panic};
 
 thread_local! {
-    /// The location of this thread's last panic. Only the panic hook gets the location, and only
+    /// The location of this thread's last panic. Only the panic hook learns the location, and only
     /// [`attempt`] can report it.
     static LOCATION: RefCell<String> = const { RefCell::new(String::new()) };
     /// Whether this thread is inside an [`attempt`].
@@ -29,8 +29,8 @@ pub fn keep_panics_quiet() {
 
 /// Runs `code` and returns its value, or the panic if it panics.
 pub fn attempt<T>(code: impl FnOnce() -> T) -> Result<T, Panic> {
-    // This is unwind safe: values that a panic leaves half modified are not used again, because
-    // each question has its own values.
+    // This is unwind safe, because each question has its own values, so values left half modified
+    // by a panic are never used again.
     let before = ATTEMPTING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(code));
     ATTEMPTING.set(before);
@@ -40,8 +40,8 @@ pub fn attempt<T>(code: impl FnOnce() -> T) -> Result<T, Panic> {
     })
 }
 
-/// Attempts the calls of one table. After [`Panic::MAX_PER_QUESTION`] panics, the remaining calls are
-/// skipped: otherwise, a stub would panic twenty thousand times for one picture.
+/// Attempts the calls of one table. After [`Panic::MAX_PER_QUESTION`] panics, the remaining calls
+/// are skipped. Otherwise, a stub would panic twenty thousand times for one picture.
 #[derive(Debug, Default)]
 pub struct AttemptsAtTable {
     panics: usize,

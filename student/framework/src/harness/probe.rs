@@ -1,7 +1,7 @@
 //! The probe: the process that contains a submission and answers the grader's questions.
 //!
-//! It receives questions and never the correct answers. Only its answers earn points: its exit code
-//! and its output are used for diagnosis only.
+//! It receives questions, but never the correct answers. Only its answers earn points. Its exit
+//! code and its output are only used for diagnosis.
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
@@ -26,8 +26,8 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     run(|questions, answers| serve(submission, questions, answers))
 }
 
-/// Runs `serve` with the pipe of questions and the pipe of answers, on a thread with a large stack,
-/// and returns the exit code of the process. Panics in an [`attempt`](crate::harness::attempt::attempt)
+/// Runs `serve` with the pipe of questions and the pipe of answers, on a thread with a large stack.
+/// Returns the exit code of the process. Panics in an [`attempt`](crate::harness::attempt::attempt)
 /// print nothing.
 pub fn run(serve: impl FnOnce(File, File) -> Result<(), WireError> + Send) -> ExitCode {
     end_with_the_grader();
@@ -59,8 +59,8 @@ pub fn run(serve: impl FnOnce(File, File) -> Result<(), WireError> + Send) -> Ex
     }
 }
 
-/// Answers each question in turn. Answers are flushed only when no more questions are buffered, so
-/// that a batch of questions costs only one context switch.
+/// Answers each question in turn. Answers are only flushed when no more questions are buffered, so
+/// that a batch of questions costs a single context switch.
 fn serve(
     submission: &dyn Submission,
     questions: impl Read,

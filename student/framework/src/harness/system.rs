@@ -4,24 +4,24 @@
 use std::fs::File;
 use std::io;
 
-/// Moves the grader's pipes away from standard input and output, and returns them: questions are
-/// read from the first, and answers are written to the second. Afterwards, what a submission prints
-/// goes to standard error, and its standard input is empty.
+/// Moves the grader's pipes away from standard input and output and returns them: the first is for
+/// reading questions, the second for writing answers. Afterwards, a submission's output goes to
+/// standard error, and its standard input is empty.
 #[cfg(unix)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use std::os::fd::AsFd;
 
     let questions = io::stdin().as_fd().try_clone_to_owned()?;
     let answers = io::stdout().as_fd().try_clone_to_owned()?;
-    // A pipe whose write end is closed. No file is opened, so this also works in a sandbox.
+    // Use a pipe whose write end is closed. This opens no file, so it also works in a sandbox.
     let (nothing, _) = rustix::pipe::pipe()?;
     rustix::stdio::dup2_stdin(nothing)?;
     rustix::stdio::dup2_stdout(io::stderr())?;
     Ok((File::from(questions), File::from(answers)))
 }
 
-/// Moves the pipes in the same way on Windows. The standard library looks up its streams at each
-/// use, so it uses the redirected streams.
+/// Does the same on Windows. The standard library looks up its streams at each use, so it uses the
+/// redirected streams.
 #[cfg(windows)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use filedescriptor::{FileDescriptor, Pipe, StdioDescriptor};
@@ -38,7 +38,7 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
 
 /// Makes the operating system kill this process when the grader ends, however the grader ends.
 /// Otherwise, an endless loop would run on for minutes after a Ctrl-C. A sandbox may forbid this
-/// call; the sandbox then ends the process when the grader ends.
+/// call, but then the sandbox itself ends the process when the grader ends.
 #[cfg(target_os = "linux")]
 pub(crate) fn end_with_the_grader() {
     use rustix::process::{Signal, set_parent_process_death_signal};
@@ -46,8 +46,8 @@ pub(crate) fn end_with_the_grader() {
     set_parent_process_death_signal(Some(Signal::KILL)).ok();
 }
 
-/// Does nothing, because there is no portable call for this on other systems. A probe that is
-/// computing runs on until its time limit; a probe that is waiting for a question ends when the
-/// stream of questions ends.
+/// Does nothing, because there is no portable way to do this on other systems. A busy probe keeps
+/// running until its time limit. A probe that is waiting for a question ends when the stream of
+/// questions ends.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn end_with_the_grader() {}

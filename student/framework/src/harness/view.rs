@@ -19,17 +19,17 @@ pub enum ViewMode {
     Bvh,
 }
 
-/// How far a hit can be from the box of its primitive, relative to the largest coordinate: formulas
-/// differ in their rounding.
+/// The maximum distance of a hit from its primitive's box, relative to the largest coordinate. It
+/// allows for rounding.
 const RELATIVE_TOLERANCE: f32 = 1e-4;
 
-/// The maximum number of nodes that are compared with a point. A good tree needs some hundred. In a
-/// list of a million nodes, the picture would take hours.
+/// The maximum number of nodes to compare with a point. A good tree needs a few hundred. Without a
+/// limit, a tree that is a list of a million nodes would take hours.
 const MAX_STEPS: usize = 4096;
 
 /// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
-/// is not finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate in
-/// the scene.
+/// isn't finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate
+/// in the scene.
 pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32) -> Vec<Vec3> {
     let each = |colour: &dyn Fn(&Trace) -> Vec3| {
         let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);
@@ -64,9 +64,9 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
     }
 }
 
-/// Returns the value of each pixel's first hit as it is, for files that hold numbers: normals,
-/// distances, and u and v. Without a hit, the distance is infinite, and the others are zero. For
-/// `Shaded` and `Bvh`, which show no value of a hit, returns `None`.
+/// Returns the unchanged value of each pixel's first hit, for files that store numbers: normals,
+/// distances, or u and v. Without a hit, the distance is infinite and other values are zero.
+/// Returns `None` for `Shaded` and `Bvh`, which don't show a value of the hit.
 pub fn raw_values(view: ViewMode, hits: &[Option<Trace>]) -> Option<Vec<Vec3>> {
     let (miss, value): (Vec3, fn(&Trace) -> Vec3) = match view {
         ViewMode::Normals => (Vec3::ZERO, |hit| hit.normal),
@@ -87,12 +87,12 @@ struct TreeLocation {
     leaf: u32,
 }
 
-/// Finds the boxes that contain `point`, with this tolerance. This does not trace a ray,
-/// which is the submission's task. If the tree is invalid or very deep, the result covers only part of it.
+/// Finds the boxes that contain `point`, with this tolerance. This doesn't trace a ray, which is
+/// the submission's task. If the tree is invalid or very deep, the result only covers part of it.
 fn locate(tree: &Tree, point: Vec3, tolerance: f32) -> TreeLocation {
     let mut found = TreeLocation::default();
     let mut stack = vec![tree.root];
-    // A valid tree has each node once. The limit ends the loop if the tree has a cycle.
+    // In a valid tree, each node is reached once. The limit ends the loop if the tree has a cycle.
     for _ in 0..tree.nodes.len().min(MAX_STEPS) {
         let Some(index) = stack.pop() else { break };
         let Some(node) = tree.nodes.get(index as usize) else {
@@ -127,7 +127,7 @@ pub fn heat_colour(count: u32, max: u32) -> Vec3 {
 }
 
 /// Returns a brightness that distinguishes a leaf from its neighbours. Multiples of the golden
-/// ratio, modulo 1, are well spread, so leaves with close indices get different values.
+/// ratio, modulo 1, are well distributed, so leaves with close indices get different values.
 fn leaf_brightness(leaf: u32) -> f32 {
     let step = (f64::from(leaf) * 0.618_033_988_749_895).fract();
     0.55 + 0.45 * step as f32

@@ -1,4 +1,4 @@
-//! Random numbers that depend only on their use, and not on earlier numbers.
+//! Random numbers that depend only on their use, not on earlier numbers.
 //!
 //! With a stream of random numbers, one wrong hit would shift all later numbers of its path, and
 //! the picture of an almost correct submission would look nothing like the reference's. Here, each
@@ -17,7 +17,7 @@ pub enum Purpose {
     Light,
     /// To choose the point on that light.
     PointOnLight,
-    /// To choose the direction in which a matte surface scatters the path.
+    /// To choose the direction a matte surface scatters the path in.
     Direction,
     /// To choose whether glass reflects or refracts.
     ReflectOrRefract,
@@ -54,7 +54,7 @@ impl Sampler {
 /// Generators", OOPSLA 2014, with Stafford's constants ("mix13").
 ///
 /// This is a bijection. Flipping any bit of the input flips about half of the output bits. Nested
-/// calls hash one word after another; each call takes only a few multiplications and shifts, and no
+/// calls hash one word after another. Each call takes only a few multiplications and shifts, and no
 /// tables.
 fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -1,4 +1,4 @@
-//! Reads the camera of a scene file, and places it in the scene.
+//! Reads the camera of a scene file and places it in the scene.
 
 use glam::{Mat3, UVec2, Vec3};
 use protocol::{PinholeCamera, Ray};
@@ -14,8 +14,8 @@ pub struct Camera {
     pub pinhole: PinholeCamera,
     /// The transformation from camera space to world space.
     pub placement: Placement,
-    /// Whether the scene file sets the aspect ratio of the sensor. If not, the aspect ratio of the
-    /// film is used.
+    /// Whether the scene file sets the sensor's aspect ratio. If not, the film's aspect ratio is
+    /// used.
     pub fixed_aspect: bool,
 }
 
@@ -55,7 +55,7 @@ impl Camera {
         let aspect_ratio = keys.optional("aspect_ratio", Value::positive)?;
         let position = keys.required("position", Value::point)?;
         let look_at = keys.required("look_at", Value::point)?;
-        // The direction that points upward in the picture. It does not have to be perpendicular to
+        // The direction that points upward in the picture. It doesn't have to be perpendicular to
         // the view direction.
         let up = keys.required("up", Value::point)?;
 

@@ -23,12 +23,12 @@ pub struct SceneError {
     file: Option<PathBuf>,
     /// The position in the file, if known.
     pub(super) position: Option<TextPosition>,
-    /// The reason why the scene is invalid, and what to do.
+    /// Why the scene is invalid and how to fix it.
     pub(super) message: String,
 }
 
 impl SceneError {
-    /// Creates an error whose file is not known yet.
+    /// Creates an error whose file isn't known yet.
     pub(super) fn new(position: Option<TextPosition>, message: impl Into<String>) -> Self {
         SceneError {
             file: None,
@@ -67,8 +67,8 @@ impl TextPosition {
     }
 }
 
-/// Prints the message, and the line with a mark under the column. A line that is too long for a
-/// terminal is not printed.
+/// Prints the message and the line with a mark under the column. Lines that are too long for a
+/// terminal are omitted.
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match &self.file {

@@ -47,7 +47,7 @@ fn a_mesh_is_scaled_rotated_and_translated() {
         far.position.abs_diff_eq(glam::vec3(7.0, 0.0, 2.0), 1e-5),
         "{far:?}"
     );
-    // The file has no normals, so the normal is that of the rotated face.
+    // The file has no normals, so the rotated face's normal is used.
     assert!(far.normal.abs_diff_eq(glam::Vec3::NEG_Y, 1e-5), "{far:?}");
 }
 
@@ -111,7 +111,7 @@ fn reads_files_with_a_byte_order_mark() {
 #[test]
 fn every_scene_in_the_scenes_folder_loads() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    // A bundle of this repository may have no scenes.
+    // A bundle made from this repository may contain no scenes.
     let Ok(entries) = fs::read_dir(&scenes) else {
         return;
     };

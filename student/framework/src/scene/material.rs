@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::error::SceneError;
 use super::value::Value;
 
-/// The way in which a surface scatters or emits light.
+/// How a surface scatters or emits light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
     /// A matte surface, on both sides. It reflects the same radiance in all directions.
@@ -32,8 +32,8 @@ pub enum Material {
         /// The index of refraction of the glass. Outside, it is 1.
         ior: f32,
     },
-    /// A light. It emits the same radiance in all directions on the side of the normal, and
-    /// reflects nothing.
+    /// A light. It emits the same radiance in all directions on the side of the normal and reflects
+    /// nothing.
     Emitter {
         /// The emitted radiance.
         radiance: Vec3,
@@ -80,7 +80,7 @@ impl Material {
         })
     }
 
-    /// Returns the radiance that the surface emits, or `None` if it is not an emitter.
+    /// Returns the radiance that the surface emits, or `None` if it isn't an emitter.
     pub fn emitted(&self) -> Option<Vec3> {
         match *self {
             Material::Emitter { radiance } => Some(radiance),
@@ -95,7 +95,7 @@ impl Material {
 /// Returns the albedo of a chequerboard at `uv`.
 pub(crate) fn checker(a: Vec3, b: Vec3, scale: f32, uv: Vec2) -> Vec3 {
     let square = (uv * scale).floor();
-    // Computed with floats, because far from zero the sum of two integers would overflow.
+    // Use floats, because far from zero the sum of two integers would overflow.
     let odd = (square.x + square.y).rem_euclid(2.0);
     if odd == 0.0 { a } else { b }
 }

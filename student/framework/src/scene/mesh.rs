@@ -11,7 +11,7 @@ use crate::math::sin_cos;
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
     pub(super) uv: [Vec2; 3],
-    /// The normals at the corners. `None` if the file has no normals; the triangle is then flat.
+    /// The normals at the corners. `None` if the file has no normals. The triangle is then flat.
     pub(super) normals: Option<[Vec3; 3]>,
 }
 

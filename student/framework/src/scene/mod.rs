@@ -28,7 +28,7 @@ pub use material::Material;
 
 pub(crate) use material::checker;
 
-/// The maximum number of primitives in a leaf of the tree that is built for a picture.
+/// The maximum number of primitives in a leaf when building a tree for a picture.
 const MAX_LEAF_SIZE: usize = 4;
 
 /// The maximum number of pixels along one side of the film.
@@ -37,7 +37,7 @@ pub const MAX_FILM_SIDE: u32 = 16_384;
 /// A scene that can be rendered.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// A description of the scene by its author; can be empty.
+    /// The author's description of the scene. Can be empty.
     pub about: String,
     /// The camera and its position in the scene.
     pub camera: Camera,
@@ -45,8 +45,8 @@ pub struct Scene {
     pub environment: Vec3,
     /// The materials, indexed by `shape_materials`.
     pub materials: Vec<Material>,
-    /// All shapes, in world space. Meshes are converted to triangles. The number of each shape is
-    /// its index in this list, so that a hit tells which shape it is on.
+    /// All shapes, in world space. Meshes are converted to triangles. Each shape's number is its
+    /// index in this list, so that a hit identifies its shape.
     pub shapes: Vec<Shape>,
     /// For each shape, the index of its material.
     pub shape_materials: Vec<u32>,
@@ -55,10 +55,10 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Parses a scene from the text of a scene file that uses no other file.
+    /// Parses a scene from the text of a scene file that uses no other files.
     ///
     /// # Errors
-    /// Fails if the text is not a valid scene, or if the scene uses a mesh.
+    /// Fails if the text isn't a valid scene, or if the scene uses a mesh.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
         let message = "meshes are separate files, so only a scene that is read from a file can use \
                        one";
@@ -68,8 +68,8 @@ impl Scene {
     /// Loads a scene from a file. Paths of meshes are relative to the file's folder.
     ///
     /// # Errors
-    /// Fails if the scene's file or a mesh's file cannot be read or is invalid. The message begins
-    /// with the name of the file.
+    /// Fails if the scene file or a mesh file cannot be read or is invalid. The message begins with
+    /// the name of the file.
     #[cfg(feature = "cli")]
     pub fn load(path: &Path) -> Result<Scene, SceneError> {
         Scene::load_with_names(path).map(|(scene, _)| scene)
@@ -94,9 +94,8 @@ impl Scene {
         read::scene(&text, &load).map_err(|error| error.in_file(path))
     }
 
-    /// Returns the same scene with a film of another size. If the scene file sets the aspect ratio
-    /// of the sensor, that ratio stays the same. Otherwise, the aspect ratio of the new film is
-    /// used.
+    /// Returns the same scene with a film of a different size. If the scene file sets the sensor's
+    /// aspect ratio, that ratio stays the same. Otherwise, the new film's aspect ratio is used.
     pub fn on_film(&self, film: UVec2) -> Scene {
         Scene {
             camera: self.camera.on_film(film),
@@ -104,7 +103,7 @@ impl Scene {
         }
     }
 
-    /// Returns the material of the shape with this index, or `None` if there is no such shape.
+    /// Returns the material of the shape with this index, or `None` if the index is out of range.
     pub fn material_of(&self, shape: u32) -> Option<&Material> {
         let material = *self.shape_materials.get(shape as usize)?;
         self.materials.get(material as usize)

@@ -11,7 +11,7 @@ use super::value::{Object, Value};
 /// It is large enough to allow rounded coordinates, but too small to allow a visible bend.
 const FLATNESS_TOLERANCE: f64 = 1e-3;
 
-/// Reads the entry of a polygon, and splits it into triangles.
+/// Reads the entry of a polygon and splits it into triangles.
 pub(super) fn read(keys: &Object) -> Result<Vec<[Vertex; 3]>, SceneError> {
     let list = keys.value("points")?;
     let points = list.list(Value::point)?;
@@ -43,7 +43,7 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
             "`points` has length {count}: a polygon needs 3 or more points"
         ));
     }
-    // In double precision, in which no product of single-precision coordinates overflows.
+    // Use double precision, where products of single-precision coordinates can't overflow.
     let points: Vec<DVec3> = points.iter().map(|point| point.as_dvec3()).collect();
     let size = points
         .iter()

@@ -9,10 +9,10 @@ use super::mesh::{Face, Transform};
 use super::value::{Object, Value};
 use super::{MAX_LEAF_SIZE, Scene, polygon};
 
-/// Loads a mesh from the path in a scene file, or returns why it cannot.
+/// Loads a mesh from the path in a scene file, or returns why it can't.
 pub(super) type LoadMesh<'a> = &'a dyn Fn(&str) -> Result<Vec<Face>, String>;
 
-/// Reads the scene in `text`, and returns it with the names of its materials.
+/// Reads the scene in `text`. Returns it with the names of its materials.
 pub(super) fn scene(text: &str, load: LoadMesh) -> Result<(Scene, Vec<String>), SceneError> {
     let start = text.trim_start();
     if start.is_empty() {
@@ -68,7 +68,7 @@ fn material_index(value: &Value, names: &[String]) -> Result<u32, SceneError> {
     })
 }
 
-/// Reads an entry of `shapes`. Returns its keys, and its shapes, numbered from `first`.
+/// Reads an entry of `shapes`. Returns its keys and its shapes, numbered from `first`.
 fn read_shape<'a>(
     entry: &Value<'a>,
     first: u32,

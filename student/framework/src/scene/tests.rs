@@ -14,7 +14,7 @@ fn scene(camera: &str, material: &str, shape: &str) -> String {
     )
 }
 
-/// Replaces a part of a valid scene, and checks the message about the result.
+/// Replaces part of a valid scene and checks the message about the result.
 fn check(from: &str, to: &str, expected: &str) {
     let valid = scene(CAMERA, RED, SPHERE);
     assert!(valid.contains(from), "{from}");
@@ -205,7 +205,7 @@ const JARGON: [&str; 12] = [
     "EOF",
 ];
 
-/// Checks that the error is in the words of a scene's author, and says where it is.
+/// Checks that the error uses terms that a scene's author knows and says where it is.
 fn check_words(text: &str) {
     let error = Scene::from_text(text).expect_err("the scene is invalid");
     let word = JARGON.iter().find(|word| error.message.contains(*word));

@@ -15,7 +15,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
     })
 }
 
-/// Reads a text file that may have bytes that are not UTF-8, without the byte order mark that some
+/// Reads a text file that may contain bytes that aren't UTF-8. Drops the byte order mark that some
 /// editors put at its start.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
     let bytes = std::fs::read(path).map_err(|error| {
@@ -30,7 +30,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
     )
 }
 
-/// Decodes a text that begins with a byte order mark of UTF-16, as PowerShell writes.
+/// Decodes a text that begins with a UTF-16 byte order mark, as written by PowerShell.
 fn utf_16(bytes: &[u8]) -> Option<String> {
     let (pairs, []) = bytes.as_chunks::<2>() else {
         return None;

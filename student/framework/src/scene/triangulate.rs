@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use glam::DVec3;
 
-/// Returns the cross products of the triangles in a fan around the first corner. By Newell's method,
-/// their sum is along the normal of the outline, and its length is twice the area.
+/// Returns the cross products of the triangles in a fan around the first corner. By Newell's
+/// method, their sum has the direction of the outline's normal, and its length is twice the area.
 pub(super) fn fan(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     let from_first = corners[1..].iter().map(|corner| corner - corners[0]);
     let next = from_first.clone().skip(1);
@@ -36,7 +36,7 @@ pub(super) fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let turns_back = |&i: &usize| turn([i, after(i), after(after(i))]) < 0;
     let reflex: Vec<usize> = (0..count).filter(turns_back).map(after).collect();
     let around_first: Vec<[usize; 3]> = (2..count).map(|i| [0, i - 1, i]).collect();
-    // Each corner of a star such as a pentagram turns the same way, but its fan does not.
+    // Each corner of a star such as a pentagram turns the same way, but its fan doesn't.
     if reflex.is_empty() && around_first.iter().all(|triangle| turn(*triangle) >= 0) {
         return Some(around_first);
     }

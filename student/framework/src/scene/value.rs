@@ -1,5 +1,5 @@
-//! Values in the JSON text of a scene, which know their positions, so that an error can point at
-//! them. The parser itself knows only how far it has read, which is often the closing brace.
+//! Values in the JSON text of a scene. They know their positions, so that errors can point at them.
+//! The parser itself only knows how far it has read, which is often the closing brace.
 
 use glam::Vec3;
 use serde::de::{DeserializeOwned, IgnoredAny};
@@ -8,10 +8,10 @@ use super::error::{SceneError, TextPosition};
 use crate::suggestion::suggestion;
 
 /// The largest coordinate, radius or scale. In the formulas for triangles and spheres, the fourth
-/// power of a larger number overflows, so that correct code would seem to be wrong.
+/// power of a larger number overflows, so correct code would seem wrong.
 pub(super) const MAX_COORDINATE: f32 = 1e9;
 
-/// A value in a JSON text, or the key of one.
+/// A value or a key in a JSON text.
 #[derive(Clone, Debug)]
 pub(super) struct Value<'a> {
     /// The whole text, which is valid JSON.
@@ -31,7 +31,7 @@ pub(super) struct Object<'a> {
 impl<'a> Value<'a> {
     /// Parses a text.
     pub(super) fn parse(text: &'a str) -> Result<Self, SceneError> {
-        // Also finds numbers that are too large and lists that are nested too deeply.
+        // This also finds numbers that are too large and lists that are nested too deeply.
         serde_json::from_str::<serde_json::Value>(text).map_err(|error| {
             let position = TextPosition::new(text, error.line(), error.column());
             SceneError::new(Some(position), syntax_message(&error))
@@ -49,7 +49,7 @@ impl<'a> Value<'a> {
         SceneError::new(Some(position), message)
     }
 
-    /// Creates an error about a value of another type or size than expected.
+    /// Creates an error about a value of an unexpected type or size.
     fn unexpected(&self, expected: &str) -> SceneError {
         let end = self.read::<IgnoredAny>().map_or(self.start, |(_, end)| end);
         let got = match &self.text[self.start..end] {
@@ -61,7 +61,7 @@ impl<'a> Value<'a> {
         self.error(format!("`{}`: expected {expected}, got {got}", self.key))
     }
 
-    /// Creates an error about this name, which is none of the known ones.
+    /// Creates an error about this name, which isn't one of the known names.
     pub(super) fn unknown(
         &self,
         problem: &str,
@@ -90,7 +90,7 @@ impl<'a> Value<'a> {
         Ok(members)
     }
 
-    /// Returns the object, which must have no other keys than the known ones.
+    /// Returns the object, which must not have unknown keys.
     pub(super) fn object(&self, known: &[&str]) -> Result<Object<'a>, SceneError> {
         let members = self.members()?;
         let is_unknown = |(key, _): &&(Value, Value)| !known.contains(&key.key.as_str());
@@ -103,8 +103,8 @@ impl<'a> Value<'a> {
         })
     }
 
-    /// Returns the only member of an object, whose key is its kind. With such a key, and not with
-    /// a key `type`, the known keys follow from the kind.
+    /// Returns the only member of an object, whose key is its kind. Scene files use this form
+    /// rather than a key `type`, so that the known keys follow from the kind.
     pub(super) fn kind(&self) -> Result<(Value<'a>, Value<'a>), SceneError> {
         let expected = || self.unexpected("an object in { } with one key, its kind");
         match <[_; 1]>::try_from(self.members().map_err(|_| expected())?) {
@@ -129,7 +129,7 @@ impl<'a> Value<'a> {
         string.ok_or_else(|| self.unexpected("a text in quotes"))
     }
 
-    /// Returns the value as a type of Rust, if it is valid.
+    /// Returns the value as a Rust type, if it is valid.
     pub(super) fn parsed<T: DeserializeOwned>(
         &self,
         expected: &str,
@@ -139,7 +139,7 @@ impl<'a> Value<'a> {
         value.ok_or_else(|| self.unexpected(expected))
     }
 
-    /// Returns a number that is valid.
+    /// Returns a valid number.
     pub(super) fn number(
         &self,
         expected: &str,
@@ -151,7 +151,7 @@ impl<'a> Value<'a> {
         number.ok_or_else(|| self.unexpected(expected))
     }
 
-    /// Returns a list of `N` numbers that are all valid.
+    /// Returns a list of `N` valid numbers.
     pub(super) fn numbers<const N: usize>(
         &self,
         expected: &str,
@@ -190,7 +190,7 @@ impl<'a> Value<'a> {
     }
 
     /// Returns the elements of a list, or the keys and values of an object, one after another.
-    /// Returns `None` if the value does not begin with the bracket `open`.
+    /// Returns `None` if the value doesn't begin with the bracket `open`.
     fn items(&self, open: char) -> Option<Vec<Value<'a>>> {
         let mut rest = self.text[self.start..].strip_prefix(open)?;
         let mut items = Vec::new();
@@ -212,7 +212,7 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// Reads the value as a type of Rust. Returns it and the offset of its end.
+    /// Reads the value as a Rust type. Returns it and the offset of its end.
     fn read<T: DeserializeOwned>(&self) -> Option<(T, usize)> {
         let parser = serde_json::Deserializer::from_str(&self.text[self.start..]);
         let mut values = parser.into_iter::<T>();
@@ -248,12 +248,12 @@ impl<'a> Object<'a> {
     }
 }
 
-/// Returns the offset of the first character that is not white space.
+/// Returns the offset of the first character that isn't white space.
 fn skip_space(text: &str, start: usize) -> usize {
     text.len() - text[start..].trim_start().len()
 }
 
-/// Returns the message about a text that is not valid JSON, with what to do.
+/// Returns the message about invalid JSON, including how to fix it.
 fn syntax_message(error: &serde_json::Error) -> String {
     let message = error.to_string();
     let (message, _) = message.rsplit_once(" at line ").unwrap_or((&message, ""));

@@ -1,4 +1,4 @@
-//! `BBox::hit`: from a ray and an interval to the part of it that is inside a box.
+//! `BBox::hit`: from a ray and an interval to the part of the interval that is inside a box.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -27,9 +27,9 @@ pub struct Corners {
 /// The arguments of `BBox::hit`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Query {
-    /// The ray. Its range does not matter.
+    /// The ray. Its range is ignored.
     pub ray: Ray,
-    /// The distances along the ray that are asked about.
+    /// The distances along the ray to search.
     pub times: Interval,
 }
 

@@ -20,17 +20,17 @@ use crate::view::{ExamCamera, Sample};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hit;
 
-/// The things that rays hit, and how they are searched.
+/// The geometry that rays hit, and how it is searched.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Geometry {
-    /// Calls `hit` of every shape, and takes the closest hit. No tree is involved.
+    /// Calls every shape's `hit` and takes the closest hit. No tree is involved.
     List {
         /// The shapes, tested one after the other.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
     },
-    /// Calls `Bvh::hit` of a tree that the exam contains.
+    /// Calls `Bvh::hit` on a tree from the exam.
     Tree {
         /// The primitives, in the order that the leaves index them.
         #[serde(with = "packed")]
@@ -41,7 +41,7 @@ pub enum Geometry {
         /// The index of the root in `nodes`.
         root: u32,
     },
-    /// Calls `Bvh::hit` of the tree that the submission's `Bvh::build` returns.
+    /// Calls `Bvh::hit` on the tree returned by the submission's `Bvh::build`.
     BuiltTree {
         /// The primitives to build the tree over.
         #[serde(with = "packed")]

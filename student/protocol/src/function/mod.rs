@@ -1,7 +1,7 @@
 //! Functions: the methods of a submission that an exam calls in tables, once per row.
 //!
-//! Each function is declared in its own file. Here are the two lists that name them all: `Question`, whose
-//! few other variants are no tables, and the methods of `Submission`.
+//! Each function is declared in its own file. This file contains the two lists of all functions:
+//! `Question`, which also has a few variants that aren't tables, and the methods of `Submission`.
 
 mod bbox_hit;
 mod hit;
@@ -33,8 +33,8 @@ pub use rows::{Input, NoView, Rows, View};
 pub use sample_ray::SampleRay;
 pub use table::{AnyTable, Attempts, Table};
 
-/// A question. It consists of elements (the rows of a table, or a tree or a picture as a whole) that
-/// are answered separately, so that a panic affects only its own element.
+/// A question. It consists of elements (the rows of a table, or an entire tree or picture) that are
+/// answered separately, so that a panic only affects its own element.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Question {
@@ -113,7 +113,7 @@ pub trait Submission: Sync {
     ) -> Box<dyn Hierarchy>;
 }
 
-/// A method of a submission, with the types of what it is called on and with, and of what it returns.
+/// A method of a submission, with the types of its subject, its arguments and its result.
 pub trait Function: Copy + Debug + PartialEq + 'static {
     /// The value that the method is called on.
     type Subject: Record + Data;
@@ -128,7 +128,7 @@ pub trait Function: Copy + Debug + PartialEq + 'static {
     /// Returns a sentence about one call. `{name}` stands for the field of this name.
     fn sentence(subject: &Self::Subject) -> &'static str;
 
-    /// Returns the question that asks for the calls of a table.
+    /// Returns the question for a table of calls.
     fn question(table: Table<Self>) -> Question;
 
     /// Converts the subject to a submission's own type and returns a closure that calls the method on it.
@@ -138,12 +138,12 @@ pub trait Function: Copy + Debug + PartialEq + 'static {
     ) -> impl Fn(&Self::Input) -> Self::Output + 'a;
 }
 
-/// A value that is sent to the probe or from it, and written to exam files.
+/// A value that is sent to or from the probe and written to exam files.
 pub trait Data: Clone + Debug + PartialEq + Serialize + DeserializeOwned + 'static {}
 
 impl<T: Clone + Debug + PartialEq + Serialize + DeserializeOwned + 'static> Data for T {}
 
-/// How the values that a function returns are printed. `{name}` stands for the field of this name.
+/// How a function's results are printed. `{name}` stands for the field of this name.
 #[derive(Clone, Copy, Debug)]
 pub struct Words {
     /// A record in full.
@@ -166,6 +166,6 @@ pub trait Output: Data {
     /// Returns the record, or `None` if the function returned none.
     fn record(&self) -> Option<&dyn Record>;
 
-    /// Returns the answer with these rows.
+    /// Returns an answer with these rows.
     fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer;
 }

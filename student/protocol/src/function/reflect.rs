@@ -1,4 +1,4 @@
-//! `reflect`: from the direction toward the viewer to the one that a mirror reflects into it.
+//! `reflect`: from the direction toward the viewer to the direction that a mirror reflects into it.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -8,11 +8,11 @@ use super::{Function, Input, Output, Question, Submission, Table, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Fields, Record, fields};
 
-/// Calls `reflect` for directions. It is called on nothing.
+/// Calls `reflect` for directions. The function isn't called on a subject.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reflect;
 
-/// A direction at a point of a surface, in a frame whose +z is the normal.
+/// A direction at a point on a surface, in a frame whose +z is the normal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct LocalDirection {

@@ -13,7 +13,7 @@ use crate::view::{PIXEL_OFFSETS, Sample};
 
 /// The arguments of one call of a function.
 pub trait Input: Record + Data {
-    /// A picture each of whose positions is a row.
+    /// A picture with one row per position.
     type View: View<Self>;
 }
 
@@ -65,7 +65,7 @@ impl<I: Input> Rows<I> {
         }
     }
 
-    /// Returns the row at `index`, or `None` if there is none.
+    /// Returns the row at `index`, or `None` if it is out of range.
     pub fn get(&self, index: usize) -> Option<I> {
         if index >= self.count() {
             return None;
@@ -88,13 +88,13 @@ impl<I: Input> Rows<I> {
     ///
     /// # Panics
     ///
-    /// If there are fewer rows.
+    /// If the range is out of bounds.
     pub fn subset(&self, rows: Range<usize>) -> Self {
         let row = |index| self.get(index).expect("the row exists");
         Rows::List(rows.map(row).collect())
     }
 
-    /// Returns the picture whose positions are the rows, unless they are a list.
+    /// Returns the picture whose positions are the rows, or `None` if they are a list.
     pub fn view(&self) -> Option<&I::View> {
         match self {
             Rows::List(_) => None,

@@ -1,4 +1,4 @@
-//! Tables: questions that call one function of one subject, once per row.
+//! Tables: questions that call one function on one subject, once per row.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::{Function, Output, Question, Rows, Submission, View, Words};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Record, Value};
 
-/// A question that calls a function of a subject once per row.
+/// A question that calls a function on a subject once per row.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub struct Table<F: Function> {
@@ -49,16 +49,16 @@ pub trait AnyTable {
     /// Returns the number of rows.
     fn count(&self) -> usize;
 
-    /// Returns the arguments in a row, or `None` if there is no such row.
+    /// Returns the arguments in a row, or `None` if the row is out of range.
     fn input(&self, row: usize) -> Option<Box<dyn Record>>;
 
     /// Returns the number of pixels, across and up, if the rows are those of a picture.
     fn film(&self) -> Option<UVec2>;
 
-    /// Returns the names of the fields of what the function returns.
+    /// Returns the field names of the function's result.
     fn output_names(&self) -> &'static [&'static str];
 
-    /// Returns how the values that the function returns are printed.
+    /// Returns how the function's results are printed.
     fn words(&self) -> Words;
 
     /// Returns an upper bound on the size of one row of the answer on the wire, in bytes.
@@ -72,11 +72,11 @@ pub trait AnyTable {
     ///
     /// # Panics
     ///
-    /// If there are fewer rows.
+    /// If the range is out of bounds.
     fn subset(&self, rows: Range<usize>) -> Question;
 
-    /// Returns the question with every field of the subject and of the rows replaced by `change`.
-    /// Returns `None` if the rows are those of a picture.
+    /// Returns the question with every field of the subject and the rows replaced by `change`.
+    /// Returns `None` if the rows are a picture's.
     fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question>;
 }
 

@@ -7,20 +7,20 @@ use crate::harness::{source, zip};
 /// The files of a submission, with their paths.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// A submission and the grade that it must get.
+/// A submission and the grade it must get.
 pub struct Case {
     pub title: &'static str,
     pub files: Files,
-    /// The submission time, in one of the forms that platforms write.
+    /// The submission time, in one of the formats that platforms write.
     pub time: &'static str,
     /// The status in `grades.csv`.
     pub status: &'static str,
-    /// The points that count; `None` if the teacher has to decide first.
+    /// The final points. `None` if the teacher has to decide first.
     pub counts: Option<&'static str>,
 }
 
 const IN_TIME: &str = "2026-11-20 10:00";
-/// Part of the points count, since one of the two tested tasks cannot be compiled.
+/// Only part of the points, since one of the two tested tasks doesn't compile.
 pub const PART: &str = "part";
 
 /// Returns all cases. The work is due at the end of 20 November, and each late day costs 10 of 100

@@ -17,7 +17,7 @@ const POLICY: &str = "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T23:59:59+
                       timezone = \"Europe/Berlin\"\npercent_per_day = 10\n";
 
 /// Grades the class of a platform. Every person must be graded or listed with a reason, and the
-/// counts must add up.
+/// totals must add up.
 fn check(platform: Platform) {
     let cases = cases();
     assert_eq!(Platform::ALL.len() * cases.len(), 60);
@@ -79,13 +79,13 @@ fn check_grades(platform: Platform, class: &TestClass, students: &[Student]) {
             }
             counts => assert_eq!(row["counts"], counts.unwrap_or_default(), "{title}"),
         }
-        // A submission without a grade has a reason.
+        // A submission without a grade needs a reason.
         let needs_reason = case.is_some_and(|case| case.counts.is_none());
         assert_eq!(!row["why"].is_empty(), needs_reason, "{title}");
     }
 }
 
-/// Checks that the terminal, `class.json` and the page have the same numbers as the table.
+/// Checks that the terminal, `class.json` and the page show the same numbers as the table.
 fn check_counts(platform: Platform, class: &TestClass, text: &str) {
     let grades = class.read("grades.csv");
     let rows = table(&grades);
@@ -129,7 +129,7 @@ fn check_counts(platform: Platform, class: &TestClass, text: &str) {
     assert_eq!(section.matches("<th scope=\"row\">").count(), rows.len());
 }
 
-/// Checks that the gradebook has exactly the points that count.
+/// Checks that the gradebook contains exactly the final points.
 fn check_gradebook(platform: Platform, class: &TestClass, students: &[Student]) {
     let (name, key, points) = platform.gradebook();
     let text = class.read(name);

@@ -1,4 +1,4 @@
-//! The same submissions as each platform exports them, with its list of the class.
+//! The same submissions as exported by each platform, with its list of the class.
 
 use super::cases::{Case, Files};
 use crate::harness::{TestClass, zip};
@@ -12,7 +12,7 @@ pub enum Platform {
     Plain,
 }
 
-/// A person of the class. The last one handed in nothing.
+/// A person in the class. The last person handed in nothing.
 pub struct Student<'a> {
     pub number: usize,
     pub login: String,
@@ -21,7 +21,7 @@ pub struct Student<'a> {
 }
 
 impl Student<'_> {
-    /// Returns the time as the platform's own list has it.
+    /// Returns the time as the platform's own list shows it.
     fn time(&self) -> &str {
         self.case.map_or("", |case| case.time)
     }
@@ -31,7 +31,7 @@ impl Student<'_> {
     }
 }
 
-/// Returns a student for each case, and one who handed in nothing.
+/// Returns a student for each case, plus one who handed in nothing.
 pub fn students(cases: &[Case]) -> Vec<Student<'_>> {
     let titles = cases.iter().map(|case| (case.title, Some(case)));
     let all = titles.chain([("nothing", None)]).enumerate();
@@ -56,7 +56,7 @@ impl Platform {
     /// Returns the class as this platform exports it.
     pub fn export(self, students: &[Student]) -> TestClass {
         let mut class = TestClass::named(match self {
-            // The suffix by which GitHub Classroom's clones are recognised.
+            // The suffix that identifies GitHub Classroom's clones.
             Platform::GitHub => "pathtracing-submissions",
             Platform::Gradescope | Platform::Canvas | Platform::Moodle | Platform::Plain => {
                 "export"
@@ -96,7 +96,8 @@ impl Platform {
             Platform::GitHub => format!("pathtracing-{login}/"),
             Platform::Plain => format!("{login}/"),
         };
-        // Canvas has no folders, so students hand in an archive. Others may, too.
+        // Canvas has no folders, so students hand in an archive. On other platforms they may do so
+        // too.
         let has_folders = files.iter().any(|(path, _)| path.contains('/'));
         let own_archive = files.iter().any(|(path, _)| path.ends_with(".zip"));
         let is_archive = match self {
@@ -105,7 +106,7 @@ impl Platform {
             Platform::Gradescope | Platform::Moodle | Platform::GitHub => false,
         };
         if is_archive {
-            // A plain class may have an archive in place of a student's folder.
+            // A plain class may contain an archive instead of a student's folder.
             let path = if self == Platform::Plain {
                 format!("{login}.zip")
             } else {
@@ -118,7 +119,7 @@ impl Platform {
         named.collect()
     }
 
-    /// Returns the platform's lists of the class, by their kinds.
+    /// Returns the platform's lists of the class, by kind.
     pub fn lists(self, students: &[Student]) -> Vec<(&'static str, String)> {
         let table = |header: &str, row: &dyn Fn(&Student) -> String| {
             let rows: String = students.iter().map(|student| row(student) + "\n").collect();
@@ -157,8 +158,8 @@ impl Platform {
         }
     }
 
-    /// Returns the name of the copied gradebook, and its columns that identify a person and have
-    /// the points.
+    /// Returns the name of the copied gradebook, its column that identifies a person, and its
+    /// column with the points.
     pub fn gradebook(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Platform::Gradescope => ("gradescope.csv", "Email", "Total Score"),
@@ -169,7 +170,7 @@ impl Platform {
         }
     }
 
-    /// Returns what the gradebook's column has for a person.
+    /// Returns a person's cell in the gradebook's identifying column.
     pub fn key(self, student: &Student) -> String {
         match self {
             Platform::Gradescope => student.email(),

@@ -1,4 +1,4 @@
-//! Archives and folders, and their files.
+//! Archives, folders and their files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -20,7 +20,7 @@ pub fn zip<P: ToString, B: AsRef<[u8]>>(files: impl IntoIterator<Item = (P, B)>)
     writer.finish().unwrap().into_inner()
 }
 
-/// Returns the names in an archive, and the contents of each file.
+/// Returns the names in an archive and the contents of each file.
 pub fn unzip(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut archive = ZipArchive::new(Cursor::new(archive)).unwrap();
     let mut files = Vec::new();
@@ -47,8 +47,9 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Returns all files in a folder, without the timings, which differ in every run, the folder's own
-/// path in the reports, and the mark of lists that a merge has from its parts.
+/// Returns all files in a folder, without anything that differs between equivalent runs: the
+/// timings, the folder's own path in reports, and the mark of lists that a merge took from its
+/// shards.
 pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let comparable = |path: PathBuf| {
         let mut bytes = fs::read(&path).unwrap();
@@ -66,5 +67,5 @@ pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files_below(folder).into_iter().map(comparable).collect()
 }
 
-/// The mark of a list that a merge has from its parts.
+/// The mark of a list that a merge took from its shards.
 const IS_OF_PARTS: &str = ",\n      \"is_of_parts\": true";

@@ -95,7 +95,7 @@ impl TestClass {
         self
     }
 
-    /// Replaces text in a file, and panics if the file does not contain it.
+    /// Replaces text in a file. Panics if the file doesn't contain it.
     pub fn with_replaced(self, path: &str, from: &str, to: &str) -> Self {
         let text = fs::read_to_string(self.input().join(path)).unwrap();
         assert!(text.contains(from), "{path} no longer contains {from:?}");
@@ -108,7 +108,7 @@ impl TestClass {
         self.with(path, format!("\u{feff}{text}"))
     }
 
-    /// Writes a file next to the class's folder, and returns its path.
+    /// Writes a file next to the class's folder. Returns its path.
     pub fn write_beside(&self, name: &str, text: &str) -> String {
         let path = self.path_beside(name);
         fs::write(&path, text).unwrap();
@@ -146,7 +146,7 @@ impl TestClass {
         preview.trim_matches('\n').to_owned()
     }
 
-    /// Writes lists beside the class. Returns the options that pass them.
+    /// Writes lists next to the class. Returns the options that pass them.
     pub fn lists(&self, lists: &[(&str, &str)]) -> Vec<String> {
         let write = |(list, text): &(&str, &str)| {
             let path = self.write_beside(&format!("{list}.list"), text);
@@ -155,24 +155,24 @@ impl TestClass {
         lists.iter().map(write).collect()
     }
 
-    /// Grades the class with lists and more options and returns the standard output.
+    /// Grades the class with lists and additional options. Returns the standard output.
     pub fn graded_with(&self, exam: &str, lists: &[(&str, &str)], more: &[&str]) -> String {
         let lists = self.lists(lists);
         let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
         self.graded(exam, &[&lists, more].concat())
     }
 
-    /// Grades the class and returns the standard output.
+    /// Grades the class. Returns the standard output.
     pub fn graded(&self, exam: &str, more: &[&str]) -> String {
         successful_stdout(&self.grade(exam, more))
     }
 
-    /// Tries to grade a class that is refused, and returns the error.
+    /// Tries to grade a class that must be refused. Returns the error.
     pub fn refused(&self, exam: &str, more: &[&str]) -> String {
         refusal(&self.grade(exam, more))
     }
 
-    /// Tries to preview a class that is refused, and returns the error.
+    /// Tries to preview a class that must be refused. Returns the error.
     pub fn refused_preview(&self) -> String {
         let mut command = class_command();
         command.arg(self.input()).arg("--dry-run");
@@ -231,14 +231,14 @@ pub fn class_command() -> Command {
     command
 }
 
-/// Merges shards, and returns the standard output.
+/// Merges shards. Returns the standard output.
 pub fn merge(shards: &[impl AsRef<OsStr>], out: &Path) -> String {
     let mut command = class_command();
     command.arg("merge").args(shards).arg("--out").arg(out);
     successful_stdout(&command.output().unwrap())
 }
 
-/// Returns the standard output of a run, and panics if the run failed.
+/// Returns the standard output of a run. Panics if the run failed.
 pub fn successful_stdout(output: &Output) -> String {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{error}");

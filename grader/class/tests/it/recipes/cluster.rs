@@ -1,5 +1,5 @@
-//! A Slurm cluster of this machine alone. Its daemons run as the current user, without systemd or
-//! cgroups, with all of their files in a temporary folder.
+//! A Slurm cluster that consists of this machine only. Its daemons run as the current user, without
+//! systemd or cgroups, and keep all of their files in a temporary folder.
 
 use std::fs;
 use std::io::Read;
@@ -14,8 +14,8 @@ use tempfile::TempDir;
 
 use crate::harness::successful_stdout;
 
-/// The daemons and commands that a cluster needs, of the Debian packages munge, slurmctld, slurmd
-/// and slurm-client.
+/// The daemons and commands a cluster needs, from the Debian packages munge, slurmctld, slurmd and
+/// slurm-client.
 const PROGRAMS: [&str; 6] = [
     "munged",
     "slurmctld",
@@ -24,10 +24,10 @@ const PROGRAMS: [&str; 6] = [
     "scontrol",
     "squeue",
 ];
-/// The time after which a test fails instead of waiting longer.
+/// How long a test waits before it fails.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// A running cluster. When it is dropped, also because a test panics, its daemons and jobs are
+/// A running cluster. When it is dropped, even by a panicking test, its daemons and jobs are
 /// killed.
 pub struct Cluster {
     folder: TempDir,
@@ -48,7 +48,7 @@ impl Cluster {
         PROGRAMS.iter().all(works)
     }
 
-    /// Starts the daemons, and waits until the cluster accepts jobs.
+    /// Starts the daemons and waits until the cluster accepts jobs.
     pub fn start() -> Self {
         let cluster = Cluster {
             folder: TempDir::new().unwrap(),
@@ -58,7 +58,7 @@ impl Cluster {
         fs::create_dir(folder.join("spool")).unwrap();
         fs::write(folder.join("slurm.conf"), configuration(folder)).unwrap();
         // By default, slurmd looks for cgroups, which containers lack and only root can change.
-        // This plugin does not touch them before a job needs it.
+        // This plugin doesn't touch them until a job needs it.
         fs::write(folder.join("cgroup.conf"), "CgroupPlugin=cgroup/v1\n").unwrap();
 
         let mut key = [0; 1024];
@@ -75,7 +75,7 @@ impl Cluster {
         ];
         let own_files: Vec<&str> = own_files.iter().map(String::as_str).collect();
         set_private(&folder.join("munge.key"));
-        // Without `--force`, it refuses a socket in a folder that only this user can enter.
+        // Without `--force`, munged refuses a socket in a folder that only this user can enter.
         cluster.spawn(
             "munged",
             &[&["--foreground", "--force"], &own_files[..]].concat(),
@@ -104,7 +104,7 @@ impl Cluster {
         command.env("SLURM_CONF", self.folder.path().join("slurm.conf"))
     }
 
-    /// Returns what Slurm knows about a job. An array has a paragraph for each task.
+    /// Returns Slurm's description of a job. An array has a paragraph for each task.
     pub fn describe(&self, job: &str) -> String {
         let output = self.command("scontrol").args(["show", "job", job]).output();
         successful_stdout(&output.unwrap())
@@ -118,8 +118,8 @@ impl Cluster {
         });
     }
 
-    /// Starts a daemon, with its output in a log. It is killed if the test's thread ends without
-    /// dropping the cluster.
+    /// Starts a daemon that writes its output to a log. It is killed if the test's thread ends
+    /// without dropping the cluster.
     fn spawn(&self, daemon: &str, arguments: &[&str]) {
         let log = fs::File::create(self.folder.path().join(format!("{daemon}.txt"))).unwrap();
         let mut command = self.command("setpriv");
@@ -130,11 +130,11 @@ impl Cluster {
             .stdout(log.try_clone().unwrap())
             .stderr(log);
         let mut child = command.spawn().unwrap();
-        // Collects the exit status of the daemon when it is killed.
+        // Reap the daemon when it is killed.
         thread::spawn(move || child.wait());
     }
 
-    /// Polls until the condition is true. The daemons have no way to report it.
+    /// Polls until the condition is true. The daemons can't report it themselves.
     fn wait(&self, condition: &str, is_true: impl Fn() -> bool) {
         let start = Instant::now();
         while !is_true() {
@@ -156,8 +156,8 @@ impl Cluster {
             .concat()
     }
 
-    /// Returns the ids of the daemons, and of the jobs that they have started: all have the path of
-    /// this cluster's folder in their environment.
+    /// Returns the process ids of the daemons and the jobs they started. Their environments contain
+    /// the path of this cluster's folder.
     fn processes(&self) -> Vec<String> {
         let path = self.folder.path().as_os_str().as_bytes();
         let is_own = |id: &String| {
@@ -173,7 +173,7 @@ impl Cluster {
 
 impl Drop for Cluster {
     fn drop(&mut self) {
-        // A process may start another one before it is killed.
+        // A process may start a new process before it is killed.
         for _ in 0..100 {
             let processes = self.processes();
             if processes.is_empty() {
@@ -188,7 +188,7 @@ impl Drop for Cluster {
     }
 }
 
-/// Returns `slurm.conf`, with ports that are free now.
+/// Returns `slurm.conf` with currently free ports.
 fn configuration(folder: &Path) -> String {
     let listeners = [0; 2].map(|port| TcpListener::bind(("127.0.0.1", port)).unwrap());
     let [controller, node] = listeners.map(|listener| listener.local_addr().unwrap().port());
@@ -223,7 +223,7 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
     )
 }
 
-/// Makes a file readable by its owner only, as munged requires for its key.
+/// Makes a file readable only by its owner, as munged requires for its key.
 fn set_private(path: &Path) {
     use std::os::unix::fs::PermissionsExt;
 

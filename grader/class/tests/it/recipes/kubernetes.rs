@@ -1,4 +1,4 @@
-//! The recipe for Kubernetes, checked with the schema that Kubernetes publishes.
+//! The recipe for Kubernetes, checked against the schema published by Kubernetes.
 
 use std::fs;
 
@@ -24,7 +24,7 @@ fn the_manifest_matches_the_published_schema() {
     }
 }
 
-/// Checks what the schema allows, but the recipe must not do.
+/// Checks for things that the schema allows but the recipe must not do.
 #[test]
 fn each_completion_grades_one_shard_with_limits() {
     let job = parse_yaml(&manifest());
@@ -38,7 +38,7 @@ fn each_completion_grades_one_shard_with_limits() {
     assert!(spec["backoffLimitPerIndex"].as_u64() > Some(0));
     assert!(spec["activeDeadlineSeconds"].as_u64() > Some(0));
     let pod = &spec["template"]["spec"];
-    // A pod that restarts in place would not count as a failure of its index.
+    // A pod that restarts in place wouldn't be counted as a failure of its index.
     assert_eq!(pod["restartPolicy"], "Never");
     assert_eq!(pod["automountServiceAccountToken"], false);
     let [container] = pod["containers"].as_array().unwrap().as_slice() else {

@@ -1,4 +1,4 @@
-//! The recipes for schedulers, which are run for real or checked against published schemas.
+//! The recipes for schedulers. They are run for real or checked against published schemas.
 
 #[cfg(target_os = "linux")]
 mod cluster;
@@ -36,7 +36,7 @@ fn recipe_command(name: &str, class: &TestClass, exam: &str, out: &Path) -> Comm
     command
 }
 
-/// Panics if a command would grade with the practice exam, which students have, or without the
+/// Panics if a command would grade with the practice exam, which students know, or without the
 /// class's policy.
 fn assert_exam_and_policy(command: &str) {
     for option in ["--exam ", "--policy ", "$OPTIONS"] {
@@ -44,7 +44,7 @@ fn assert_exam_and_policy(command: &str) {
     }
 }
 
-/// Returns whether what a test needs is installed. It must be if `CI` is set.
+/// Returns whether a test's requirement is installed. Panics if it is missing and `CI` is set.
 fn is_installed(what: &str, found: bool) -> bool {
     if !found {
         assert!(std::env::var_os("CI").is_none(), "{what} is not installed");
@@ -53,7 +53,7 @@ fn is_installed(what: &str, found: bool) -> bool {
     found
 }
 
-/// Both recipes refuse this before they submit anything, so no scheduler is needed.
+/// Both recipes refuse this before submitting anything, so no scheduler is needed.
 #[test]
 fn another_number_of_parts_and_results_among_the_submissions_are_refused() {
     let class = TestClass::of_three();

@@ -7,7 +7,7 @@ use test_support::programs::make_executable;
 use super::{ITEMS, is_installed, recipe_command};
 use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 
-/// A replacement for the binary that is killed when it grades the second part, as often as the
+/// A replacement for the binary that is killed while grading the second shard, as many times as the
 /// variable DEATHS says.
 const DYING: &str = r#"#!/bin/bash
 if [[ "$*" == *"--shard 2/2"* && $(cat "$OUT/deaths" 2>/dev/null | wc -l) -lt "$DEATHS" ]]; then
@@ -40,7 +40,7 @@ fn grades_a_dead_part_again_and_merges() {
             .output()
             .unwrap()
     };
-    // It dies twice, and is graded again only once.
+    // It dies twice, but is only retried once.
     let (code, error) = exit_code_and_stderr(&run("2"));
     assert_eq!(code, 3, "{error}");
     assert!(error.contains("not every part was graded"), "{error}");

@@ -6,7 +6,7 @@ use std::path::Path;
 use boon::{Compiler, SchemaIndex, Schemas};
 use serde_json::Value;
 
-/// A published schema: see `tests/schemas/README.md`.
+/// A published schema. See `tests/schemas/README.md`.
 pub struct Schema {
     schemas: Schemas,
     index: SchemaIndex,
@@ -25,7 +25,8 @@ impl Schema {
         Schema { schemas, index }
     }
 
-    /// Returns the problems of a document, with the paths of the values, or `None` if it is valid.
+    /// Returns the problems with a document and the paths of the invalid values, or `None` if it is
+    /// valid.
     pub fn problems(&self, document: &Value) -> Option<String> {
         let checked = self.schemas.validate(document, self.index);
         checked.err().map(|error| format!("{error:#}"))
@@ -38,7 +39,7 @@ impl Schema {
         }
     }
 
-    /// Panics if the schema accepts a text in which `from` was replaced by `to`.
+    /// Panics if the schema accepts a text after replacing `from` with `to`.
     pub fn check_that_it_rejects(&self, text: &str, from: &str, to: &str) {
         assert!(text.contains(from), "the text no longer contains {from:?}");
         let problems = self.problems(&parse_yaml(&text.replacen(from, to, 1)));
@@ -46,7 +47,7 @@ impl Schema {
     }
 }
 
-/// Parses YAML, and panics if it is invalid.
+/// Parses YAML. Panics if it is invalid.
 pub fn parse_yaml(text: &str) -> Value {
     serde_saphyr::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }

@@ -10,8 +10,8 @@ use super::cluster::Cluster;
 use super::{ITEMS, is_installed, recipe_command};
 use crate::harness::{TestClass, assert_contains, comparable_files, successful_stdout};
 
-/// A replacement for the binary that is killed in the middle of the second part, once. That part
-/// has an endless loop, so it takes longer than the limit of CPU time.
+/// A replacement for the binary that is killed once, in the middle of the second shard. That shard
+/// contains an endless loop, so it takes longer than the CPU time limit.
 const DYING_ONCE: &str = r#"#!/bin/bash
 if [[ "$*" == *"--shard 2/3"* && ! -e "$DIED" ]]; then
     touch "$DIED"
@@ -33,7 +33,7 @@ struct SlurmClass {
 
 impl SlurmClass {
     fn new() -> Self {
-        // The second part is `bob`: a part gets every third submission.
+        // The second shard is `bob`, since each shard gets every third submission.
         let head = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
         let class = TestClass::of_three()
             .with_reference("bob")
@@ -68,7 +68,7 @@ impl SlurmClass {
         submit
     }
 
-    /// Asserts that a folder has the same results as one run for the whole class.
+    /// Asserts that a folder contains the same results as a single run for the whole class.
     fn assert_same_results(&self, out: &Path) {
         let mut files = comparable_files(out);
         let of_recipe = |path: &PathBuf| path.starts_with("shards") || path.starts_with("logs");
@@ -87,7 +87,7 @@ impl SlurmClass {
     }
 }
 
-/// Returns the numbers of the array and of the merge that the recipe printed.
+/// Returns the job numbers of the array and the merge, as printed by the recipe.
 fn submitted(output: &Output) -> (String, String) {
     let text = successful_stdout(output);
     println!("{text}");
@@ -99,7 +99,7 @@ fn submitted(output: &Output) -> (String, String) {
     (number_after("as job "), number_after("their merge as job "))
 }
 
-/// Returns the logs of all merges, in the order in which they ran.
+/// Returns the logs of all merges, in the order they ran.
 fn merge_logs(out: &Path) -> Vec<String> {
     let logs = fs::read_dir(out.join("logs")).unwrap();
     let paths = logs.map(|log| log.unwrap().path());
@@ -124,7 +124,7 @@ fn a_killed_part_is_graded_again_and_the_results_equal_one_run() {
     let retried = slurm.class.path_beside("retried");
     let output = slurm.recipe(&cluster, &retried, "2").output().unwrap();
     let (array, merge) = submitted(&output);
-    // The same class, in which a part that dies is not graded again.
+    // The same class, but a shard that dies isn't retried.
     let failed = slurm.class.path_beside("failed");
     let output = slurm.recipe(&cluster, &failed, "0").output().unwrap();
     let (_, failed_merge) = submitted(&output);
@@ -156,7 +156,7 @@ fn a_killed_part_is_graded_again_and_the_results_equal_one_run() {
     ));
     slurm.assert_same_results(&retried);
 
-    // The merge fails, and says which part is missing. The same command then grades it.
+    // The merge fails and says which shard is missing. Repeating the command then grades it.
     assert_contains(&cluster.describe(&failed_merge), &["JobState=FAILED"]);
     let logs = merge_logs(&failed);
     println!("log of the merge without retries: {logs:#?}");

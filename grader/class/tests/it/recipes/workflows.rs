@@ -1,5 +1,5 @@
-//! The recipe for GitHub Actions and the workflows of this repository, checked with SchemaStore's
-//! schema of GitHub workflows.
+//! The recipe for GitHub Actions and the workflows of this repository, checked against
+//! SchemaStore's schema for GitHub workflows.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,8 @@ use super::assert_exam_and_policy;
 use super::schema::{Schema, parse_yaml};
 use crate::harness::{files_below, source, workspace};
 
-/// The recipe, the workflow that students get, and those that test this repository and the bundle.
+/// The recipe, the workflow for students, and the workflows that test this repository and the
+/// bundle.
 const WORKFLOWS: [&str; 4] = [
     "grader/class/recipes/github-matrix.yml",
     "reference/author/src/bundle/templates/grade.yml",
@@ -53,12 +54,12 @@ fn commands(job: &Value) -> String {
     commands.collect::<Vec<&str>>().join("\n")
 }
 
-/// Checks what the schema allows, but the recipe must not do.
+/// Checks for things that the schema allows but the recipe must not do.
 #[test]
 fn the_recipe_grades_every_part_and_then_merges() {
     let text = source(WORKFLOWS[0]);
     let workflow = parse_yaml(&text);
-    // It must not start with every push.
+    // The workflow must not start on every push.
     assert_eq!(
         workflow["on"],
         serde_json::json!({ "workflow_dispatch": {} })
@@ -74,7 +75,7 @@ fn the_recipe_grades_every_part_and_then_merges() {
     );
 
     let shard = &jobs["shard"];
-    // A failing part must not stop the others.
+    // A failing shard must not stop the others.
     assert_eq!(shard["strategy"]["fail-fast"], false);
     let parts = shard["strategy"]["matrix"]["part"].as_array().unwrap();
     let expected: Vec<Value> = (1..=parts.len()).map(Value::from).collect();

@@ -1,8 +1,8 @@
-//! Compares pictures of first hits with a key that is a *set* of answers at every position.
+//! Compares pictures of first hits with a key that allows a *set* of answers at every position.
 //!
-//! Near an edge, rounding decides which surface a ray hits, so every answer that a ray within
-//! ±5e-4 of a pixel would get is correct. Skipping these positions instead would hide cracks between
-//! triangles, which appear nowhere else.
+//! Near an edge, rounding decides which surface a ray hits, so any answer that a ray within ±5e-4
+//! of a pixel would get is correct. Simply skipping these positions would hide cracks between
+//! triangles, which occur nowhere else.
 
 use std::iter;
 
@@ -20,7 +20,7 @@ use crate::types::{direction, length, uv};
 pub(super) const DEPTH: f32 = 2e-4;
 pub(super) const NORMAL: f32 = 5e-3;
 
-/// The compared quantities with their weights in hundredths. A quantity is judged only at positions
+/// The compared quantities and their weights in hundredths. A quantity is only judged at positions
 /// where all quantities before it are correct.
 const QUANTITIES: [(Aspect, u32); 4] = [
     (Aspect::HitOrMiss, 40),
@@ -34,14 +34,14 @@ type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
 
 /// A picture and its key.
 pub(super) struct FirstHits<'a> {
-    /// The scale of the scene: its largest coordinate, or that of the eye.
+    /// The scale of the scene: the largest coordinate of the scene and the eye.
     pub(super) scale: f32,
     pub(super) hits: &'a [Option<Surface>],
     pub(super) alternatives: &'a [(u32, Option<Surface>)],
     pub(super) answers: &'a [ElementOutcome<Option<Trace>>],
 }
 
-/// Results for one quantity over all positions where it is judged.
+/// The results for one quantity at all positions where it is judged.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     judged: usize,
@@ -124,8 +124,8 @@ impl FirstHits<'_> {
         others.sort_by_key(|(position, _)| *position);
         let mut others = others.into_iter().peekable();
         let answers = self.answers.iter().enumerate();
-        // Reused for every position, because an allocation for each of tens of thousands of
-        // positions would be slow.
+        // Reused, because allocating a buffer for each of tens of thousands of positions would be
+        // slow.
         let mut alike = Vec::new();
         answers.map(move |(position, outcome)| {
             let here = || others.next_if(|(other, _)| *other as usize == position);
@@ -136,8 +136,8 @@ impl FirstHits<'_> {
                     position_deviations(got.as_ref(), right, self.scale, &mut alike)
                 }
                 ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {
-                    // Consume the alternatives of this position, so that those of the next one come
-                    // first.
+                    // Consume the alternatives of this position, so that those of the next position
+                    // come first.
                     right.for_each(drop);
                     Deviations::from_iter([Deviation::WRONG])
                 }
@@ -159,8 +159,8 @@ impl FirstHits<'_> {
         tallies
     }
 
-    /// Returns whether a quantity was judged at half or more of the positions that have a hit in
-    /// the key. Otherwise, an answer without hits would earn points for its normals, none of which
+    /// Returns whether a quantity was judged at half or more of the positions where the key has a
+    /// hit. Otherwise, an answer without hits would earn points for its normals, since none of them
     /// are wrong. Hit or miss is judged everywhere.
     fn has_enough_judged(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
@@ -168,10 +168,9 @@ impl FirstHits<'_> {
     }
 }
 
-/// Returns the deviations at one position, up to the first wrong quantity. For each quantity, this
-/// is the deviation from the closest of the answers in `right` that agree in all earlier
-/// quantities. A correct miss has only the first quantity. `alike` is a buffer whose contents are
-/// overwritten.
+/// Returns the deviations at one position, up to the first wrong quantity. Each quantity is
+/// compared to the closest of the answers in `right` that agree with it in all earlier quantities.
+/// A correct miss only has the first quantity. `alike` is a buffer whose contents are overwritten.
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,

@@ -16,7 +16,7 @@ fn judge(
         answers,
     };
     let judgement = picture.judge();
-    // A mask shows exactly the positions that are counted.
+    // A mask should show exactly the wrong positions that cost points.
     let positions = picture.positions();
     let positions = positions.expect("there are as many answers as rays");
     let mismatches: Vec<_> = positions.iter().map(Mismatch::first_at).collect();
@@ -49,7 +49,7 @@ fn answer_of(surface: Surface) -> ElementOutcome<Option<Trace>> {
     }))
 }
 
-/// Returns a key of a hundred positions, of which the first half show a wall.
+/// Returns a key of a hundred positions. The first half show a wall.
 fn key() -> Vec<Option<Surface>> {
     (0..100).map(|i| (i < 50).then_some(WALL)).collect()
 }
@@ -109,7 +109,7 @@ fn a_quantity_judged_at_too_few_positions_earns_nothing() {
     got[..24].fill(answer_of(WALL));
     let few = judge(&key(), &[], &got);
     assert_eq!(few.credit.apply(100), 0);
-    // With half of the wall, depth, normal and uv are judged; hit or miss still earns nothing.
+    // With half of the wall hit, depth, normal and uv are judged. Hit or miss still earns nothing.
     got[..25].fill(answer_of(WALL));
     assert_eq!(judge(&key(), &[], &got).credit.apply(100), 60);
 }
@@ -127,7 +127,7 @@ fn missing_everything_earns_nothing_and_hitting_everything_only_part() {
 #[test]
 fn either_answer_is_correct_at_an_edge() {
     let mut got = answers(answer_of(WALL));
-    // More than are tolerated.
+    // One more than is tolerated.
     for answer in &mut got[..6] {
         *answer = ElementOutcome::Value(None);
     }

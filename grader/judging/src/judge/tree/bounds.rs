@@ -76,7 +76,7 @@ impl Bounds {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();
         let above = (self.max - outer.max - last_bits).to_array();
-        // NaN is replaced in each number separately, because `f64::max` ignores NaN.
+        // Replace NaN in each number separately, because `f64::max` ignores NaN.
         let out = below.into_iter().chain(above);
         out.map(|out| if out.is_nan() { f64::INFINITY } else { out })
             .fold(0.0, f64::max)
@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn the_box_of_a_shape_touches_it_on_every_side() {
-        // Each corner is the farthest one on two sides.
+        // Each corner determines two of the box's sides.
         let corners = [
             Vec3::new(-4.0, 7.0, 1.0),
             Vec3::new(2.0, -5.0, 3.0),
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn an_excess_of_the_last_bits_is_rounding() {
         let bit = 1000.0 * f64::from(f32::EPSILON);
-        // The coordinate farther from 0 decides, whichever it is.
+        // The tolerance depends on the coordinate farther from 0, which can be either one.
         for (min, max) in [(-1000.0, 1000.0), (-1000.0, -1.0), (1.0, 1000.0)] {
             let (min, max) = (DVec3::splat(min), DVec3::splat(max));
             let outer = Bounds { min, max };

@@ -1,4 +1,4 @@
-//! Defects of trees, and their texts in a report.
+//! Defects of trees and their texts in reports.
 
 use crate::describe;
 
@@ -10,14 +10,14 @@ use protocol::TreeNode;
 /// A defect of a tree.
 #[derive(Clone, Debug)]
 pub enum TreeDefect {
-    /// There are primitives, but no nodes.
+    /// The question contains primitives, but the tree is empty.
     NoNodes {
         /// The number of primitives in the question.
         primitives: usize,
     },
-    /// The index of a root or child is that of no node.
+    /// The index of the root or a child is out of range.
     UnknownNode {
-        /// The field that has the index.
+        /// The field that contains the index.
         field: &'static str,
         /// The index.
         index: u32,
@@ -29,14 +29,14 @@ pub enum TreeDefect {
         /// The index of the node.
         index: u32,
     },
-    /// The leaves list so many primitives that they are not read to the end.
+    /// The leaves list too many primitives in total, so the rest was not read.
     TooManyListed {
-        /// The number above which they are not.
+        /// The maximum number of listed primitives.
         most: usize,
         /// The number of primitives in the question.
         primitives: usize,
     },
-    /// A leaf lists primitives that do not exist.
+    /// A leaf lists primitives that don't exist.
     UnknownPrimitives {
         /// The index of the leaf.
         leaf: u32,
@@ -53,10 +53,10 @@ pub enum TreeDefect {
         primitive: usize,
         /// The number of primitives in the question.
         primitives: usize,
-        /// The number of leaves that hold it.
+        /// The number of leaves that contain it.
         leaves: usize,
     },
-    /// A box does not contain everything below its node.
+    /// A box doesn't contain everything below its node.
     BoxTooSmall(NodeBox),
     /// A box is larger than necessary.
     BoxTooLarge(NodeBox),
@@ -78,7 +78,7 @@ pub enum TreeDefect {
         /// The maximum number of primitives in a leaf.
         most: usize,
     },
-    /// A node was split although it has few enough primitives for a leaf.
+    /// A node was split although its primitives would fit in a leaf.
     NeedlessSplit {
         /// The index of the node.
         node: u32,
@@ -87,11 +87,11 @@ pub enum TreeDefect {
         /// The maximum number of primitives in a leaf.
         most: usize,
     },
-    /// The tree costs too much, as a multiple of the cost of the exact sweep's tree.
+    /// The tree's cost is too high. The value is a multiple of the exact sweep's cost.
     Cost(f64),
 }
 
-/// A node with the tightest box around its primitives.
+/// A node and the tightest box around its primitives.
 #[derive(Clone, Copy, Debug)]
 pub struct NodeBox {
     /// The index of the node.
@@ -111,7 +111,7 @@ impl NodeBox {
 }
 
 impl TreeDefect {
-    /// Returns the name of the part or property of the tree that is wrong.
+    /// Returns the name of the wrong part or property.
     pub fn what(&self) -> &'static str {
         match self {
             TreeDefect::NoNodes { .. } | TreeDefect::ReachedTwice { .. } => "nodes",

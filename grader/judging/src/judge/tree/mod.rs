@@ -1,5 +1,5 @@
-//! Judges trees by properties that every correct tree has, and by their cost, because there is no
-//! single correct tree.
+//! Judges trees by their cost and by properties that every correct tree has, because many different
+//! trees are correct.
 
 pub mod bounds;
 pub mod defect;
@@ -22,11 +22,10 @@ use reached_nodes::{ReachedNode, reached_nodes};
 pub const FULL_MARKS_RATIO: f64 = 1.12;
 /// Maximum cost for half marks, relative to the cost of the exact sweep's tree.
 const HALF_MARKS_RATIO: f64 = 1.25;
-/// Maximum distance by which a box may extend beyond its contents, relative to the diagonal of the
-/// contents.
+/// The farthest a box may extend beyond its contents, relative to the diagonal of the contents.
 pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
-/// Maximum distance by which a primitive may extend beyond its box, relative to the diagonal of the
-/// contents. This allows for rounding only.
+/// The farthest a primitive may extend beyond its box, relative to the diagonal of the contents.
+/// This allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
 /// A tree and the checks on it.
@@ -35,7 +34,7 @@ pub(super) struct TreeAnswer<'a> {
     pub(super) answer: &'a ElementOutcome<Tree>,
 }
 
-/// The criteria by which a tree is judged.
+/// The criteria for judging a tree.
 #[derive(Clone, Copy, Debug)]
 pub struct TreeCriteria<'a> {
     /// The properties of the tree that are checked.
@@ -122,7 +121,7 @@ impl TreeCriteria<'_> {
         checks
             .find_map(|check| self.check_defect(*check, &nodes))
             .or_else(|| {
-                // The cost is meaningful only if the tree holds every primitive exactly once.
+                // The cost is only meaningful if the tree contains every primitive exactly once.
                 let sweep = self.sweep_cost?;
                 partition_defect(&nodes, self.shapes.len()).or_else(|| {
                     let ratio = cost(&nodes) / sweep;
@@ -167,8 +166,8 @@ impl TreeCriteria<'_> {
     }
 }
 
-/// Returns whether a node of a tree over `all` primitives breaks a check. A leaf may have at most `most`
-/// of them. The partition is not a matter of single nodes.
+/// Returns whether a node of a tree over `all` primitives breaks a check. A leaf may have at most
+/// `most` of them. The partition is checked elsewhere, because it involves all leaves.
 pub fn breaks(check: TreeCheck, node: &ReachedNode, all: usize, most: usize) -> bool {
     let is_leaf = node.leaf_primitives.is_some();
     match check {
@@ -202,7 +201,7 @@ pub fn tightness_deviation(node: &ReachedNode) -> Deviation {
     Deviation::new(Threshold::BoxTooLarge, in_units_of(limit, out))
 }
 
-/// Returns the number of leaves that hold each primitive.
+/// Returns, for each primitive, the number of leaves that contain it.
 pub fn leaves_of_primitives<'a>(
     nodes: impl IntoIterator<Item = &'a ReachedNode<'a>>,
     primitives: usize,

@@ -8,8 +8,7 @@ use protocol::{Shape, Tree, TreeNode};
 use super::bounds::Bounds;
 use super::defect::TreeDefect;
 
-/// Maximum number of leaves that may list a primitive, on average. If there are more, the tree is
-/// rejected.
+/// Maximum number of leaves that may list a primitive, on average. A tree with more is rejected.
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
 /// A node that can be reached from the root.
@@ -39,8 +38,8 @@ impl ReachedNode<'_> {
     }
 }
 
-/// Returns all nodes that can be reached from the root, parents before children, and right children
-/// with everything below them before left ones.
+/// Returns all nodes that can be reached from the root. Parents come before children, and the right
+/// child's subtree before the left child's.
 pub fn reached_nodes<'a>(
     shapes: &[Shape],
     tree: &'a Tree,
@@ -52,8 +51,7 @@ pub fn reached_nodes<'a>(
         let primitives = shapes.len();
         return Err(TreeDefect::NoNodes { primitives });
     }
-    // Each primitive is identified by its own number. Unknown numbers have no
-    // index.
+    // Primitives are identified by their numbers. Unknown numbers have no index.
     let index_of: BTreeMap<u32, usize> = shapes.iter().map(Shape::number).zip(0..).collect();
     let order: Vec<Option<usize>> = tree
         .order
@@ -61,7 +59,7 @@ pub fn reached_nodes<'a>(
         .map(|shape| index_of.get(shape).copied())
         .collect();
 
-    // If many leaves each list all primitives, storing the lists would need too much memory.
+    // If many leaves listed all primitives, the lists would take too much memory.
     let most = MAX_LISTINGS_PER_PRIMITIVE * shapes.len().max(64);
     let mut listed = 0;
     let mut reached = vec![false; tree.nodes.len()];
@@ -107,7 +105,7 @@ pub fn reached_nodes<'a>(
         });
     }
 
-    // Children come after their parents, so in reverse order each child is complete before its
+    // Children come after their parents, so iterating in reverse completes each child before its
     // parent.
     let mut by_index = vec![usize::MAX; tree.nodes.len()];
     for (index, node) in nodes.iter().enumerate() {

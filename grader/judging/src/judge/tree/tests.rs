@@ -29,7 +29,7 @@ fn leaf(first: u32, last: u32) -> TreeNode {
     node(first, last, last - first + 1, 0, 0)
 }
 
-/// Returns a tree over this many spheres, in their order. Its root is the first node.
+/// Returns a tree over this many spheres, in order, with the first node as its root.
 fn tree_of(nodes: Vec<TreeNode>, count: u32) -> Tree {
     Tree {
         nodes,
@@ -77,7 +77,7 @@ pub(crate) const ALL_CHECKS: [TreeCheck; 5] = [
     TreeCheck::Stops,
 ];
 
-/// Returns what is wrong with a tree over four spheres, and what it is instead.
+/// Returns the wrong property of a tree over four spheres and the submission's value of it.
 fn defect_of(tree: Tree) -> (String, String) {
     let judgement = judge(&ALL_CHECKS, None, 4, 2, tree);
     match judgement.failure.map(|failure| failure.kind) {
@@ -139,7 +139,7 @@ fn a_tree_may_be_deep_on_either_side() {
 
 #[test]
 fn counting_stops_when_leaves_list_too_many_primitives() {
-    // A chain of nodes, each with a leaf that lists all of a long `order`.
+    // A chain of nodes. Each has a leaf that lists all of a long `order`.
     let (links, listed) = (2_000, 200_000);
     let link = |i: u32| {
         [
@@ -157,7 +157,7 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
         defect_of(tree).1,
         "leaves that hold more than 4096 primitives in all"
     );
-    // A single leaf that lists exactly as many is counted to its end.
+    // A single leaf that lists exactly the maximum is read completely.
     let full = Tree {
         order: vec![0; 4096],
         ..tree_of(vec![node(0, 3, 4096, 0, 0)], 0)
@@ -177,7 +177,7 @@ fn a_leaf_with_half_of_the_primitives_is_not_split() {
     assert_eq!(credit(4, half), Credit::NONE);
     let half = vec![node(0, 5, 0, 1, 2), leaf(0, 2), leaf(3, 5)];
     assert_eq!(credit(6, half), Credit::NONE);
-    // Some leaves hold more than one primitive, but each holds less than half of them.
+    // Some leaves contain more than one primitive, but each contains less than half of them.
     let right = node(2, 4, 0, 3, 4);
     let thirds = vec![fork, leaf(0, 1), right, leaf(2, 3), leaf(4, 4)];
     assert_eq!(credit(5, thirds), Credit::FULL);

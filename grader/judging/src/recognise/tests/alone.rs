@@ -1,4 +1,4 @@
-//! Mistakes that explain all answers of a task.
+//! Mistakes that explain all answers of a task on their own.
 
 use super::*;
 
@@ -7,7 +7,7 @@ fn a_mistake_that_explains_all_answers_is_named_at_the_items_that_it_affects() {
     let correct = "1 2|3 4|5";
     let known = [("root", "7 2|3 8|"), ("other", "9 2||")];
     assert_eq!(explain(correct, &known, "7 2|3 8|5"), "root|root|");
-    // One answer differs from it, in an item that it alone explains half of.
+    // One answer differs from the mistake's, in an item the mistake explains only half of.
     assert_eq!(explain(correct, &known, "7 2|3 6|5"), "||");
     assert_eq!(explain(correct, &known, correct), "||");
 }
@@ -26,10 +26,10 @@ fn mistakes_that_answer_alike_are_named_together_but_not_a_long_list() {
 fn code_that_hits_nothing_is_not_taken_for_a_known_mistake() {
     let nothing = "miss miss|miss";
     assert_eq!(explain("1 miss|3", &[("all", nothing)], nothing), "|");
-    // A ray that misses in each item is not all of them.
+    // One miss in each item doesn't mean that all rays miss.
     let named = explain("1 miss|3 miss", &[("hits", "7 miss|")], "7 miss|3 miss");
     assert_eq!(named, "hits|");
-    // If something is hit, it tells more.
+    // A hit among the answers is stronger evidence.
     let named = explain("1 miss|3", &[("one", "miss miss|")], "miss miss|3");
     assert_eq!(named, "one|");
 }

@@ -1,4 +1,4 @@
-//! Mistakes that explain every item that they affect, beside others that are not known.
+//! Mistakes that explain every item they affect, alongside unknown mistakes.
 
 use super::*;
 
@@ -13,7 +13,7 @@ fn a_mistake_is_named_beside_an_unknown_one_if_it_explains_most_wrong_items() {
     assert!(named(&[("refuted", "7|7||8")], "7|7|9|4"));
 }
 
-/// Another mistake that explains the same items, and all that it affects, may be the one.
+/// A second mistake that explains the same items and every item it affects may be the real cause.
 #[test]
 fn a_mistake_with_a_rival_is_not_named_beside_an_unknown_one() {
     let mistakes = [("known", "7|7|7||"), ("rival", "7|7|7|7|")];
@@ -64,7 +64,7 @@ fn a_mistake_that_misses_is_named_if_most_wrong_items_are_its_own() {
     );
 }
 
-/// A miss beside another wrong answer tells more than a miss.
+/// A miss together with another wrong answer is stronger evidence than misses only.
 #[test]
 fn a_mistake_that_also_misses_is_named_beside_an_unknown_one() {
     let known = ("known", "miss 7|miss 7|");

@@ -1,16 +1,16 @@
-//! Tests of recognition with small exams, in which each element of an item has one number.
+//! Tests of recognition with small exams. Each element of an item is observed as one number.
 //!
-//! Exams and answers are written as text: items are separated by `|`, and their elements by spaces. `7`
-//! is a number that is far from others, `7*3` stands for `7 7 7`, `miss` for a ray that hits nothing,
-//! `panic`, `index`, `stack` for no answer, and a name in quotes for the defect of a tree. In the answers
-//! of a mistake, an empty item is one that it leaves correct.
+//! Exams and answers are written as text: items are separated by `|`, and their elements by spaces.
+//! `7` is a number far from the others, `7*3` stands for `7 7 7`, `miss` for a ray that hits
+//! nothing, `panic`, `index` and `stack` for a missing answer, and a name in quotes for a tree
+//! defect. In a mistake's answers, an empty item means that the mistake leaves it correct.
 
 use super::*;
 use crate::assignment::RAYS;
 use crate::exam::Exam;
 use crate::signatures::{MistakeAnswers, MistakeSignatures, PanicKind};
 
-/// Returns the answers to each item that a text stands for.
+/// Parses the answers to each item.
 fn items(text: &str) -> Vec<Vec<ObservedAnswer>> {
     let one = |word: &str| match word {
         "miss" => ObservedAnswer::NoHit,
@@ -29,7 +29,7 @@ fn items(text: &str) -> Vec<Vec<ObservedAnswer>> {
     text.split('|').map(item).collect()
 }
 
-/// The hint of a mistake, and its answers to the items of an exam.
+/// A mistake's hint and its answers to the items of an exam.
 type Mistake<'a> = (&'a str, &'a str);
 
 /// Returns the hints at each item for a submission's answers, in an exam of one task with these correct
@@ -83,7 +83,7 @@ fn explain(correct: &str, mistakes: &[Mistake], answers: &str) -> String {
     named.collect::<Vec<String>>().join("|")
 }
 
-/// Returns whether the mistake `known` is named at any item.
+/// Returns whether the mistake `known` is named for any item.
 fn names_known(correct: &str, mistakes: &[Mistake], answers: &str) -> bool {
     let named = explain(correct, mistakes, answers);
     named.split(['|', ' ']).any(|id| id == "known")

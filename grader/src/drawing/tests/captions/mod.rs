@@ -1,4 +1,4 @@
-//! Snapshot tests of the captions of common mistakes.
+//! Snapshot tests of the captions for common mistakes.
 
 mod rays;
 mod trees;

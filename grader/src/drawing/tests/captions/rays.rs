@@ -1,4 +1,4 @@
-//! Tests of the captions of rays, shapes and boxes.
+//! Tests of the captions for rays, shapes and boxes.
 
 use glam::{UVec2, Vec2, Vec3, vec2, vec3};
 use insta::assert_snapshot;

@@ -1,4 +1,4 @@
-//! Tests of the captions of trees that were built or traversed.
+//! Tests of the captions for trees that were built or traversed.
 
 use glam::vec3;
 use insta::assert_snapshot;
@@ -74,7 +74,7 @@ fn captions_of_built_trees() {
 
 #[test]
 fn captions_of_traversals() {
-    // The ray misses the box of the right leaf, which has a second primitive as a decoy.
+    // The ray misses the box of the right leaf, whose second primitive is a decoy.
     let mut nodes = two_leaf_tree();
     nodes[2].size = 2;
     let span = |min, max| Some(Interval::new(min, max));

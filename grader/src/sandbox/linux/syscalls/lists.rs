@@ -1,5 +1,5 @@
-//! Lists of allowed system calls, by number. Calls that exist only on x86 are listed separately:
-//! newer architectures have other calls for the same purpose.
+//! Lists of allowed system calls, by number. Calls that only exist on x86 are listed separately,
+//! since newer architectures use different calls for the same purpose.
 
 use libc::*;
 
@@ -54,7 +54,7 @@ pub(super) const COMMON: &[c_long] = &[
 
 /// Additional calls that a compiler and a linker need.
 pub(super) const COMPILER: &[c_long] = &[
-    // files; Landlock and the mount namespace restrict which files are accessible
+    // files (Landlock and the mount namespace restrict which files are accessible)
     SYS_openat,
     SYS_newfstatat,
     SYS_statx,
@@ -133,11 +133,11 @@ pub(super) const COMPILER: &[c_long] = &[
     SYS_getpriority,
 ];
 
-/// Calls that belong to [`COMMON`] but exist only on x86.
+/// Calls that belong to [`COMMON`] but only exist on x86.
 #[cfg(target_arch = "x86_64")]
 pub(super) const COMMON_X86: &[c_long] = &[SYS_arch_prctl, SYS_dup2, SYS_pipe, SYS_poll];
 
-/// Calls that belong to [`COMPILER`] but exist only on x86.
+/// Calls that belong to [`COMPILER`] but only exist on x86.
 #[cfg(target_arch = "x86_64")]
 pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_open,
@@ -163,10 +163,10 @@ pub(super) const COMPILER_X86: &[c_long] = &[
     SYS_utime,
 ];
 
-/// This architecture has no such calls.
+/// These calls don't exist on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const COMMON_X86: &[c_long] = &[];
 
-/// This architecture has no such calls.
+/// These calls don't exist on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const COMPILER_X86: &[c_long] = &[];

@@ -1,8 +1,8 @@
 //! The system call filters (seccomp) of a confined program.
 //!
-//! Each profile has a list of allowed calls. All other calls fail, including those that newer
-//! kernels add. A filter is compiled for this machine's architecture; a call made through the
-//! interface of another architecture kills the program.
+//! Each profile has a list of allowed calls. All other calls fail, including calls that newer
+//! kernels add. A filter is compiled for this machine's architecture. A call made through another
+//! architecture's interface kills the program.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -18,8 +18,8 @@ use super::while_doing;
 
 mod lists;
 
-/// The system calls that a filter lists, by number. A call matches if one of its rules holds, or if
-/// it has no rules.
+/// The system calls that a filter lists, by number. A call matches if it has no rules or if one of
+/// its rules is satisfied.
 type CallRules = BTreeMap<i64, Vec<SeccompRule>>;
 
 /// Blocks all system calls except those of the profile. This is the last step before the program is
@@ -36,7 +36,7 @@ fn filters(profile: &Profile) -> Result<[BpfProgram; 2], seccompiler::Error> {
     // The C library creates threads with `clone3`, whose arguments a filter cannot inspect. It
     // falls back to `clone` only if `clone3` fails with ENOSYS, while a probe's other calls must
     // fail with EPERM. A filter has a single error for all refused calls, so there are two filters.
-    // If they disagree about a call, the stricter result counts.
+    // If they disagree about a call, the stricter result applies.
     let no_clone3 = compile_filter(
         [(libc::SYS_clone3, Vec::new())].into(),
         SeccompAction::Allow,
@@ -77,7 +77,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
     );
     // A program may only signal itself, since its user may have other processes, and only with
     // SIGABRT, for `abort`. With other signals, it could choose how it seems to end: SIGKILL looks
-    // as if memory had run out, which does not count as the program's fault, so the grader would
+    // as if memory had run out, which isn't considered the program's fault, so the grader would
     // have to be run again.
     let own = u64::from(std::process::id());
     let abort = libc::SIGABRT as u64;
@@ -88,7 +88,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_tgkill,
         vec![SeccompRule::new(vec![equal(0, own)?, equal(2, abort)?])?],
     );
-    // `F_SETOWN` and similar commands are not allowed: with them, a program can have the kernel
+    // `F_SETOWN` and similar commands aren't allowed: with them, a program can have the kernel
     // signal any process when data arrives.
     let harmless = [
         libc::F_DUPFD,
@@ -101,7 +101,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_fcntl,
         if_argument_in(1, harmless.map(|command| command as u64))?,
     );
-    // Limits may be read but not set: the pointer to the new limit must be null.
+    // Limits may be read but not set, so the pointer to the new limit must be null.
     calls.insert(
         libc::SYS_prlimit64,
         vec![SeccompRule::new(vec![SeccompCondition::new(
@@ -121,7 +121,7 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
 }
 
 /// Returns the calls that a compiler may make: it reads and writes files and starts programs, but
-/// has no network and cannot create namespaces.
+/// cannot use the network or create namespaces.
 fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[
         lists::COMMON,
@@ -143,11 +143,10 @@ fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
         libc::SYS_clone,
         vec![if_argument(0, masked(namespaces), 0)?],
     );
-    // Signals are allowed only within the process's own group, which is how the launcher kills that
-    // group.
+    // Only allow signals to the process's own group, which is how the launcher kills that group.
     calls.insert(libc::SYS_kill, vec![if_argument(0, SeccompCmpOp::Eq, 0)?]);
-    // Rust's standard library starts programs with the help of a socket pair. Sockets of this type
-    // stay connected, while a datagram socket could send messages to other sockets.
+    // Rust's standard library uses a socket pair to start programs. Sockets of this type stay
+    // connected, while a datagram socket could send messages to other sockets.
     let unix = SeccompCondition::new(
         0,
         SeccompCmpArgLen::Dword,
@@ -176,7 +175,7 @@ fn masked(mask: u64) -> SeccompCmpOp {
     SeccompCmpOp::MaskedEq(mask)
 }
 
-/// Returns a rule that holds if `operator` is true of the 32-bit argument and `value`.
+/// Returns a rule that compares the 32-bit argument with `value`.
 fn if_argument(
     argument: u8,
     operator: SeccompCmpOp,
@@ -186,7 +185,7 @@ fn if_argument(
     Ok(SeccompRule::new(vec![condition])?)
 }
 
-/// Returns one rule for each of `values`, which holds if the 32-bit argument equals that value.
+/// Returns a rule for each of `values` that is satisfied if the 32-bit argument equals that value.
 fn if_argument_in<const N: usize>(
     argument: u8,
     values: [u64; N],

@@ -1,4 +1,4 @@
-//! Tests with regular archives; helpers for all tests of archives.
+//! Tests with regular archives, and helpers for all archive tests.
 
 mod rejected;
 
@@ -54,7 +54,7 @@ fn collect_error(bytes: &[u8]) -> ArchiveError {
     }
 }
 
-/// Returns the listing of an archive of a class.
+/// Returns the listing of a class's archive.
 fn listing(bytes: &[u8]) -> Listing {
     let folder = folder(&[("a.tar", bytes)]);
     let archive = Archive::open(&folder.path().join("a.tar"), ArchiveLimits::class());
@@ -85,7 +85,7 @@ fn reads_zip_tar_and_tar_gz_alike() {
         collect("alice.zip", &zip(FILES)),
         collect("alice.TAR", &tar(FILES)),
         collect("alice.tar.gz", &gzip(&tar(FILES))),
-        // The bytes of a file decide, not its extension.
+        // The kind is determined by a file's bytes, not its extension.
         collect("alice.tgz", &zip(FILES)),
     ];
     for submission in all {
@@ -152,10 +152,10 @@ fn lists_folders_and_only_regular_files() {
         let regular = tar_with("a/bvh.rs", kind, b"x");
         assert_eq!(listing(&regular), (file.clone(), none(), 0));
     }
-    // Git stores the id of the commit in such a header.
+    // Git stores the commit's id in such a header.
     let comment = tar_with("pax_global_header", EntryType::XGlobalHeader, b"");
     assert_eq!(listing(&comment), (none(), none(), 0));
-    // The folder of a link is listed, so that its person can be told.
+    // The folder of a link is listed, so that its student can be informed.
     let link = tar_with("ann/bvh.rs", EntryType::Symlink, b"");
     assert_eq!(listing(&link), (none(), vec!["ann".to_owned()], 1));
 }
@@ -163,7 +163,7 @@ fn lists_folders_and_only_regular_files() {
 #[test]
 fn a_file_as_long_as_the_limit_is_read_in_full() {
     const LIMIT: usize = 1 << 20;
-    // A file that cannot be compressed takes more bytes in the archive than by itself.
+    // A file that cannot be compressed takes more bytes in the archive than on its own.
     let long = vec![b' '; LIMIT];
     let stored = tests::zip(&[("bvh.rs", &long)], CompressionMethod::Stored);
     for bytes in [stored, tar(&[("bvh.rs", &long)])] {
@@ -219,7 +219,7 @@ fn archives_in_archives_are_opened_down_to_a_level() {
     assert_eq!(refused, ArchiveError::TooDeep);
 }
 
-/// All archives of a submission share one budget, however small each of them is.
+/// All archives of a submission share one budget, no matter how small each of them is.
 #[test]
 fn archives_share_one_budget() {
     let too_many = |archives: usize, archive: &[u8]| {
@@ -232,7 +232,7 @@ fn archives_share_one_budget() {
     let work = zip(&[("bvh.rs", b"tree")]);
     assert_eq!(too_many(31, &work), None);
     assert_eq!(too_many(33, &work), Some(Limit::Archives));
-    // Archives that cannot be read count, too, and so do those in archives.
+    // Unreadable archives and nested archives are counted too.
     assert_eq!(too_many(33, b"Rar!\x1a\x07"), Some(Limit::Archives));
     let ten = packed(zip, (0..10).map(|n| format!("{n}.zip")), &work);
     assert_eq!(too_many(3, &ten), Some(Limit::Archives));

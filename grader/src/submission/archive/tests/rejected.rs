@@ -1,4 +1,4 @@
-//! Archives that are not read: damaged, malicious or too large ones.
+//! Archives that are rejected because they are damaged, malicious or too large.
 
 use super::*;
 
@@ -103,8 +103,8 @@ fn limits_how_much_an_archive_bomb_inflates() {
         assert_eq!(*text(&submission, "bvh.rs"), Err(TaskFileError::TooLong));
         assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
     }
-    // Members of a tar are inflated even if they are not requested. A gzip file may consist of several
-    // streams, so one compressed member, without the end of the tar, is repeated.
+    // Members of a tar are inflated even if they aren't requested. A gzip file may consist of
+    // several streams, so repeat one compressed member without the end of the tar.
     let header = 512;
     let part = gzip(&tar(&[("film.mp4", &zeros)])[..header + zeros.len()]);
     let too_large = ArchiveError::TooLarge(256 << 20);
@@ -125,7 +125,7 @@ fn rejects_archives_with_too_many_files() {
 
 #[test]
 fn reports_the_name_of_an_encrypted_file() {
-    // Sets the encryption bit in both headers of the only member.
+    // Set the encryption bit in both headers of the only member.
     let mut bytes = zip(&[("bvh.rs", b"tree")]);
     let mut fours = bytes.windows(4);
     let directory = fours.position(|four| four == b"PK\x01\x02").unwrap();

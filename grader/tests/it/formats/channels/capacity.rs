@@ -1,5 +1,5 @@
-//! The bits that reach students in any case, since points and verdicts depend on the answers.
-//! `SECURITY.md` states them.
+//! The number of bits that reach students in any case, since points and verdicts depend on the
+//! answers. It is documented in `SECURITY.md`.
 
 use std::fs;
 use std::path::Path;
@@ -26,7 +26,7 @@ const WITHOUT_POINTS: [Verdict; 7] = [
     Verdict::Protocol,
 ];
 
-/// Returns the number of results, without hints, that students can tell apart at a level.
+/// Returns the number of results, without hints, that students can distinguish at a level.
 fn distinct_results(score: &Score, item: &Item, level: &str) -> usize {
     let partial = (1..item.points).map(|points| (Verdict::Partial, points));
     let failed = WITHOUT_POINTS.map(|verdict| (verdict, 0));
@@ -48,7 +48,7 @@ fn distinct_results(score: &Score, item: &Item, level: &str) -> usize {
     seen.len()
 }
 
-/// Returns the number of sets of hints that an item can have, including the empty one. It is an
+/// Returns the number of sets of hints that an item can have, including the empty one. This is an
 /// upper bound, because the hints of a task must agree.
 fn sets_of_hints(item: &Item) -> usize {
     let choose = |from: usize, count: usize| {

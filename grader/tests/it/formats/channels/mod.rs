@@ -1,5 +1,5 @@
 //! Channels out of a final exam. When a submission's program is graded, it sees the questions.
-//! These tests send 32 known bits through everything that the program chooses, and count how many
+//! These tests send 32 known bits through everything the program can influence and count how many
 //! arrive in each output that students can read.
 
 mod capacity;
@@ -23,12 +23,12 @@ use tempfile::NamedTempFile;
 use crate::formats::{FormatTexts, rendered, small_exam};
 use sent::channels;
 
-/// The bits that are sent.
+/// The bits to send.
 const MESSAGE: u32 = 0x9e37_79b9;
 /// The item whose result carries the bits.
 const ITEM: &str = "sphere.near_side";
 
-/// The levels of visibility at which students do not see questions.
+/// The visibility levels that hide the questions from students.
 const CLOSED: [&str; 5] = [
     "feedback",
     "points",
@@ -46,7 +46,7 @@ fn policy(level: &str) -> Policy {
     Policy::from_text(Path::new("policy.toml"), &text).unwrap()
 }
 
-/// Returns the score of a final exam in which every item passed.
+/// Returns the score of a final exam where every item passed.
 fn all_passed() -> (Exam, Score) {
     let file = NamedTempFile::new().unwrap();
     std::fs::write(file.path(), small_exam("final")).unwrap();
@@ -66,13 +66,13 @@ fn item<'a>(exam: &'a Exam, id: &str) -> &'a Item {
     exam.items.iter().find(|item| item.id == id).unwrap()
 }
 
-/// Returns everything that students can read of a score.
+/// Returns everything students can read about a score.
 fn readable(score: &Score, policy: &Policy) -> FormatTexts {
     let view = StudentView::new(score, policy, Lateness::NONE);
     rendered(&view, &FormatContext::default())
 }
 
-/// Sends bits, and counts those that change an output when they are flipped.
+/// Sends bits and counts those that change an output when flipped.
 fn count_arrived(send: impl Fn(u32) -> Score, policy: &Policy) -> Arrived {
     let sent = readable(&send(MESSAGE), policy);
     let mut arrived: Arrived = sent.keys().map(|output| (*output, 0)).collect();
@@ -85,7 +85,7 @@ fn count_arrived(send: impl Fn(u32) -> Score, policy: &Policy) -> Arrived {
     arrived
 }
 
-/// Panics if an output changes with the bits that are sent through any channel.
+/// Panics if an output depends on the bits sent through any channel.
 fn assert_nothing_arrives(policy: &Policy) {
     let (exam, passed) = all_passed();
     let item = item(&exam, ITEM);
@@ -112,7 +112,7 @@ fn an_item_that_is_open_says_nothing_about_others_of_its_task() {
     assert_nothing_arrives(&policy);
 }
 
-/// Shows that the count works: students read everything about an exam that they have.
+/// Shows that counting works, since students can read everything about an exam they have.
 #[test]
 fn bits_arrive_where_students_see_everything() {
     let (exam, passed) = all_passed();

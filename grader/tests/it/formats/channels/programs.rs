@@ -1,5 +1,5 @@
-//! Real programs that send bits. Two submissions differ only in the bits that they send, so that
-//! students must not be able to tell their outputs apart.
+//! Real programs that send bits. Two submissions differ only in the bits they send, so students
+//! must not be able to tell their outputs apart.
 
 use serde_json::Value;
 
@@ -36,7 +36,7 @@ fn send() {
 "#;
 #[cfg(not(target_os = "linux"))]
 const WRITES_FRAMES: &str = EXITS;
-/// Sends bits as printed text, and as the time that it takes.
+/// Sends bits as printed text and as the time it takes.
 const PRINTS_AND_WAITS: &str = r#"
 fn send() {
     static ONCE: std::sync::Once = std::sync::Once::new();
@@ -47,7 +47,7 @@ fn send() {
     });
 }
 "#;
-/// Sends bits as wrong answers, and as the number of wrong answers.
+/// Sends bits as wrong answers and as the number of wrong answers.
 const ANSWERS_WRONGLY: &str = r#"
 fn send(mut trace: Trace) -> Trace {
     static COUNT: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(0);
@@ -81,8 +81,8 @@ fn sender(bits: u32) -> Submission {
     with(submission, "bvh.rs", head, "send();", PRINTS_AND_WAITS)
 }
 
-/// Returns the output without what differs in each run: the path of the output folder, and the
-/// progress of the first run on a machine.
+/// Returns the output without the parts that differ in each run: the path of the output folder and
+/// the progress of the first run on a machine.
 fn comparable(text: &str) -> String {
     let lines = text.lines().filter(|line| {
         let is_path = line.contains("/out/") || line.contains("\\out\\");

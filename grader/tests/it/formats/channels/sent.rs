@@ -1,4 +1,4 @@
-//! The channels: everything in a score that a submission's program chooses.
+//! The channels: everything in a score that a submission's program can influence.
 
 use grader::handed_out::RAYS;
 use grader::item_outcome::ItemOutcome;
@@ -9,9 +9,9 @@ use judging::exam::Item;
 use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use protocol::Panic;
 
-/// A place in a score into which a program can write bits.
+/// A part of a score that a program can write bits into.
 pub struct Channel {
-    /// The name, for people.
+    /// The human-readable name.
     pub name: &'static str,
     write: fn(&mut Score, &Item, u32),
 }
@@ -77,7 +77,8 @@ pub fn channels() -> Vec<Channel> {
         channel("answer with the reference's parts", |score, item, bits| {
             let outcome = ItemOutcome::answered(vec![failed(wrong("uv", &bits.to_string()), None)]);
             let line = item_score(item, &outcome, &RAYS);
-            // The program's own answer and the one with the reference's parts may both carry bits.
+            // The program's own answer and its answer with the reference's parts can both carry
+            // bits.
             let own = ItemScore {
                 message: bits.to_string(),
                 ..line.clone()
@@ -95,7 +96,7 @@ pub fn channels() -> Vec<Channel> {
     ]
 }
 
-/// Fails to compile if there is a new way in which a program can fail. Add a channel for each
+/// Fails to compile if there is a new way for a program to fail. If so, add a channel for each
 /// number and text in it.
 #[expect(dead_code, reason = "it only has to compile")]
 fn has_a_channel(fault: &Fault, failure: &FailureKind) {

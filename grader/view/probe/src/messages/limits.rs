@@ -1,5 +1,5 @@
-//! The limits of responses. They follow from the request, so a submission's program cannot make the
-//! viewer read, keep or show more than the scene needs.
+//! The limits on responses. They are derived from the request, so a submission's program cannot
+//! make the viewer read, keep or show more than the scene needs.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -9,7 +9,7 @@ use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
 use super::{Drawn, Quantity, Request, Response, TreeData, Values};
 
-/// The maximum number of values in a response: those of 16 samples of 64 × 64 pixels.
+/// The maximum number of values in a response: 16 samples of 64 × 64 pixels.
 pub const MAX_VALUES: usize = 1 << 16;
 /// The maximum number of panics in a response.
 pub const MAX_PANICS: usize = 64;
@@ -29,7 +29,7 @@ impl Request {
     pub fn max_response_bytes(&self) -> usize {
         let of_lists = match self {
             Request::Open(_) | Request::Aim(_) => 0,
-            // A pixel has a value, and can be in the list of a panic.
+            // A pixel has a value and can be in a panic's list.
             Request::Draw(draw) => draw.pixels().count() * (1 + TRACE_BYTES + 5),
             Request::Tree(size) => size.nodes as usize * NODE_BYTES + size.primitives as usize * 4,
             Request::Follow(follow) => {
@@ -37,13 +37,13 @@ impl Request {
             }
             Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
         };
-        // All lists of panics, and some numbers.
+        // All lists of panics plus some numbers.
         of_lists + MAX_PANICS * (PANIC_BYTES + 5) + 64
     }
 }
 
 impl Response {
-    /// Returns whether this answers the request, with as many values as it asks for.
+    /// Returns whether this answers the request with the requested number of values.
     pub fn answers(&self, request: &Request) -> bool {
         let is_whole = match (request, self) {
             (Request::Open(_), Response::Opened(_))
@@ -56,7 +56,7 @@ impl Response {
                         | (Quantity::Light { .. }, Values::Light(_))
                         | (Quantity::Tests, Values::Tests(_))
                 );
-                // A response without a pixel would be asked for again for ever.
+                // A response without pixels would be requested again forever.
                 let is_some = (1..=draw.pixels().count()).contains(&drawn.values.len());
                 of_quantity && is_some && has_possible_numbers(drawn)
             }
@@ -100,7 +100,7 @@ fn of_outcome<T>(outcome: &ElementOutcome<T>) -> Option<&Panic> {
     }
 }
 
-/// Returns whether the panics are in drawn pixels, and the sums of all numbers fit.
+/// Returns whether the panics are in drawn pixels, and no sum of numbers overflows.
 fn has_possible_numbers(drawn: &Drawn) -> bool {
     let mut indices = drawn.panics.iter().flat_map(|(_, indices)| indices);
     let count = drawn.values.len();
@@ -108,8 +108,8 @@ fn has_possible_numbers(drawn: &Drawn) -> bool {
         && drawn.rays.max(drawn.invalid_paths) <= u32::MAX.into()
 }
 
-/// Deserialises a list of at most `N` elements. A value can take a single byte on the wire and 56 in
-/// memory, so a limit in bytes is not enough.
+/// Deserialises a list of at most `N` elements. A value can take a single byte on the wire and 56
+/// in memory, so a limit in bytes isn't enough.
 pub(super) fn at_most<'de, T, D, const N: usize>(from: D) -> Result<Vec<T>, D::Error>
 where
     T: Deserialize<'de>,

@@ -1,5 +1,5 @@
-//! Requests of the viewer, and the probe's responses. They are framed like the grader's questions:
-//! see [`protocol::wire`].
+//! The viewer's requests and the probe's responses. They are framed like the grader's questions.
+//! See [`protocol::wire`].
 
 mod limits;
 mod recorded;
@@ -15,24 +15,24 @@ use limits::{at_most, fixed_width};
 pub use limits::{MAX_PANICS, MAX_VALUES};
 pub use recorded::{Followed, FollowedRay, Test};
 
-/// A request of the viewer.
+/// A request from the viewer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Request {
-    /// Replaces the scene, and builds the tree. All other requests need a scene.
+    /// Replaces the scene and builds the tree. All other requests need a scene.
     Open(Box<SceneData>),
-    /// Replaces the camera, and keeps the tree.
+    /// Replaces the camera and keeps the tree.
     Aim(Aim),
     /// Draws some pixels.
     Draw(Draw),
     /// Returns the tree, which has this size.
     Tree(TreeSize),
-    /// Records the tests of a ray or of a path.
+    /// Records the tests of a ray or a path.
     Follow(Follow),
-    /// Calls `BBox::hit` of boxes.
+    /// Calls `BBox::hit` on boxes.
     Boxes(BoxQueries),
 }
 
-/// A rectangle of the film, of which some pixels are drawn.
+/// A rectangle of the film where some pixels should be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Draw {
     /// The lower left pixel.
@@ -41,22 +41,22 @@ pub struct Draw {
     pub size: UVec2,
     /// Draws only pixels whose coordinates are multiples of this.
     pub stride: u32,
-    /// Leaves out pixels whose coordinates are multiples of this, because they have been drawn; 0
-    /// leaves out none.
+    /// Leaves out pixels whose coordinates are multiples of this, because they have already been
+    /// drawn. 0 leaves out none.
     pub drawn_stride: u32,
-    /// The number of samples to draw for each of these pixels, one after the other: rays of one pixel
-    /// need the same nodes, which are then in the cache.
+    /// The number of samples to draw for each of these pixels, one after the other. Rays of the
+    /// same pixel need the same nodes, which are then in the cache.
     pub passes: u32,
     /// The number of samples that have been drawn already.
     pub first: u32,
     /// The quantity to compute for each pixel.
     pub quantity: Quantity,
-    /// The time in milliseconds after which the probe returns the pixels that it has drawn. It
+    /// The time in milliseconds after which the probe returns the pixels it has drawn. It always
     /// draws at least one.
     pub milliseconds: u32,
 }
 
-/// The quantity that is computed for a pixel.
+/// The quantity to compute for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
     /// The hit of the ray through the centre of the pixel.
@@ -72,8 +72,8 @@ pub enum Quantity {
 }
 
 impl Draw {
-    /// Returns the pixels to draw, in order, without those that have been drawn already. With each
-    /// comes the number of the pass, from 0.
+    /// Returns the pixels to draw, in order, excluding those that have already been drawn. Each
+    /// comes with the number of its pass, from 0.
     pub fn pixels(self) -> impl Iterator<Item = (u32, UVec2)> {
         self.pixels_of_pass()
             .flat_map(move |pixel| (0..self.passes).map(move |pass| (pass, pixel)))
@@ -107,7 +107,7 @@ impl Draw {
 pub struct Follow {
     /// The ray or path.
     pub target: Target,
-    /// The maximum number of tests that are listed. All of them are counted.
+    /// The maximum number of tests to list. All tests are counted.
     pub max_tests: u32,
 }
 
@@ -149,7 +149,7 @@ pub enum Response {
     Tree(ElementOutcome<TreeData>),
     /// The response to `Follow`.
     Followed(Followed),
-    /// The response to `Boxes`: the part of the ray's range that is in each box, or `None`.
+    /// The response to `Boxes`: the part of the ray's range inside each box, or `None`.
     Spans(Vec<Option<Interval>>),
     /// There is no scene, or its tree could not be built.
     NotOpen,
@@ -158,7 +158,7 @@ pub enum Response {
 /// The result of opening a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
-    /// The parts of the submission that are not written yet, each with its panic.
+    /// The parts of the submission that haven't been written yet, each with its panic.
     #[serde(deserialize_with = "at_most::<_, _, MAX_PANICS>")]
     pub missing: Vec<(Part, Panic)>,
     /// The size of the tree, or the panic of `Bvh::build`.
@@ -182,7 +182,8 @@ pub enum Part {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TreeData(#[serde(with = "TreeDef")] pub Tree);
 
-/// The fields of [`Tree`], for `serde`. In memory, they take hardly more bytes than on the wire.
+/// The fields of [`Tree`], for `serde`. In memory, they take only slightly more bytes than on the
+/// wire.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Tree")]
 struct TreeDef {
@@ -206,16 +207,16 @@ pub struct TreeSize {
 pub struct Drawn {
     /// One value per pixel, in the order of [`Draw::pixels`].
     pub values: Values,
-    /// Each panic, with the indices of the pixels in which it occurred.
+    /// Each panic, with the indices of the pixels where it occurred.
     #[serde(deserialize_with = "at_most::<_, _, MAX_PANICS>")]
     pub panics: Vec<(Panic, Vec<u32>)>,
-    /// The number of rays that were traced.
+    /// The number of traced rays.
     pub rays: u64,
     /// The number of paths that are black because a hit was unusable.
     pub invalid_paths: u64,
 }
 
-/// The values of pixels. A pixel with a panic has a value without meaning.
+/// The values of pixels. The value of a pixel with a panic is meaningless.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Values {
     /// First hits.
@@ -236,7 +237,7 @@ impl Values {
         }
     }
 
-    /// Returns whether there are no pixels.
+    /// Returns whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -10,7 +10,7 @@ use super::limits::{MAX_RAYS, at_most};
 /// The recorded tests of a ray, or of all rays of a path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
-    /// The rays, in the order in which they were traced.
+    /// The rays, in the order they were traced.
     #[serde(deserialize_with = "at_most::<_, _, MAX_RAYS>")]
     pub rays: Vec<FollowedRay>,
     /// The radiance of the path.
@@ -24,8 +24,8 @@ pub struct Followed {
 pub struct FollowedRay {
     /// The ray that was passed to `Bvh::hit`.
     pub ray: Ray,
-    /// The result of `Bvh::hit`. `Trace::shape` is the index of the shape. `None` if it missed,
-    /// or panicked.
+    /// The result of `Bvh::hit`. `Trace::shape` is the index of the shape. `None` if it missed or
+    /// panicked.
     pub hit: Option<Trace>,
     /// The tests, in order. Tests beyond the maximum number are left out.
     pub tests: Vec<Test>,
@@ -54,19 +54,19 @@ pub enum Test {
         min: Vec3,
         /// The upper corner of the box.
         max: Vec3,
-        /// The `times` that were passed.
+        /// The `times` argument.
         times: Interval,
         /// The result.
         inside: Option<Interval>,
-        /// The address of the box. Nodes with equal boxes have different ones, if the traversal does
-        /// not copy them.
+        /// The address of the box. Nodes with equal boxes have different addresses unless the
+        /// traversal copies them.
         address: u64,
     },
     /// A call of `Primitive::hit`.
     Primitive {
         /// The index of the shape in the scene.
         shape: u32,
-        /// The range of the ray that was passed.
+        /// The range of the ray argument.
         range: Interval,
         /// The distance of the hit.
         distance: Option<f32>,

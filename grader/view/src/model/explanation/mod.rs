@@ -1,4 +1,4 @@
-//! The tests of a ray, or of all rays of a path, as the page shows them.
+//! The tests of a ray, or of all rays of a path, as shown on the page.
 
 mod remarks;
 mod types;
@@ -16,17 +16,17 @@ pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, Outcome}
 
 /// The scene that the rays are traced in.
 pub struct Context<'a> {
-    /// The tree, whose primitives are numbered.
+    /// The tree, with numbered primitives.
     pub tree: &'a TreeModel,
     /// All shapes.
     pub shapes: &'a [Shape],
-    /// Whether the shapes are tested as a list, because the question is not about a tree.
+    /// Whether the shapes are tested as a list, because the question isn't about a tree.
     pub is_list: bool,
-    /// The addresses of the nodes in memory, if it is known.
+    /// The addresses of the nodes in memory, if known.
     pub addresses: Option<NodeAddresses>,
 }
 
-/// Explains the rays of a recording. `spans` has the spans of the judged nodes, for each ray.
+/// Explains the rays of a recording. `spans` contains the spans of the judged nodes for each ray.
 pub fn explain(
     pixel: Option<UVec2>,
     sample: Option<u32>,
@@ -104,7 +104,7 @@ fn explain_ray(
     }
 }
 
-/// The state of a traversal while its tests are explained one after the other.
+/// The state of a traversal while explaining its tests one after the other.
 struct State {
     closest: Option<f32>,
     /// The closest hit after all tests. A node is often skipped long after its box was tested.
@@ -196,7 +196,7 @@ impl State {
     }
 }
 
-/// Returns the distance of the closest hit that the listed tests found.
+/// Returns the distance of the closest hit found by the listed tests.
 fn closest_hit(ray: &FollowedRay) -> Option<f32> {
     let distances = ray.tests.iter().filter_map(|test| match test {
         Test::Primitive { distance, .. } => *distance,

@@ -48,7 +48,7 @@ pub(super) fn remarks(
             "{again} {tests}: each primitive is in one leaf, so it needs to be tested only once."
         ));
     }
-    // Without all tests, the closest hit is not known.
+    // If some tests are missing, the closest hit is unknown.
     if tests.len() == all && primitives > 0 {
         match (closest, ray.hit) {
             (Some(closest), None) => notes.push(format!(

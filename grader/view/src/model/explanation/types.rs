@@ -1,4 +1,4 @@
-//! An explanation as it is sent to the page.
+//! An explanation as sent to the page.
 
 use glam::{UVec2, Vec3};
 use serde::Serialize;
@@ -12,7 +12,7 @@ pub struct Explanation {
     pub pixel: Option<UVec2>,
     /// The number of the path, or `None` for the ray through the centre.
     pub sample: Option<u32>,
-    /// The rays, in the order in which they were traced.
+    /// The rays, in the order they were traced.
     pub rays: Vec<ExplainedRay>,
     /// The radiance of the path.
     pub radiance: Option<Vec3>,
@@ -29,15 +29,15 @@ pub struct ExplainedRay {
     pub origin: Vec3,
     /// The direction.
     pub dir: Vec3,
-    /// The range; an infinite end is `None`.
+    /// The range. An infinite end is `None`.
     pub range: [Option<f32>; 2],
     /// The result of `Bvh::hit`.
     pub hit: Option<ExplainedHit>,
     /// The tests, in order.
     pub rows: Vec<ExplainedTest>,
-    /// The number of box tests, also of those that are not listed.
+    /// The number of box tests, including those that aren't listed.
     pub boxes: u32,
-    /// The number of primitive tests, also of those that are not listed.
+    /// The number of primitive tests, including those that aren't listed.
     pub primitives: u32,
     /// Remarks about all tests together.
     pub notes: Vec<String>,
@@ -57,9 +57,9 @@ pub struct ExplainedHit {
 /// A test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExplainedTest {
-    /// Whether a box was tested, and not a primitive.
+    /// Whether a box was tested, rather than a primitive.
     pub is_box: bool,
-    /// The nodes that have this box, or the leaf of the primitive.
+    /// The nodes with this box, or the leaf of the primitive.
     pub nodes: Vec<u32>,
     /// The level of the first of them.
     pub level: Option<u32>,
@@ -89,16 +89,17 @@ pub enum Outcome {
     Entered,
     /// The ray hits the box, but the node was not entered.
     NotEntered,
-    /// The ray hits the box, but it begins beyond the closest hit, and was not entered.
+    /// The ray hits the box, but the box begins beyond the closest hit, so the node was not
+    /// entered.
     SkippedBeyond,
-    /// The ray hits the box, but outside the `times` that were passed.
+    /// The ray hits the box, but outside the `times` argument.
     OutsideTimes,
     /// The ray misses the box.
     Missed,
     /// The primitive is the closest hit so far.
     Closest,
-    /// The primitive is hit, but not as the closest.
+    /// The primitive is hit, but isn't the closest.
     Farther,
-    /// The primitive is not hit.
+    /// The primitive isn't hit.
     NoHit,
 }

@@ -1,6 +1,6 @@
-//! Rules that every correct traversal keeps, checked without knowing a correct answer. They use the
-//! submission's own `BBox::hit`, and the margins of the exam: whatever is within 1 % of a box's
-//! diagonal is not judged.
+//! Rules that every correct traversal follows, checked without knowing a correct answer. They use
+//! the submission's own `BBox::hit` and the exam's margins: anything within 1 % of a box's diagonal
+//! isn't judged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,15 +11,15 @@ use view_probe::messages::{FollowedRay, Test};
 
 use crate::model::tree::TreeModel;
 
-/// The share of a box's diagonal within which nothing is judged.
+/// The margin where nothing is judged, as a share of a box's diagonal.
 const MARGIN: f32 = 0.01;
 
-/// The parts of the ray that are in a node's box.
+/// The parts of the ray inside a node's box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeSpan {
-    /// The part of the ray's range that is in the box, or `None` if it misses the box.
+    /// The part of the ray's range inside the box, or `None` if it misses the box.
     pub inside: Option<Interval>,
-    /// The same for a box that is larger by the margin on each side.
+    /// The same for a box enlarged by the margin on each side.
     pub inside_larger: Option<Interval>,
 }
 
@@ -28,10 +28,10 @@ pub struct NodeSpan {
 pub struct Row {
     /// The nodes whose box was tested: several if their boxes are equal. For a primitive, its leaf.
     pub nodes: Vec<u32>,
-    /// The node that has been entered with this test, if it was not entered before: the parent of
-    /// the tested box, or the primitive's leaf.
+    /// The node entered with this test, unless it was entered before: the parent of the tested box,
+    /// or the primitive's leaf.
     pub enters: Option<u32>,
-    /// Nodes that may have been entered with this test: the parents, if several nodes have the
+    /// Nodes that may have been entered with this test, i.e. the parents if several nodes share the
     /// tested box.
     pub may_enter: Vec<u32>,
 }
@@ -40,15 +40,15 @@ pub struct Row {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
-    /// A node whose box the ray misses is not entered.
+    /// A node whose box the ray misses isn't entered.
     MissedBox,
-    /// A node whose box begins beyond the closest hit so far is not entered.
+    /// A node whose box begins beyond the closest hit so far isn't entered.
     BeyondClosestHit,
-    /// Of two children whose boxes the ray hits, the one that it enters first is visited first.
+    /// If the ray hits the boxes of both children, the one it enters first is visited first.
     FartherChildFirst,
 }
 
-/// The place of a submission's nodes in memory, to tell nodes with equal boxes apart.
+/// The locations of a submission's nodes in memory, for telling nodes with equal boxes apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeAddresses {
     /// The address of the box of node 0.
@@ -58,8 +58,8 @@ pub struct NodeAddresses {
 }
 
 impl NodeAddresses {
-    /// Finds the addresses from the tests of nodes whose boxes no other node has. Returns `None` if
-    /// they are not those of a list of nodes, because the traversal copies the nodes.
+    /// Finds the addresses from the tests of nodes with unique boxes. Returns `None` if they don't
+    /// form a list of nodes because the traversal copies the nodes.
     pub fn find<'a>(tests: impl Iterator<Item = &'a Test>, tree: &TreeModel) -> Option<Self> {
         let known = tests.filter_map(|test| match test {
             Test::Box {
@@ -130,8 +130,8 @@ pub fn rows(ray: &FollowedRay, tree: &TreeModel, addresses: Option<NodeAddresses
     rows
 }
 
-/// Returns the nodes whose spans [`broken_rules`] and the explanation need: all that are entered, their
-/// siblings, and those whose boxes are tested.
+/// Returns the nodes whose spans are needed by [`broken_rules`] and the explanation: all entered
+/// nodes, their siblings, and nodes whose boxes are tested.
 pub fn judged_nodes(rows: &[Row], tree: &TreeModel) -> BTreeSet<u32> {
     let entered = rows.iter().filter_map(|row| row.enters);
     let judged = entered.flat_map(|node| [Some(node), tree.sibling(node)]);
@@ -139,15 +139,15 @@ pub fn judged_nodes(rows: &[Row], tree: &TreeModel) -> BTreeSet<u32> {
     judged.chain(tested).flatten().collect()
 }
 
-/// Returns the corners of a node's box, and those of a box that is larger by the margin.
+/// Returns the corners of a node's box and of a box enlarged by the margin.
 pub fn corners_with_margin(node: u32, tree: &TreeModel) -> Option<[(Vec3, Vec3); 2]> {
     let node = tree.node(node)?;
     let margin = MARGIN * diagonal(node);
     Some([(node.min, node.max), (node.min - margin, node.max + margin)])
 }
 
-/// Returns, for each test of a ray, the rule that is broken with it, if one is, and the node that
-/// should not have been entered then. `spans` has the spans of the judged nodes.
+/// Returns, for each test of a ray, the rule broken by it, if any, and the node that shouldn't have
+/// been entered. `spans` contains the spans of the judged nodes.
 pub fn broken_rules(
     ray: &FollowedRay,
     rows: &[Row],
@@ -158,7 +158,7 @@ pub fn broken_rules(
     let mut visited = BTreeSet::new();
     let mut broken = Vec::new();
     for (row, test) in rows.iter().zip(&ray.tests) {
-        // The root has no sibling, and its box need not be tested.
+        // The root has no sibling, and its box doesn't need to be tested.
         let judged = row.enters.filter(|node| *node != tree.tree.root);
         let rule = judged.and_then(|node| broken_rule(node, closest, &visited, tree, spans));
         broken.push(rule.zip(judged));
@@ -198,7 +198,7 @@ fn broken_rule(
     let parent = tree.node(tree.parent(node)?)?;
     let other = tree.sibling(node)?;
     let of_other = spans.get(&other)?.inside?;
-    // A visit of an empty leaf tests nothing, so it cannot be seen.
+    // A visit to an empty leaf tests nothing, so it can't be observed.
     if tree.count(other) == 0 {
         return None;
     }

@@ -4,8 +4,8 @@ use view_probe::messages::TestCounts;
 
 use super::*;
 
-/// Three leaves in a row along x: 1 at 0..1, 2 at 2..3, 3 at 2..3 but far above; 4 is the parent
-/// of 2 and 3.
+/// Three leaves in a row along x: 1 at 0..1, 2 at 2..3, and 3 at 2..3 but far above. 4 is the
+/// parent of 2 and 3.
 fn tree() -> TreeModel {
     let node = |min: Vec3, max, start, size, l, r| TreeNode::new(min, max, start, size, l, r);
     TreeModel::new(Tree {
@@ -21,8 +21,8 @@ fn tree() -> TreeModel {
     })
 }
 
-/// Returns a test: `b2` of the box of node 2, `p1` of primitive 1, which is missed, `p1:3.5` of one
-/// that is hit at 3.5.
+/// Parses a test: `b2` is a test of node 2's box, `p1` one of primitive 1, which is missed, and
+/// `p1:3.5` one with a hit at 3.5.
 fn test(text: &str) -> Test {
     let (kind, rest) = text.split_at(1);
     let (number, distance) = rest.split_once(':').unwrap_or((rest, ""));
@@ -44,7 +44,7 @@ fn test(text: &str) -> Test {
     }
 }
 
-/// Returns the rules that these tests of a ray along x break, with the nodes.
+/// Returns the rules broken by these tests of a ray along x, with the nodes.
 fn broken(tests: &str) -> Vec<(Rule, u32)> {
     let ray = FollowedRay {
         ray: Ray::new(vec3(-1.0, 0.5, 0.5), Vec3::X),

@@ -11,10 +11,10 @@ use serde::Serialize;
 
 pub use strip::Bar;
 
-/// The maximum number of nodes that are listed for one box.
+/// The maximum number of nodes to list for one box.
 const MAX_EQUAL: usize = 100;
-/// The number of leaves that are read for each primitive, on average. More would take too long if
-/// all leaves hold all primitives.
+/// The maximum number of leaves to read per primitive, on average. More would take too long if all
+/// leaves contain all primitives.
 const MAX_LEAVES: usize = 64;
 
 /// A tree with facts about its nodes.
@@ -22,9 +22,9 @@ const MAX_LEAVES: usize = 64;
 pub struct TreeModel {
     /// The tree.
     pub tree: Tree,
-    /// The parent of each node; `None` for the root and for nodes that are not reached from it.
+    /// The parent of each node. `None` for the root and for nodes that aren't reached from it.
     parents: Vec<Option<u32>>,
-    /// The level of each node, 0 for the root; `None` for nodes that are not reached from it.
+    /// The level of each node, 0 for the root. `None` for nodes that aren't reached from it.
     levels: Vec<Option<u32>>,
     /// The number of primitives in the leaves below each node.
     counts: Vec<u32>,
@@ -32,14 +32,14 @@ pub struct TreeModel {
     order: Vec<u32>,
     /// The number of levels.
     depth: u32,
-    /// The leaf that holds each primitive, by its number: the first in depth-first
-    /// order.
+    /// The leaf that contains each primitive, by the primitive's number: the first one in
+    /// depth-first order.
     leaves: HashMap<u32, u32>,
-    /// The nodes in the order of the bits of their boxes.
+    /// The nodes, sorted by the bits of their boxes.
     by_box: Vec<u32>,
 }
 
-/// A node as it is shown on the page.
+/// A node as shown on the page.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NodeInfo {
     /// Its index in the submission's list of nodes.
@@ -58,18 +58,18 @@ pub struct NodeInfo {
     pub leaf: bool,
     /// The number of primitives below it.
     pub primitives: u32,
-    /// The area of its box as a share of the root's: the probability that a ray that hits the root's
-    /// box hits this one.
+    /// The area of its box as a share of the root's, i.e. the probability that a ray that hits the
+    /// root's box also hits this one.
     pub area: f32,
-    /// Its own part of the expected number of tests of a ray that hits the root's box.
+    /// Its own contribution to the expected number of tests for a ray that hits the root's box.
     pub cost: f32,
-    /// In an interior node, the expected number of children whose boxes a ray hits that hits this
-    /// one: less than 1 if they leave much of it empty, 2 if both fill it.
+    /// In an interior node, the expected number of children hit by a ray that hits this node's box:
+    /// less than 1 if the children leave much of the box empty, 2 if both fill it.
     pub overlap: Option<f32>,
 }
 
 impl TreeModel {
-    /// Computes the facts about a tree, in time `n log n`, whatever its nodes refer to.
+    /// Computes the facts about a tree in time `n log n`, no matter what its nodes refer to.
     pub fn new(tree: Tree) -> Self {
         let nodes = tree.nodes.len();
         let mut model = TreeModel {
@@ -91,7 +91,7 @@ impl TreeModel {
         model
     }
 
-    /// Visits each node that can be reached from the root once, and fills in the lists.
+    /// Visits each node that can be reached from the root once and fills in the lists.
     fn visit(&mut self) {
         let mut stack = vec![(self.tree.root, None, 0)];
         let mut left = MAX_LEAVES * self.tree.order.len();
@@ -100,7 +100,7 @@ impl TreeModel {
                 continue;
             };
             let slot = &mut self.levels[index as usize];
-            // A node that has been visited has another parent, too, or the tree has a cycle.
+            // A node that was already visited has a second parent, or the tree contains a cycle.
             if slot.is_some() {
                 continue;
             }
@@ -132,7 +132,7 @@ impl TreeModel {
         }
     }
 
-    /// Returns whether there is a node.
+    /// Returns whether the tree contains any nodes.
     pub fn has_nodes(&self) -> bool {
         !self.order.is_empty()
     }
@@ -157,8 +157,8 @@ impl TreeModel {
         self.tree.nodes.get(index as usize)
     }
 
-    /// Returns the nodes whose boxes are exactly this one, in depth-first order. Of very many, only
-    /// the first are returned.
+    /// Returns the nodes whose boxes are exactly this one, in depth-first order. If there are very
+    /// many, only the first are returned.
     pub fn with_box(&self, min: Vec3, max: Vec3) -> &[u32] {
         let wanted = bits_of(min, max);
         let of = |node: &u32| bits(&self.tree.nodes[*node as usize]);
@@ -168,13 +168,13 @@ impl TreeModel {
         &rest[..rest.partition_point(|node| of(node) == wanted)]
     }
 
-    /// Returns whether a node is reached from the root, and its box is exactly this one.
+    /// Returns whether a node is reached from the root and its box is exactly this one.
     pub fn has_box(&self, node: u32, min: Vec3, max: Vec3) -> bool {
         let is_equal = |node: &TreeNode| bits(node) == bits_of(min, max);
         self.level(node).is_some() && self.node(node).is_some_and(is_equal)
     }
 
-    /// Returns the leaf that holds the primitive with this number.
+    /// Returns the leaf that contains the primitive with this number.
     pub fn leaf_of(&self, number: u32) -> Option<u32> {
         self.leaves.get(&number).copied()
     }
@@ -185,7 +185,7 @@ impl TreeModel {
         Some(if parent.l == node { parent.r } else { parent.l })
     }
 
-    /// Returns what the page shows of a node.
+    /// Returns the information about a node for the page.
     pub fn info(&self, index: u32) -> Option<NodeInfo> {
         let node = self.node(index)?;
         let (leaf, primitives) = (node.is_leaf(), self.count(index));
@@ -212,8 +212,8 @@ impl TreeModel {
         })
     }
 
-    /// Returns the expected number of tests of a ray that hits the root's box, when a step down and
-    /// a primitive cost one each.
+    /// Returns the expected number of tests for a ray that hits the root's box, if a step down and
+    /// a primitive each cost one.
     pub fn cost(&self) -> f32 {
         self.order
             .iter()
@@ -222,8 +222,8 @@ impl TreeModel {
             .sum()
     }
 
-    /// Returns the nodes of one level, or, with `below`, of all levels from it down; those with the
-    /// largest boxes first, and at most `most` of them. Also returns the number of all.
+    /// Returns the nodes of one level or, with `below`, of all levels from it down. Those with the
+    /// largest boxes come first, and at most `most` are returned. Also returns the total number.
     pub fn at_level(&self, level: u32, below: bool, most: usize) -> (Vec<NodeInfo>, usize) {
         let is_shown = |node: &&u32| match self.level(**node) {
             Some(of_node) if below => of_node >= level,
@@ -239,7 +239,7 @@ impl TreeModel {
         self.largest(below_root, most, |node| node.cost).0
     }
 
-    /// Returns the nodes with the largest values, and the number of all.
+    /// Returns the nodes with the largest values and the total number.
     fn largest<'a>(
         &self,
         nodes: impl Iterator<Item = &'a u32>,

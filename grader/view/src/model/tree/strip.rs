@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::TreeModel;
 
-/// The number of levels in the strip. More cannot be told apart on a screen.
+/// The number of levels in the strip. More levels can't be told apart on a screen.
 const STRIP_LEVELS: u32 = 256;
 
 /// A bar of the strip that shows the tree by levels.
@@ -23,15 +23,15 @@ pub struct Bar {
 }
 
 impl TreeModel {
-    /// Returns the bars of the strip. Of the bars that are narrower than `narrowest`, one is returned
-    /// for each such width, so that there are not more than can be seen. Of a very deep tree, only the
+    /// Returns the bars of the strip. If bars are narrower than `narrowest`, only one is returned
+    /// per that width, so that there are no more than can be seen. For a very deep tree, only the
     /// first levels are returned.
     pub fn strip(&self, narrowest: f32) -> Vec<Bar> {
         let total = self.count(self.tree.root).max(1) as f32;
         let mut bars = Vec::new();
         let mut starts = vec![0; self.tree.nodes.len()];
-        // The right ends of each level's bars so far. The order is depth-first, so it is from left to
-        // right in each level.
+        // The right ends of each level's bars so far. The traversal is depth-first, so it goes from
+        // left to right in each level.
         let mut ends = vec![0.0; self.levels() as usize];
         for index in self.order.iter().copied() {
             let node = &self.tree.nodes[index as usize];

@@ -1,6 +1,7 @@
 use super::*;
 
-/// A root with an interior node (whose children hold 1 and 2 primitives) and a leaf with 1.
+/// Returns a root with an interior node (whose children contain 1 and 2 primitives) and a leaf with
+/// 1.
 fn tree() -> Tree {
     let node = |low: f32, high: f32, start, size, l, r| {
         TreeNode::new(Vec3::splat(low), Vec3::splat(high), start, size, l, r)
@@ -83,8 +84,8 @@ fn invalid_trees_are_shown_as_far_as_they_are_trees() {
     assert!(!TreeModel::new(Tree::default()).has_nodes());
 }
 
-/// A tree of this many interior nodes, each with a leaf and the next one as children. All leaves have
-/// this range of primitives.
+/// Returns a tree of this many interior nodes. The children of each are a leaf and the next
+/// interior node. All leaves have this range of primitives.
 fn chain(interior: usize, start: u32, size: u32, primitives: u32) -> Tree {
     let leaf = |_| TreeNode {
         start,
@@ -129,7 +130,7 @@ fn a_million_levels_and_equal_leaves_take_no_longer_than_other_trees() {
         assert_eq!(model.worst(9).len(), 9);
         assert!(model.strip(0.01).len() < 30_000);
     }
-    // Quadratic code takes minutes.
+    // Quadratic code would take minutes.
     assert!(started_at.elapsed().as_secs() < 60);
 }
 

@@ -5,7 +5,7 @@ use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 
 use crate::handout::pages::Page;
 
-/// Returns the chapter with its formulas as MathML.
+/// Returns the chapter with its formulas converted to MathML.
 pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String> {
     let formula_error = |formula: &str, problem: String| {
         let formula = formula.trim();
@@ -14,7 +14,7 @@ pub fn render_formulas(chapter: &str, markdown: &str) -> Result<String> {
     let converter = LatexToMathML::new(MathCoreConfig::default())
         .map_err(|problem| formula_error("", format!("{problem:?}")))?;
     let mut text = markdown.to_owned();
-    // From the end, so that the ranges of earlier formulas stay valid.
+    // Start from the end, so that the ranges of earlier formulas stay valid.
     let formulas = Page::new(chapter, markdown).formulas;
     for (range, latex, is_display) in formulas.into_iter().rev() {
         let display = if is_display {

@@ -1,5 +1,4 @@
-//! Builds the handout as a book. Its pages need neither the network nor any scripts except the
-//! book's own.
+//! Builds the handout as a book. Its pages need no network and no scripts except the book's own.
 
 mod formulas;
 mod pages;
@@ -39,7 +38,8 @@ fn driver_error(error: Error) -> anyhow::Error {
     anyhow!("mdBook: {error:#}")
 }
 
-/// Builds the book of the chapters in a bundle, which has none for instructors, into the folder `to`.
+/// Builds the book of a bundle's chapters, which exclude those for instructors, into the folder
+/// `to`.
 pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     let mut chapters = Bundle::default();
     let of_handout = bundle
@@ -54,7 +54,8 @@ pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     build(sources.path(), to)
 }
 
-/// Replaces formulas with MathML, and figures, which are in `chapters`, with inline SVG.
+/// Replaces formulas with MathML, and figures with inline SVG. `chapters` is the folder of the
+/// figures.
 fn render_chapters(book: &mut Book, chapters: &Path) -> Result<()> {
     let mut result = Ok(());
     book.for_each_mut(|item| {
@@ -109,7 +110,7 @@ mod tests {
         assert_eq!(mentions(students.path()), [""; 0]);
         assert!(students.path().join("sphere.html").is_file());
         assert!(!students.path().join("gradescope.html").exists());
-        // With the book, the bundle has everything that students read.
+        // With the book, the bundle contains everything students read.
         Bundle::collect(&root, &RAYS, Some(students.path())).unwrap();
     }
 }

@@ -7,7 +7,7 @@ use pulldown_cmark::{Event, Parser, Tag};
 
 use crate::handout::pages::options;
 
-/// Returns the chapter with its SVG figures, whose files are below the folder `chapters`, inline.
+/// Returns the chapter with its SVG figures inlined. Their files are in the folder `chapters`.
 pub fn inline_figures(markdown: &str, chapters: &Path) -> Result<String, PathError> {
     let mut pictures = Vec::new();
     for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
@@ -19,7 +19,7 @@ pub fn inline_figures(markdown: &str, chapters: &Path) -> Result<String, PathErr
     for (range, file) in pictures.into_iter().rev() {
         if file.ends_with(".svg") {
             let svg = files::read_to_string(chapters.join(file))?;
-            // On one line, since an empty line would end the HTML block.
+            // Put the figure on one line, since an empty line would end the HTML block.
             let lines: Vec<&str> = svg.lines().map(str::trim).collect();
             text.replace_range(range, &format!("<figure>{}</figure>", lines.concat()));
         }

@@ -1,7 +1,7 @@
 //! Simulates a platform's machine: a root directory with only this system's programs, no network,
 //! the platform's user and capabilities, half a core and 768 MiB.
 //!
-//! This needs root, directly or with `sudo`.
+//! This needs root privileges, directly or via `sudo`.
 
 use std::env;
 use std::fs::{self, Permissions};
@@ -15,7 +15,7 @@ use grader::files::{self, AtPath};
 
 /// The script that runs a command on the simulated machine.
 const ENTER_SCRIPT: &str = include_str!("../templates/trial/machine.sh");
-/// The script in place of `cargo` and `rustc` on a machine with rustup.
+/// The script that stands in for `cargo` and `rustc` on a machine with rustup.
 const PROXY_SCRIPT: &str = include_str!("../templates/trial/rust_proxy.sh");
 /// The script that runs a command with limited CPU time and memory.
 const LIMIT_SCRIPT: &str = include_str!("../templates/trial/limits.sh");
@@ -24,7 +24,7 @@ const SYSTEM_PATH: &str = "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin";
 /// The arguments of `unshare` for the machine's own namespaces.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
 const NO_CARGO: &str = "CARGO is not set: run `cargo author package … --check`";
-/// The exit code of [`LIMIT_SCRIPT`] if there are no usable control groups.
+/// The exit code of [`LIMIT_SCRIPT`] if control groups cannot be used.
 const NO_LIMITS_CODE: i32 = 125;
 
 /// The result of a command.
@@ -45,7 +45,7 @@ pub struct JobResult {
 pub struct ResourceUsage {
     /// The CPU time.
     pub cpu: Duration,
-    /// The peak memory, in bytes. `None` if the system does not report it.
+    /// The peak memory, in bytes. `None` if the system doesn't report it.
     pub peak_memory: Option<u64>,
 }
 
@@ -55,14 +55,14 @@ pub struct Machine {
     /// The machine's root directory, as a path on the host.
     pub root: PathBuf,
     toolchain: PathBuf,
-    /// The words that are put before a command to run it as root: none, or `sudo -n`.
+    /// The prefix for running a command as root: empty, or `sudo -n`.
     root_prefix: Vec<&'static str>,
     is_limited: bool,
 }
 
 impl Machine {
-    /// Creates an empty machine in the folder `root`. Prints the reason and returns `None` if this
-    /// system cannot simulate a machine.
+    /// Creates an empty machine in the folder `root`. If this system cannot simulate a machine,
+    /// prints the reason and returns `None`.
     pub fn create(root: &Path) -> Result<Option<Self>> {
         let cargo = env::var_os("CARGO").unwrap_or_default();
         let toolchain = Path::new(&cargo).parent().and_then(Path::parent);
@@ -88,7 +88,8 @@ impl Machine {
     }
 
     /// Installs Rust for root as rustup does: with proxies that look for the toolchain in the home
-    /// folder. Returns the setting of `PATH` with these proxies, and without the toolchain itself.
+    /// folder. Returns the value of `PATH` that contains these proxies, but not the toolchain
+    /// itself.
     pub fn install_rustup(&self) -> Result<String> {
         let toolchains = self.host_path("root/.rustup/toolchains");
         files::create_dir_all(&toolchains)?;
@@ -110,19 +111,19 @@ impl Machine {
         self.root.join(path.trim_start_matches('/'))
     }
 
-    /// Removes a folder of the host, regardless of its owner.
+    /// Removes a folder on the host, regardless of its owner.
     pub fn remove(&self, folder: &Path) -> Result<()> {
         let mut command = self.root_command("rm");
         command.arg("-rf").arg(folder);
         Ok(command.status().map(drop).at("remove", folder)?)
     }
 
-    /// Runs a command in a folder of the machine, with the platform's environment variables
+    /// Runs a command in a folder on the machine, with the platform's environment variables
     /// `NAME=value`.
     ///
-    /// The user is `container`, which is root with the capabilities of a Docker container, or `runner`,
-    /// the user of GitHub's runners. With limits, the command gets half a core and 768 MiB. A platform
-    /// builds an image without limits.
+    /// `user` is `container`, i.e. root with the capabilities of a Docker container, or `runner`,
+    /// the user of GitHub's runners. With limits, the command gets half a core and 768 MiB. A
+    /// platform builds an image without limits.
     pub fn run(
         &self,
         user: &str,
@@ -187,8 +188,8 @@ impl ResourceUsage {
     }
 }
 
-/// Prints that the trial, or a part of it, is skipped for this reason, or returns an error if `CI`
-/// is set.
+/// Reports that (part of) the trial is skipped for this reason. Returns an error instead if `CI` is
+/// set.
 fn skip_or_fail(reason: &str) -> Result<()> {
     match env::var_os("CI") {
         Some(_) => bail!("{reason}; trials are not skipped while CI is set"),
@@ -199,7 +200,7 @@ fn skip_or_fail(reason: &str) -> Result<()> {
     }
 }
 
-/// Returns whether namespaces can be created by a command with this prefix.
+/// Returns whether a command with this prefix can create namespaces.
 fn can_unshare(prefix: &[&'static str]) -> bool {
     let result = prefixed_command(prefix, "unshare")
         .args(NAMESPACES)

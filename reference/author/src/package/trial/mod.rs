@@ -1,5 +1,5 @@
-//! Trials of packages: each package is set up and run as on its platform, with submissions whose
-//! points are known.
+//! Trials of packages. Each package is set up and run as on its platform, with submissions of known
+//! points.
 
 mod machine;
 mod setup;
@@ -22,15 +22,15 @@ use crate::package::trial::submission::{REACHED, TrialSubmission, submissions};
 
 /// The folder of trials, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package";
-/// Grades the last submission for Gradescope without isolation.
+/// The command that grades the last submission for Gradescope without isolation.
 const GRADE_WITHOUT_ISOLATION: &str = "cd /opt/pathtracing && source ./environment && \
     CARGO_HOME=/opt/pathtracing/crates target/release/grader /autograder/submission \
     --isolation=none --exam=exam.json --out=target/open";
 /// The score file that Gradescope's script writes for staff.
 const SCORE_FILE: &str = "/opt/pathtracing/target/graded/score.json";
 
-/// Runs the trial of a package, which was written to `path`, and returns the problems found. If this
-/// system cannot imitate a platform's machine, only checks that the package is complete.
+/// Runs the trial of the package at `path` and returns the problems found. If this system cannot
+/// simulate a platform's machine, only checks that the package is complete.
 pub fn check(
     authoring: &Authoring,
     workspace: &Path,
@@ -64,9 +64,9 @@ pub fn check(
     Ok(problems)
 }
 
-/// Prints the time that a submission took, and returns a problem if it is more than half of the
-/// platform's limit. This time is estimated from the CPU time, assuming that the submission gets
-/// half a core, so it does not depend on the load of this machine.
+/// Prints the time a submission took. Returns a problem if it is more than half of the platform's
+/// limit. The time is estimated from the CPU time for half a core, so it doesn't depend on this
+/// machine's load.
 fn time_problem(name: &str, job: &JobResult, limit: Duration) -> Option<String> {
     let wall_time = job.wall_time.as_secs_f64();
     let Some(usage) = job.usage else {
@@ -89,8 +89,8 @@ fn time_problem(name: &str, job: &JobResult, limit: Duration) -> Option<String> 
     })
 }
 
-/// Returns the problem with the result of a submission, if there is one: it has other points, or
-/// its attack has read a file.
+/// Returns the problem with a submission's result, if any: its points are wrong, or its attack
+/// managed to read a file.
 fn problem(
     machine: &Machine,
     setup: &Setup,
@@ -116,8 +116,8 @@ fn problem(
     Some(format!("{} has read a file:\n{stolen}", submission.name))
 }
 
-/// Returns a problem if the last submission, which attacks, reads nothing even without isolation:
-/// its failure would then prove nothing.
+/// Returns a problem if the last submission, an attack, cannot read anything even without
+/// isolation. Its failure with isolation would then prove nothing.
 fn harmless_attack(machine: &Machine, setup: &Setup) -> Result<Option<String>> {
     let command = ["bash", "-c", GRADE_WITHOUT_ISOLATION].map(str::to_owned);
     let job = setup.run(machine, false, &command)?;

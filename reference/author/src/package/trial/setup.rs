@@ -13,16 +13,16 @@ use crate::bundle::{Bundle, archive, crates};
 use crate::package::Platform;
 use crate::package::trial::machine::{JobResult, Machine};
 
-/// The metadata file that Gradescope provides with a submission. It does not affect the score.
+/// The metadata file that Gradescope provides with a submission. It doesn't affect the score.
 const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08:00", "users": [
 {"email": "alice@example.edu", "id": 7, "name": "Alice"}], "assignment": {"id": 3, "course_id": 2,
 "title": "Path Tracer", "due_date": "2026-11-21T00:00:00.000000-08:00", "late_due_date": null,
 "release_date": "2026-11-01T00:00:00.000000-08:00", "group_submission": false, "group_size": null,
 "total_points": "100.0"}, "submission_method": "upload", "previous_submissions": []}"#;
-/// The folder in which GitHub's runners check out a repository with this name.
+/// The folder where GitHub's runners check out a repository with this name.
 const CHECKOUT: &str = "/home/runner/work/pathtracing/pathtracing";
 /// The environment variables of a step on GitHub's runners and on classroom50's. Cargo is offline,
-/// uses the crates in the home folder, and keeps compiled files for the next submission.
+/// uses the crates in the home folder and reuses compiled files for the next submission.
 const RUNNER_VARIABLES: [&str; 17] = [
     "CI=true",
     "GITHUB_ACTIONS=true",
@@ -42,7 +42,7 @@ const RUNNER_VARIABLES: [&str; 17] = [
     "COMMIT_URL=https://example.org/commit/a1b2c3d",
     "CLASSROOM50_BUNDLE_DIR=/home/runner/autograder",
 ];
-/// Commits the checkout, and runs a command there.
+/// Commits the checkout and runs a command there.
 const COMMIT_AND_RUN: &str = "git init --quiet && git add . && \
     git -c user.name=alice -c user.email=alice@example.org \
     commit --quiet --allow-empty --message submission && exec \"$@\"";
@@ -53,13 +53,13 @@ pub struct PlatformRun {
     user: &'static str,
     /// The working folder.
     pub folder: &'static str,
-    /// The folders that are made empty before each submission.
+    /// The folders to empty before each submission.
     pub cleared: [&'static str; 2],
     /// The folder of the submission's task files.
     pub task_files: &'static str,
-    /// The file with the points, for the platform.
+    /// The file with the points that the platform reads.
     pub result: &'static str,
-    /// The exit code if there is nothing to grade.
+    /// The exit code when there is nothing to grade.
     pub empty_code: i32,
     /// The time limit for a submission.
     pub time_limit: Duration,
@@ -90,20 +90,20 @@ const GITHUB: PlatformRun = PlatformRun {
     time_limit: Duration::from_secs(20 * 60),
 };
 
-/// A package that is set up on a machine.
+/// A package set up on a machine.
 #[derive(Debug)]
 pub struct Setup {
     /// How the platform runs the package.
     pub run: PlatformRun,
-    /// The files in the working folder that come with each submission.
+    /// The files in the working folder that accompany each submission.
     pub checkout: Bundle,
-    /// The command that grades.
+    /// The grading command.
     pub command: Vec<String>,
     variables: Vec<String>,
 }
 
 impl Setup {
-    /// Sets up a package, which was written to `path`.
+    /// Sets up the package at `path`.
     pub fn new(
         machine: &Machine,
         platform: Platform,
@@ -147,8 +147,8 @@ impl Setup {
             run: GRADESCOPE,
             checkout: Bundle::default(),
             command: vec!["/autograder/run_autograder".to_owned()],
-            // Gradescope's own images have no Rust, and setup.sh downloads it. A course's image may
-            // have it.
+            // Gradescope's own images don't include Rust, so setup.sh downloads it. A course's
+            // image may include it.
             variables: vec![machine.install_rustup()?],
         };
         let script = ["bash", "/autograder/source/setup.sh"].map(str::to_owned);
@@ -174,7 +174,7 @@ impl Setup {
         })
     }
 
-    /// Runs a command as the platform does, with its limits or without.
+    /// Runs a command as the platform does, with or without its limits.
     pub fn run(
         &self,
         machine: &Machine,
@@ -186,8 +186,8 @@ impl Setup {
     }
 }
 
-/// Returns the points in a result: those of a complete `results.json` or `result.json`, or those in
-/// the heading of a summary. `None` if nothing was graded.
+/// Returns the points in a complete `results.json` or `result.json`, or in the heading of a
+/// summary. `None` if nothing was graded.
 pub fn points(result: &str) -> Option<u64> {
     if let Some(summary) = result.strip_prefix("## ") {
         return summary.split_once(" of 100 points")?.0.parse().ok();

@@ -1,4 +1,4 @@
-//! The submissions of a trial, and the points that they must get.
+//! The submissions of a trial and the points they must get.
 
 use std::path::Path;
 
@@ -80,7 +80,7 @@ fn with_attacks(
     } in attacks
     {
         let text = files::read_to_string(workspace.join(CORPUS).join(format!("{entry}.rs")))?;
-        // The entry's description is for the corpus.
+        // Drop the entry's description, which is for readers of the corpus.
         let code = text.lines().filter(|line| !line.starts_with("//!"));
         let mut attack: String = code.flat_map(|line| [line, "\n"]).collect();
         for (placeholder, path) in TARGETS {
@@ -95,7 +95,7 @@ fn with_attacks(
 }
 
 impl TrialSubmission {
-    /// Writes the submission's files into a folder, in place of the task files there.
+    /// Writes the submission's files into a folder, replacing the task files there.
     pub fn write_to(&self, handed_out: &HandedOut, folder: &Path) -> Result<()> {
         files::create_dir_all(folder)?;
         for name in handed_out.file_names() {

@@ -5,8 +5,8 @@ use judging::judge::{Deviation, Measurement, Threshold, measure};
 
 use crate::solutions::workbench::Answers;
 
-/// Returns the deviations of a correct solution from every threshold that applies. The cost of a
-/// tree is ignored for a solution that may lose points for it.
+/// Returns the deviations of a correct solution from every threshold that applies. A tree's cost is
+/// ignored for solutions that may lose points for it.
 pub(super) fn of_correct(item: &Item, answers: &Answers, may_lose: bool) -> Vec<Deviation> {
     let deviations = measure_all(item, answers)
         .into_iter()
@@ -48,7 +48,7 @@ mod tests {
 
     use super::*;
 
-    /// Returns an item with boxes that the ray enters at 1 and leaves at 2.
+    /// Returns an item about boxes that the ray enters at 1 and leaves at 2.
     fn item(questions: usize) -> Item {
         let query = Query {
             ray: Ray::new(Vec3::NEG_X, Vec3::X),

@@ -1,13 +1,13 @@
-//! The margins of every threshold: how far the answers of correct solutions and of mistakes are
-//! from it.
+//! The margins of every threshold, i.e. how far it is from the answers of correct solutions and of
+//! mistakes.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use judging::judge::{Deviation, Threshold};
 
-/// The minimum margin. It must be possible to make every threshold stricter or more lenient by this
-/// factor without a wrong result.
+/// The minimum margin. Making any threshold stricter or more lenient by this factor must not lead
+/// to a wrong result.
 pub const MIN_MARGIN: f64 = 1.5;
 
 /// The deviation of one solution in one item of one exam.
@@ -43,14 +43,14 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// Returns the factor by which the threshold could be made stricter before a correct answer
-    /// counts as wrong.
+    /// Returns how many times stricter the threshold could be made before a correct answer is
+    /// judged wrong.
     pub fn correct_margin(&self) -> f64 {
         let worst = self.worst_correct.as_ref();
         worst.map_or(f64::INFINITY, |worst| 1.0 / worst.deviation.value)
     }
 
-    /// Returns the factor by which the threshold could be made more lenient before an item stops
+    /// Returns how many times more lenient the threshold could be made before an item stops
     /// catching a mistake.
     pub fn mistake_margin(&self) -> f64 {
         let mildest = self.mildest_mistake.as_ref();
@@ -58,18 +58,18 @@ impl Margin {
     }
 }
 
-/// The purpose that a sample is kept for. For each purpose, one sample is kept: the nearest.
+/// The purpose of keeping a sample. For each purpose, only the nearest sample is kept.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum KeptFor {
     /// The largest deviation of a correct solution.
     WorstCorrect(Threshold),
     /// The smallest deviation of a mistake that the threshold catches.
     MildestMistake(Threshold),
-    /// A correct solution that fails an item for a reason that has no threshold. Holds the ids of the
-    /// solution and of the item.
+    /// A correct solution that fails an item for a reason without a threshold: the ids of the
+    /// solution and the item.
     FailedVariant(String, String),
-    /// A mistake that is caught with too small a margin, or not at all, by an item that it must
-    /// fail. Holds the ids of the mistake and of the item.
+    /// A mistake that an item it must fail catches with too small a margin or not at all: the ids
+    /// of the mistake and the item.
     WeakDetection(String, String),
 }
 
@@ -99,9 +99,9 @@ impl Margins {
         self.keep_nearest(kept_for, sample);
     }
 
-    /// Adds the deciding deviations of one mistake in one exam, in the items that it must fail.
-    /// Items that barely catch the mistake count only if no other item catches it clearly: the
-    /// lists of items are generated, and also contain items that are about something else.
+    /// Adds a mistake's deciding deviations in one exam, for the items it must fail. Items that
+    /// barely catch the mistake are only considered if no other item catches it clearly, because
+    /// the lists of items are generated and also contain items about something else.
     pub fn add_mistake_of_exam(&mut self, samples: Vec<DeviationSample>) {
         let is_clear = |sample: &DeviationSample| sample.deviation.value >= MIN_MARGIN;
         let is_caught = samples.iter().any(is_clear);
@@ -110,7 +110,7 @@ impl Margins {
         counted.for_each(|sample| self.add_mistake(sample));
     }
 
-    /// Adds the deciding deviation of a mistake in an item that it must fail.
+    /// Adds a mistake's deciding deviation in an item it must fail.
     fn add_mistake(&mut self, sample: DeviationSample) {
         let Deviation { threshold, value } = sample.deviation;
         if value < MIN_MARGIN {
@@ -122,7 +122,7 @@ impl Margins {
         }
     }
 
-    /// Keeps the sample, unless one that is as near is known.
+    /// Keeps the sample unless one that is at least as near is already kept.
     fn keep_nearest(&mut self, kept_for: KeptFor, sample: DeviationSample) {
         let is_nearer = |known: &DeviationSample| {
             let (new, old) = (sample.deviation.value, known.deviation.value);
@@ -134,7 +134,7 @@ impl Margins {
         }
     }
 
-    /// Returns the margins of both sets of samples together.
+    /// Returns the margins for both sets of samples combined.
     pub fn merge(mut self, other: Margins) -> Margins {
         for (kept_for, sample) in other.nearest {
             self.keep_nearest(kept_for, sample);

@@ -1,8 +1,8 @@
-//! Measures how far the exam's thresholds are from correct and from wrong answers.
+//! Measures the exam's margins: how far its thresholds are from correct and from wrong answers.
 //!
 //! Every variant is correct, so all of its answers must be well within the thresholds. Every
-//! mistake must be well beyond a threshold in at least one of the items that it must fail. The
-//! deviations are those that the judge computes for grading.
+//! mistake must be well beyond a threshold in at least one of the items it must fail. The
+//! deviations are those the judge computes for grading.
 
 mod deviations;
 pub mod margins;
@@ -26,7 +26,7 @@ pub const MANY_SEEDS: Range<u64> = 0..200;
 /// The default seeds for a check, which must be fast.
 pub const FEW_SEEDS: Range<u64> = 0..2;
 
-/// The margins of all thresholds, and the seeds and solutions that they were measured with.
+/// The margins of all thresholds, and the seeds and solutions used to measure them.
 #[derive(Clone, Debug)]
 pub struct Calibration {
     /// The seeds of the exams that the variants were graded with.
@@ -37,7 +37,7 @@ pub struct Calibration {
     pub variants: usize,
     /// The number of mistakes.
     pub mistakes: usize,
-    /// The margins that were measured.
+    /// The measured margins.
     pub margins: Margins,
 }
 

@@ -47,7 +47,7 @@ pub fn check(root: &Path, handed_out: &HandedOut) -> Result<()> {
     Ok(())
 }
 
-/// Returns the thresholds whose current values are not in the table.
+/// Returns the thresholds whose current values aren't in the table.
 fn outdated_thresholds(table: &str) -> Vec<&'static str> {
     let is_current = |threshold: &Threshold| {
         let start = row_start(*threshold);
@@ -96,7 +96,7 @@ fn seed_range(seeds: &Range<u64>) -> String {
     }
 }
 
-/// Returns the columns of a row that do not depend on the measurement.
+/// Returns the columns of a row that don't depend on the measurement.
 fn row_start(threshold: Threshold) -> String {
     format!(
         "| {} | {} | `{}` |",

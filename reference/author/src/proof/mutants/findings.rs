@@ -1,4 +1,4 @@
-//! The outcomes of grading the mutants, compared with the expected ones.
+//! The outcomes of grading the mutants, compared with the expected outcomes.
 
 use std::collections::BTreeMap;
 
@@ -7,20 +7,20 @@ use crate::solutions::mutants::equivalent::{self, EquivalentMutant};
 /// The outcome of grading one mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MutantOutcome {
-    /// The mutant does not compile.
+    /// The mutant doesn't compile.
     NotCompiled,
     /// The mutant loses points.
     Caught,
     /// The mutant gets full marks.
     Survived,
-    /// The mutant is not in the sample, so it was not graded.
+    /// The mutant isn't in the sample, so it was not graded.
     Skipped,
 }
 
 /// The outcomes of all mutants.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    /// The outcomes by the mutants' names.
+    /// The outcomes, keyed by the mutants' names.
     pub outcomes: BTreeMap<String, MutantOutcome>,
     /// The mutants that are expected to survive.
     pub equivalent: Vec<EquivalentMutant>,
@@ -70,7 +70,7 @@ impl Findings {
         survive.chain(wrongly_listed).collect()
     }
 
-    /// Returns the survivors that are not listed as equivalent.
+    /// Returns the survivors that aren't listed as equivalent.
     fn unexpected_survivors(&self) -> impl Iterator<Item = &String> {
         let survive = self
             .outcomes

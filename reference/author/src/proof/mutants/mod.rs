@@ -1,5 +1,5 @@
-//! Checks that the exam catches every mechanical change to the reference's task files. Each must lose
-//! points, except those that are equivalent to the reference.
+//! Checks that the exam catches every mechanical change to the reference's task files. Each mutant
+//! must lose points unless it is equivalent to the reference.
 
 pub mod findings;
 
@@ -15,10 +15,10 @@ use crate::solutions::mutants::mutants;
 use crate::solutions::sources::Sources;
 use crate::solutions::workbench::Workbench;
 
-/// The step of a sample: it contains one in this many mutants, in the order of their names.
+/// The step of a sample, which contains every eighth mutant in the order of their names.
 pub const SAMPLE_STEP: usize = 8;
 
-/// Builds all mutants of some tasks, or one in `step` of them, and grades each with the practice exam.
+/// Builds every `step`-th mutant of some tasks and grades each with the practice exam.
 pub fn run(authoring: &'static Authoring, tasks: &TaskSelection, step: usize) -> Result<Findings> {
     let workbench = Workbench::open(authoring)?;
     let handed_out = authoring.handed_out;
@@ -26,7 +26,7 @@ pub fn run(authoring: &'static Authoring, tasks: &TaskSelection, step: usize) ->
     let exam = exams::load_practice(workbench.root(), authoring)?;
     let score = workbench.build(&reference, "reference")?.score(&exam)?;
     if score.points < score.max_points {
-        // A mutant's loss of points would prove nothing.
+        // Otherwise, a mutant's loss of points would prove nothing.
         bail!("the reference itself loses points: run `cargo grade reference`");
     }
 

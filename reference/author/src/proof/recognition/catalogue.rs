@@ -1,4 +1,5 @@
-//! Mistakes that the exam does not know as they are: known ones in variants, and those of no known kind.
+//! Mistakes that the exam doesn't know in this form: known mistakes in variants, and unknown
+//! mistakes.
 
 use std::collections::BTreeSet;
 
@@ -17,23 +18,24 @@ use crate::solutions::methods::wrong_methods;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::Answers;
 
-/// The report's words about a mistake.
+/// The report's statements about a mistake.
 struct ReportedMistake {
-    /// The id of the mistake, and that of the variant that makes it.
+    /// The id of the mistake and of the variant that makes it.
     id: String,
     /// The hints that are true of it.
     true_hints: BTreeSet<String>,
     /// The hints that are false.
     false_hints: BTreeSet<String>,
-    /// Whether the report says rightly or wrongly that state is kept between calls, if it does.
+    /// If the report says that state is kept between calls, whether that is true.
     names_state: Option<bool>,
-    /// If it gets no true hint, the items that it answers unlike the same mistake in the reference.
+    /// If it gets no true hint, the items where its answers differ from those of the same mistake
+    /// in the reference.
     unlike: Vec<String>,
     /// A message if the code loses no points in its task, or points in another task.
     problems: Vec<String>,
 }
 
-/// Grades solutions, and determines their hints.
+/// Grades solutions and determines their hints.
 fn report(
     solutions: &Solutions,
     mistakes: &[Solution],
@@ -67,7 +69,7 @@ fn report(
     })
 }
 
-/// Grades every independent mistake, and other code with the answers of known ones, and determines
+/// Grades every independent mistake, and other code with the answers of known mistakes. Determines
 /// their hints.
 pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     let all = [independent_mistakes(solutions)?, other_causes(solutions)?].concat();
@@ -105,7 +107,7 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
     Ok(recognition)
 }
 
-/// Grades every unknown mistake, and determines its hints.
+/// Grades every unknown mistake and determines its hints.
 pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     let all = [unknown_mistakes(solutions)?, wrong_methods(solutions)?].concat();
     let rows = report(solutions, &all, exam)?;
@@ -128,8 +130,8 @@ pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recogniti
     })
 }
 
-/// Returns the items in which a solution's answers are not those that the exam has recorded of a known
-/// mistake, each with the number of answers that differ.
+/// Returns the items where a solution's answers differ from those the exam has recorded for a known
+/// mistake, each with the number of different answers.
 fn items_unlike_signature(exam: &Exam, mistake: &str, answers: &[(&Item, Answers)]) -> Vec<String> {
     let mut known = exam.mistakes.iter();
     let index = known.position(|known| known.id == mistake);
@@ -147,7 +149,7 @@ fn items_unlike_signature(exam: &Exam, mistake: &str, answers: &[(&Item, Answers
     unlike.collect()
 }
 
-/// Returns the answers to an item's signature elements that the exam has recorded of a mistake.
+/// Returns the answers the exam has recorded for a mistake at an item's signature elements.
 fn recorded_answers(item: &Item, mistake: Option<usize>) -> Vec<ObservedAnswer> {
     let signatures = &item.signatures;
     let mut answers = signatures.correct_answers.clone();

@@ -1,4 +1,5 @@
-//! Known mistakes in the reference: one at a time, known and left out of the exam, and two at once.
+//! Known mistakes in the reference: one at a time, both known to the exam and removed from it, and
+//! two at once.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -19,22 +20,22 @@ use crate::solutions::solution::Solution;
 struct KnownHints {
     /// The id of the mistake.
     id: String,
-    /// The hints with the exam as it is.
+    /// The hints with the full exam.
     hints: BTreeSet<String>,
-    /// The hints that are not true of it, with the exam without the mistake's own hint.
+    /// The false hints it gets if the mistake's own hint is removed from the exam.
     if_unknown: BTreeSet<String>,
-    /// Whether the exam has a signature of it. There is none if only pictures show it, if it gives no
-    /// answers, or if too many other mistakes give the same answers.
+    /// Whether the exam contains its signature. It doesn't if only pictures reveal the mistake, if
+    /// the mistake gives no answers, or if too many other mistakes give the same answers.
     has_signature: bool,
 }
 
-/// Runs every known mistake and determines its hints, once with the exam as it is and once without the
+/// Runs every known mistake and determines its hints, once with the full exam and once without the
 /// mistake's own hint.
 pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     Ok(summary(solutions, &known_hints(solutions, exam)?))
 }
 
-/// Does the same with the final exams of some seeds, and adds up the results.
+/// Like [`recognise`], but with the final exams of some seeds. Adds up the results.
 pub fn recognise_with_seeds(solutions: &Solutions, seeds: Range<u64>) -> Result<Recognition> {
     let mut all = Vec::new();
     for seed in seeds {
@@ -68,7 +69,7 @@ fn has_signature(exam: &Exam, id: &str) -> bool {
     index.is_some_and(|index| answers.any(|answers| answers.mistakes.contains(&(index as u32))))
 }
 
-/// Returns the exam without the signatures of the mistakes with the same hint.
+/// Returns the exam without the signatures of this mistake and those that share its hint.
 fn without_hint(solutions: &Solutions, exam: &Exam, id: &str) -> Exam {
     let mut exam = exam.clone();
     let mistakes = exam.mistakes.iter();
@@ -122,7 +123,7 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
     }
 }
 
-/// Runs pairs of mistakes in the same task, and determines their hints: all pairs, or the given
+/// Runs pairs of mistakes in the same task and determines their hints. Runs all pairs, or the given
 /// number of them, spread evenly.
 pub fn recognise_pairs(
     solutions: &Solutions,
@@ -182,7 +183,7 @@ pub fn recognise_pairs(
     })
 }
 
-/// Returns the reference with two mistakes, or `None` if there is no code that has both.
+/// Returns the reference with two mistakes, or `None` if the two cannot be combined.
 fn both_mistakes(solutions: &Solutions, one: &Mistake, other: &Mistake) -> Option<Solution> {
     let mut both = one.solution(solutions.recorder.reference()).ok()?;
     both.sources = other.apply(&both.sources).ok()?;

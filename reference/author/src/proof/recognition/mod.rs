@@ -1,5 +1,5 @@
-//! Measures the quality of hints: whether known mistakes are recognised, alone, in pairs and in
-//! other solutions, and whether an unknown mistake gets a hint that is not true of it.
+//! Measures the quality of hints: whether known mistakes are recognised individually, in pairs and
+//! in other solutions, and whether unknown mistakes get false hints.
 
 mod catalogue;
 mod known;
@@ -18,18 +18,19 @@ pub use known::{recognise, recognise_pairs, recognise_with_seeds};
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{Answers, BuiltSolution};
 
-/// How solutions are recognised by the hints that they get.
+/// How well solutions are recognised, judging by the hints they get.
 #[derive(Debug, Default)]
 pub struct Recognition {
     /// The number of solutions that can be recognised.
     pub count: usize,
-    /// The number of solutions that get a true hint, and none that is false.
+    /// The number of solutions that get a true hint and no false hint.
     pub recognised: usize,
-    /// The number of solutions that get a false hint: known mistakes, if their own were unknown.
+    /// The number of solutions that get a false hint. For known mistakes, their own hint is removed
+    /// first.
     pub misled: usize,
     /// The solutions that lose no points in their task, or points in another task, one line each.
     pub problems: Vec<String>,
-    /// The solutions that are worth a line.
+    /// The solutions worth listing, one line each.
     pub lines: Vec<String>,
     /// The result as one line.
     pub summary_line: String,
@@ -55,8 +56,8 @@ fn answers<'e>(
     items.map(|item| Ok((item, built.answers(item)?))).collect()
 }
 
-/// Returns the ids of the mistakes whose hints appear at any item with these answers. `exam` is that
-/// of the items, possibly without some hints.
+/// Returns the ids of the mistakes whose hints appear at any item with these answers. `exam` is the
+/// items' exam, possibly without some hints.
 fn hints(answers: &[(&Item, Answers)], exam: &Exam) -> BTreeSet<String> {
     let mut observations = Observations::default();
     for (item, answers) in answers {
@@ -68,7 +69,7 @@ fn hints(answers: &[(&Item, Answers)], exam: &Exam) -> BTreeSet<String> {
     hints.map(|hint| hint.id.clone()).collect()
 }
 
-/// Lists the ids of hints in a sentence.
+/// Formats the ids of hints as part of a sentence.
 fn list(hints: &BTreeSet<String>) -> String {
     Vec::from_iter(hints.iter().cloned()).join(" or ")
 }

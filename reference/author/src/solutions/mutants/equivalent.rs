@@ -1,5 +1,4 @@
-//! The list of mutants that are equivalent to the reference, each with the reason. It is written by
-//! hand.
+//! The list of mutants that are equivalent to the reference, with reasons. It is written by hand.
 
 use std::path::Path;
 
@@ -18,7 +17,7 @@ pub const FILE: &str = "mutants/equivalent.toml";
 pub struct EquivalentMutant {
     /// The mutant's name in the list of all mutants.
     pub name: String,
-    /// The reason why no answer differs, or why the contract allows the answers that differ.
+    /// Why no answer differs, or why the contract allows the different answers.
     pub why: String,
 }
 

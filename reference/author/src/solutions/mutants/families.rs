@@ -1,4 +1,4 @@
-//! The families of changes. Changes that do not compile are made all the same, because only the compiler
+//! The families of changes. They include changes that don't compile, because only the compiler
 //! knows types.
 
 use std::ops::Range;
@@ -11,7 +11,7 @@ use super::state;
 
 /// The line before the code that students write.
 const BEGIN: &str = "// solution";
-/// The line after it.
+/// The line after the code that students write.
 const END: &str = "// end solution";
 
 /// A change to a file.
@@ -19,19 +19,19 @@ const END: &str = "// end solution";
 pub(super) struct Change {
     /// The family and the change, such as `epsilon: 1e-3 after <`.
     pub what: String,
-    /// The bytes that are replaced.
+    /// The bytes to replace.
     pub bytes: Range<usize>,
-    /// The text that replaces them.
+    /// The replacement.
     pub now: String,
-    /// The name of the function, constant or type that the change is in.
+    /// The name of the function, constant or type that contains the change.
     pub function: String,
 }
 
 /// The sizes of an absolute epsilon.
 pub(super) const EPSILONS: [&str; 4] = ["1e-3", "1e-4", "1e-5", "1e-6"];
 
-/// Returns all changes to a file, in the order of the file. Operators and bodies change everywhere but
-/// in tests; everything else only in the code that students write.
+/// Returns all changes to a file, in the order of the file. Operators and bodies are changed
+/// everywhere except in tests. Everything else is only changed in the code that students write.
 pub(super) fn changes(file: &str) -> syn::Result<Vec<Change>> {
     let mut visitor = Visitor {
         file,
@@ -74,7 +74,7 @@ pub(super) struct Visitor<'a> {
     found: Vec<Change>,
 }
 
-/// Returns the bytes of a part of the syntax tree.
+/// Returns the bytes of a syntax tree node.
 pub(super) fn bytes(node: &impl Spanned) -> Range<usize> {
     node.span().byte_range()
 }
@@ -99,7 +99,7 @@ impl<'a> Visitor<'a> {
         });
     }
 
-    /// Adds a change, if it is in the code that students write.
+    /// Adds a change if it is in the code that students write.
     pub(super) fn add(&mut self, what: String, bytes: Range<usize>, now: &str) {
         if self.is_own(&bytes) {
             self.add_anywhere(what, bytes, now);
@@ -113,7 +113,7 @@ impl<'a> Visitor<'a> {
         self.function = outer;
     }
 
-    /// Replaces a function's body, and keeps state between its calls.
+    /// Adds changes that replace a function's body or keep state between its calls.
     pub(super) fn change_function(&mut self, signature: &Signature, block: &Block) {
         let (Some(first), Some(last)) = (block.stmts.first(), block.stmts.last()) else {
             return;
@@ -123,13 +123,13 @@ impl<'a> Visitor<'a> {
             ReturnType::Default => "()".to_owned(),
             ReturnType::Type(_, returned) => self.text(returned).split_whitespace().collect(),
         };
-        // There is no default that would be simpler than a constructor.
+        // No default value would be simpler than a constructor.
         if signature.ident != "new" {
             for now in default_values(&returns) {
                 self.add_anywhere(format!("body: {now}"), body.clone(), now);
             }
         }
-        // The body, not a helper that students write as a whole, and without given code after it.
+        // Replace only the part of the body that students write, and keep given code after it.
         let statements = block.stmts.iter().map(bytes);
         let own: Vec<_> = statements.filter(|it| self.is_own(it)).collect();
         if let [first, ..] = &own[..]
@@ -142,8 +142,8 @@ impl<'a> Visitor<'a> {
         }
     }
 
-    /// Compares with an absolute epsilon: `a < b` becomes `a < 1e-3 + b`, and so on. `at` is the byte
-    /// after the operator or parenthesis.
+    /// Adds comparisons with an absolute epsilon: `a < b` becomes `a < 1e-3 + b` and so on. `at` is
+    /// the byte after the operator or parenthesis.
     pub(super) fn add_epsilons(&mut self, after: &str, at: usize) {
         for epsilon in EPSILONS {
             for sign in ["", "-"] {
@@ -182,7 +182,7 @@ impl<'a> Visitor<'a> {
         }
     }
 
-    /// Ends a loop after its first round.
+    /// Ends a loop after its first iteration.
     pub(super) fn end_loop(&mut self, body: &Block) {
         let at = body.brace_token.span.close().byte_range().start;
         let what = "condition: a loop ends after its first round";
@@ -190,7 +190,7 @@ impl<'a> Visitor<'a> {
     }
 }
 
-/// Returns values of a type that a function can always return.
+/// Returns values that a function with this return type can always return.
 fn default_values(of_type: &str) -> &[&str] {
     match of_type {
         "()" => &["()"],

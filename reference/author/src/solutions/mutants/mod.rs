@@ -1,5 +1,5 @@
 //! Mutants: mechanical changes to the reference's task files. They complement the catalogue of
-//! mistakes, which people make. Mutants are made without any knowledge of the exam.
+//! mistakes that people make, and are made without any knowledge of the exam.
 
 pub mod equivalent;
 mod families;
@@ -15,7 +15,7 @@ use crate::solutions::solution::{Expected, Solution};
 use crate::solutions::sources::Sources;
 
 /// Returns all mutants, sorted by name. A name consists of the file, the family, the change and the
-/// function; changes that are alike are numbered.
+/// function. Identical names are numbered.
 pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     let mut found = Vec::new();
     let assignment = reference.handed_out().assignment;
@@ -49,7 +49,8 @@ pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     Ok(found)
 }
 
-/// Returns the task whose method a function is, or all tasks of its file if it is none of their methods.
+/// Returns the task whose method this function is. If it is no task's method, returns all tasks of
+/// its file.
 fn tasks_of(assignment: &Assignment, file: &str, function: &str) -> Vec<Task> {
     let in_file = || assignment.tasks.iter().filter(|task| task.file == file);
     let own = in_file().find(|task| task.method == function);

@@ -1,18 +1,18 @@
-//! Changes that keep a state between calls of a method.
+//! Changes that keep state between calls of a method.
 
 use std::ops::Range;
 
 use syn::spanned::Spanned;
 use syn::{FnArg, Signature};
 
-/// Types of which a copy can be kept, by reference or by value.
+/// Types that can be copied to keep a value, whether it is passed by reference or by value.
 const COPIED: [&str; 6] = ["Ray", "Interval", "UVec2", "Vec2", "usize", "f32"];
 
-/// A description, the bytes that are replaced, and the text that replaces them.
+/// A description, the bytes to replace and the replacement.
 type StateChange = (String, Range<usize>, String);
 
-/// Returns all changes that keep a state, of a method whose code is `body` and that returns a value of
-/// the type `returns`.
+/// Returns all changes that keep state in a method with the code `body` and the return type
+/// `returns`.
 pub(super) fn changes(
     file: &str,
     signature: &Signature,
@@ -34,7 +34,7 @@ pub(super) fn changes(
     changes
 }
 
-/// An argument is that of the first call, or of the call before.
+/// Replaces an argument with that of the first or the previous call.
 fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
     let value_type = of_type.trim_start_matches('&');
     if !COPIED.contains(&value_type) {
@@ -69,7 +69,7 @@ fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
     changes.to_vec()
 }
 
-/// An answer is repeated, or changed by the answers before.
+/// Repeats an answer, or makes it depend on earlier answers.
 fn kept_answers(text: &str, returns: &str) -> Vec<(&'static str, String)> {
     if !returns.starts_with("Option<") {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! The traversal of a file's syntax tree, which makes the changes of all families.
+//! The traversal of a file's syntax tree, which collects the changes of all families.
 
 use syn::visit::{self, Visit};
 use syn::{
@@ -9,7 +9,8 @@ use syn::{
 
 use super::families::{EPSILONS, Visitor, bytes};
 
-/// Names that are easily confused, group by group. Each is replaced with each other of its group.
+/// Groups of names that are easily confused. Each name is replaced with every other name in its
+/// group.
 const CONFUSED: [&[&str]; 18] = [
     &["x", "y", "z"],
     &["min", "max"],
@@ -31,7 +32,7 @@ const CONFUSED: [&[&str]; 18] = [
     &["floor", "ceil", "round"],
 ];
 
-/// Operators, each with those that replace it.
+/// Operators and their replacements.
 const OPERATORS: [(&str, &[&str]); 16] = [
     ("==", &["!="]),
     ("!=", &["=="]),
@@ -52,7 +53,7 @@ const OPERATORS: [(&str, &[&str]); 16] = [
 ];
 
 impl<'ast> Visit<'ast> for Visitor<'_> {
-    /// Tests are no part of a solution.
+    /// Tests aren't part of a solution.
     fn visit_item_mod(&mut self, _: &'ast ItemMod) {}
 
     fn visit_attribute(&mut self, _: &'ast Attribute) {}
@@ -206,7 +207,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
         visit::visit_expr_while(self, round);
     }
 
-    /// Leaves out each statement that is no declaration, early returns among them.
+    /// Leaves out each statement that isn't a declaration, including early returns.
     fn visit_stmt(&mut self, statement: &'ast Stmt) {
         if matches!(statement, Stmt::Expr(_, Some(_)) | Stmt::Macro(_)) {
             let what = format!("dropped: {}", self.text(statement));

@@ -1,4 +1,4 @@
-//! A picture that is rendered in passes, so that it can be looked at meanwhile.
+//! A picture that is rendered in passes, so that you can look at it in the meantime.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -12,7 +12,7 @@ use crate::render::film::{Film, Tone};
 
 /// The time between two writes of the unfinished picture.
 const INTERVAL: Duration = Duration::from_secs(1);
-/// The exit code of a program that Ctrl-C has ended, by convention.
+/// The conventional exit code of a program ended by Ctrl-C.
 pub(super) const INTERRUPTED: i32 = 130;
 
 /// Events for the thread that writes the unfinished picture.
@@ -30,7 +30,7 @@ pub(super) struct Canvas {
     rows: Vec<Mutex<Row>>,
 }
 
-/// A row of pixels. Rows can differ in their number of samples.
+/// A row of pixels. Rows can have different numbers of samples.
 #[derive(Clone)]
 pub(super) struct Row {
     pub(super) sums: Vec<Vec3>,
@@ -62,7 +62,7 @@ impl Canvas {
         row.unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    /// Returns the picture so far, and the number of samples that all of its pixels have.
+    /// Returns the picture so far and the number of samples that every pixel has.
     pub(super) fn film(&self) -> (Film, u32) {
         let rows: Vec<Row> = (0..self.size.y).map(|y| self.row(y)).collect();
         let samples = rows.iter().map(|row| row.samples).min().unwrap_or(0);
@@ -79,8 +79,8 @@ impl Canvas {
         (film, samples)
     }
 
-    /// Writes the unfinished picture every second, until it is finished. After Ctrl-C, writes what
-    /// there is and ends the process, even if the submission hangs.
+    /// Writes the unfinished picture every second until it is finished. After Ctrl-C, writes the
+    /// current state and ends the process, even if the submission hangs.
     pub(super) fn write_until_finished(
         &self,
         events: &Receiver<Event>,
@@ -90,7 +90,7 @@ impl Canvas {
     ) {
         loop {
             match events.recv_timeout(INTERVAL) {
-                // An error is reported when the finished picture is written.
+                // Errors are reported when the finished picture is written.
                 Err(RecvTimeoutError::Timeout) => {
                     drop(image_file::write(&self.film().0, tone, path))
                 }
@@ -120,7 +120,8 @@ impl Canvas {
     }
 }
 
-/// Returns the passes over the picture, as ranges of samples: each doubles the number of samples.
+/// Returns the passes over the picture as ranges of samples. Each pass doubles the number of
+/// samples.
 pub(super) fn passes(samples: u32) -> impl Iterator<Item = std::ops::Range<u32>> {
     let next = move |start: &u32| Some((2 * start).max(1).min(samples)).filter(|end| end > start);
     let starts = std::iter::successors(Some(0), next);

@@ -12,9 +12,9 @@ use crate::scene::SceneError;
 /// An error that prevents a picture from being rendered or written.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum RenderError {
-    /// The submission's code has panicked.
+    /// The submission's code panicked.
     Panicked(SubmissionPanic),
-    /// Anything else, such as a scene that does not exist. Holds the message.
+    /// Anything else, e.g. a scene that doesn't exist, with the message.
     Other(String),
 }
 
@@ -26,14 +26,14 @@ pub(super) struct SubmissionPanic {
     pub(super) pixel: Option<UVec2>,
 }
 
-/// Calls the submission's code. A panic is an error, which names the pixel that is being rendered, if
+/// Calls the submission's code. A panic becomes an error that names the pixel being rendered, if
 /// any.
 pub(super) fn call<T>(pixel: Option<UVec2>, code: impl FnOnce() -> T) -> Result<T, RenderError> {
     attempt(code).map_err(|panic| RenderError::Panicked(SubmissionPanic { panic, pixel }))
 }
 
 impl RenderError {
-    /// Creates an error about threads that cannot be started.
+    /// Creates an error for threads that cannot be started.
     pub(super) fn threads(error: impl fmt::Display) -> Self {
         RenderError::Other(format!("cannot start threads: {error}"))
     }
@@ -80,7 +80,7 @@ impl fmt::Display for SubmissionPanic {
     }
 }
 
-/// Returns the command that examines a pixel, for a picture that these arguments render.
+/// Returns the command that examines a pixel of the picture that these arguments render.
 fn pixel_command(arguments: &[String], UVec2 { x, y }: UVec2) -> String {
     let mut words = vec![format!("cargo render --pixel {x},{y}")];
     let mut arguments = arguments.iter();

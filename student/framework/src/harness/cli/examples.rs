@@ -1,5 +1,5 @@
 //! The command that runs the worked examples in the task files. They are tests, so that an editor
-//! can run them, too; but cargo takes a name that no test has as a success.
+//! can run them too. With `cargo test`, however, a name that matches no test would be a success.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -31,8 +31,8 @@ struct Arguments {
     nocapture: bool,
 }
 
-/// Runs the examples in the named files, or whose paths contain one of the names, or all of them.
-/// Exit codes: 2 if no example has such a name, else cargo's.
+/// Runs the examples in the named files, the examples whose paths contain one of the names, or all
+/// examples. Exit codes: 2 if no example has such a name, else cargo's.
 pub fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(code) => code,
@@ -88,8 +88,8 @@ fn example_paths(list: &Output) -> Vec<String> {
     paths.map(str::to_owned).collect()
 }
 
-/// Returns the harness's filter for a name. That of a file means the examples in it, and not those in
-/// other files whose names contain it.
+/// Returns the harness's filter for a name. A file's name selects the examples in that file, but
+/// not those in other files whose names contain it.
 fn filter(name: &str, known: &[String]) -> String {
     let of_file = format!("{name}::");
     let is_file = known.iter().any(|path| path.starts_with(&of_file));

@@ -1,4 +1,4 @@
-//! Finds the scene file, and chooses the path of the picture.
+//! Finds the scene file and chooses the picture's path.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,11 @@ use super::error::RenderError;
 use super::options::Options;
 use crate::suggestion::suggestion;
 
-/// The name of the folder that contains the scenes. Its parent folder is assumed to be the root of
-/// the workspace.
+/// The name of the scenes' folder. Its parent folder is assumed to be the workspace's root.
 const SCENES: &str = "scenes";
 
-/// Finds the file of a scene. The path is tried relative to the current folder, to the root of the
-/// workspace and to the workspace's folder of scenes. `.json` can be left out.
+/// Finds the file of a scene. The path is tried relative to the current folder, the workspace's
+/// root and its folder of scenes. `.json` can be omitted.
 pub(super) fn find_scene(scene: &Path) -> Result<PathBuf, RenderError> {
     let here = env::current_dir().unwrap_or_default();
     let root = here.ancestors().find(|folder| folder.join(SCENES).is_dir());
@@ -52,8 +51,8 @@ fn scene_names(root: &Path) -> Vec<String> {
     names
 }
 
-/// Returns the path of the picture, after checking its format and its folder. Called before
-/// rendering, because an error after it would waste the finished picture.
+/// Returns the path of the picture, after checking its format and its folder. Call this before
+/// rendering, because an error afterwards would waste the finished picture.
 pub(super) fn output_path(options: &Options, scene: &Path) -> Result<PathBuf, RenderError> {
     let given = options.out.as_ref().or(options.out_option.as_ref());
     let out = match given {

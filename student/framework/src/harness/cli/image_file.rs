@@ -7,8 +7,8 @@ use image::{ImageFormat, Rgb32FImage, RgbImage};
 use super::error::RenderError;
 use crate::render::film::{Film, Tone};
 
-/// Writes a picture to a file in one step, so that a reader never sees a part of it. An EXR file
-/// stores linear floats. Other formats store bytes, whose values are converted for a screen.
+/// Writes a picture to a file atomically, so that a reader never sees an incomplete file. An EXR
+/// file stores linear floats. Other formats store bytes that are converted for a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
     let part = path.with_added_extension("part");
@@ -31,7 +31,7 @@ pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderEr
     written.map_err(|error| RenderError::Other(format!("cannot write {}: {error}", path.display())))
 }
 
-/// Returns whether the format of a file holds numbers of any size, and not colours for a screen.
+/// Returns whether a file's format stores numbers of any size, rather than colours for a screen.
 pub(super) fn holds_numbers(path: &Path) -> bool {
     matches!(ImageFormat::from_path(path), Ok(ImageFormat::OpenExr))
 }

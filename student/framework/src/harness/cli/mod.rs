@@ -36,7 +36,7 @@ use crate::render::integrator::{Integrator, RenderStats};
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// The number of primitives above which a picture without a tree takes long.
+/// The number of primitives above which a picture without a tree takes a long time.
 const MANY_PRIMITIVES: usize = 200;
 
 /// Runs the command. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
@@ -45,8 +45,8 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     let options = match Options::try_parse() {
         Ok(options) => options,
         Err(error) => {
-            // Prints help to standard output, and errors to standard error. If the stream is
-            // closed, there is no way to report that.
+            // Print help to standard output and errors to standard error. If the stream is closed,
+            // there is no way to report that.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
@@ -69,7 +69,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 struct Events {
     sender: Sender<Event>,
     receiver: Receiver<Event>,
-    /// Whether there is an unfinished picture, which Ctrl-C keeps.
+    /// Whether an unfinished picture exists for Ctrl-C to keep.
     has_picture: Arc<AtomicBool>,
 }
 
@@ -86,7 +86,7 @@ impl Events {
     fn keep_picture_on_ctrl_c(&self) -> Result<(), RenderError> {
         let (sender, has_picture) = (self.sender.clone(), Arc::clone(&self.has_picture));
         ctrlc::set_handler(move || {
-            // Only the first time, so that pressing it again ends the process in any case.
+            // Only keep it the first time, so that a second Ctrl-C always ends the process.
             let is_kept = has_picture.swap(false, Ordering::Relaxed);
             if !is_kept || sender.send(Event::Interrupted).is_err() {
                 std::process::exit(canvas::INTERRUPTED);
@@ -96,7 +96,7 @@ impl Events {
     }
 }
 
-/// A scene in the submission's types, and what is needed to render it.
+/// A scene in the submission's types and everything needed to render it.
 struct Job<'a> {
     options: &'a Options,
     scene: &'a Scene,
@@ -119,7 +119,7 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     if let Some(pixel) = options.pixel {
         return pixel::print(pixel, options, scene, &names, world);
     }
-    // Traces one ray first, so that if the submission still has a stub, the stub's panic is the
+    // Trace one ray first, so that if the submission still contains a stub, the stub's panic is the
     // only message.
     let corner = UVec2::ZERO;
     call(Some(corner), || first_hit(scene, world, corner))?;
@@ -182,7 +182,7 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
     Ok((Film { size, pixels }, progress.stats()))
 }
 
-/// Renders the picture in passes, and writes it every second.
+/// Renders the picture in passes and writes it every second.
 fn render_light(
     job: &Job,
     integrator: &Integrator,
@@ -207,7 +207,7 @@ fn render_light(
                 integrator.sample_radiance(pixel, sample, stats)
             };
             let rendered = job.pool.accumulate(progress, canvas, samples, sample);
-            // The receiver below is not dropped before.
+            // The receiver below is still alive.
             let _ = finished.send(Event::Finished);
             rendered
         });

@@ -1,12 +1,12 @@
-//! A message that appears if something takes long.
+//! A message that appears if something takes a long time.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// A message that is printed to standard error if this value still exists after some time.
+/// A message that is printed to standard error if this value still exists after a given time.
 pub(super) struct Notice {
-    /// Dropping it ends the thread that waits.
+    /// Dropping this ends the waiting thread.
     _ended: Sender<()>,
 }
 

@@ -10,11 +10,11 @@ use super::progress::Progress;
 use crate::harness::probe::STACK_BYTES;
 use crate::render::integrator::RenderStats;
 
-/// The name of the threads, which the message of a stack overflow contains.
+/// The name of the threads, which appears in the message about a stack overflow.
 const THREAD_NAME: &str = "a ray, in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \
                            Sphere::hit";
 
-/// The size of a film, and the threads that render it.
+/// The size of a film and the threads that render it.
 pub(super) struct RenderPool {
     size: UVec2,
     threads: ThreadPool,
@@ -48,8 +48,8 @@ impl RenderPool {
         Ok(rows.into_iter().flatten().collect())
     }
 
-    /// Adds samples to each pixel of the canvas: first one, and then as many again as there are. A
-    /// pixel's samples are added in order, so the picture does not depend on the passes.
+    /// Adds samples to each pixel of the canvas: first one, then as many as it already has. A
+    /// pixel's samples are added in order, so the picture doesn't depend on the passes.
     pub(super) fn accumulate(
         &self,
         progress: &Progress,
@@ -74,7 +74,7 @@ impl RenderPool {
         Ok(())
     }
 
-    /// Calls `row` for each row. Threads take one row at a time, and the result does not depend on
+    /// Calls `row` for each row. Threads take one row at a time, and the result doesn't depend on
     /// which thread takes which row.
     fn rows<R: Send>(
         &self,

@@ -1,4 +1,4 @@
-//! Prints one pixel: which shape is hit at its centre, and what the pixel's radiance is.
+//! Prints one pixel: the shape that is hit at its centre, and its radiance.
 
 use std::fmt::Write;
 
@@ -12,8 +12,8 @@ use crate::render::integrator::{Integrator, RenderStats};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
 
-/// Prints the hit and the radiance of one pixel, and renders nothing else. This is useful in a
-/// debugger.
+/// Prints the hit and the radiance of one pixel without rendering anything else. This is useful in
+/// a debugger.
 pub(super) fn print(
     pixel: UVec2,
     options: &Options,
@@ -84,7 +84,7 @@ fn shape_name(scene: &Scene, number: u32) -> String {
     format!("{name}, number {} of {}", number + 1, scene.shapes.len())
 }
 
-/// Returns the name and the kind of the material of the shape with this number.
+/// Returns the name and the kind of this shape's material.
 fn material_name(scene: &Scene, names: &[String], shape: u32) -> String {
     let index = scene.shape_materials.get(shape as usize);
     let name = index.and_then(|&index| names.get(index as usize));

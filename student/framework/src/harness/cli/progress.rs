@@ -1,4 +1,4 @@
-//! Shows a progress bar while rendering, and a summary afterwards.
+//! Shows a progress bar while rendering and a summary afterwards.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,23 +10,23 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::harness::cli::notice::Notice;
 use crate::render::integrator::RenderStats;
 
-/// The time after which rendering without a progress bar says that it goes on.
+/// How long rendering without a progress bar stays silent before it says that it is still running.
 const LONG: Duration = Duration::from_secs(10);
 
-/// A progress bar with the remaining time and the rays per second. It is shown only if standard
+/// A progress bar with the remaining time and the rays per second. It is only shown if standard
 /// error is a terminal.
 pub(super) struct Progress {
     bar: ProgressBar,
     rays: AtomicU64,
     invalid_paths: AtomicU64,
     started: Instant,
-    /// Without a bar, says that the work goes on.
+    /// If there is no bar, says that rendering is still running.
     _notice: Option<Notice>,
 }
 
 impl Progress {
-    /// Creates a bar for this many rows of pixels, each counted once for each sample. `note` is added
-    /// to what is said where there is no bar.
+    /// Creates a bar for this many rows of pixels, each counted once per sample. `note` is added to
+    /// the message that is shown if there is no bar.
     pub(super) fn new(rows: u64, note: &str) -> Self {
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {eta} left  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());

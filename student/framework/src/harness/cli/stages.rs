@@ -1,6 +1,6 @@
-//! The steps before the first pixel. Each says what it does, since a loop without end looks like a
-//! large scene; and runs on a thread with the name of the task, since the message of a stack
-//! overflow contains the name of its thread and nothing else.
+//! The steps before the first pixel. Each step prints what it is doing, since an endless loop would
+//! otherwise look like a large scene. Each runs on a thread named after the task, since the message
+//! about a stack overflow contains only the thread's name.
 
 use std::thread;
 use std::time::Duration;
@@ -16,11 +16,11 @@ use crate::harness::probe::STACK_BYTES;
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// The time after which a step that shows nothing says that it is still running.
+/// How long a step stays silent before it says that it is still running.
 const LONG: Duration = Duration::from_secs(5);
 
-/// Runs a step, and shows its name meanwhile: at once if standard error is a terminal, and otherwise if
-/// it takes long.
+/// Runs a step and shows its name: immediately if standard error is a terminal, otherwise only if
+/// the step takes a long time.
 pub(super) fn show<T>(step: &str, code: impl FnOnce() -> T) -> T {
     let spinner = ProgressBar::new_spinner().with_message(format!("{step} …"));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
@@ -36,7 +36,7 @@ pub(super) fn show<T>(step: &str, code: impl FnOnce() -> T) -> T {
     value
 }
 
-/// Runs a step of the submission's code on a thread of its own with the name of the task.
+/// Runs a step of the submission's code on a separate thread named after the task.
 fn run<T: Send>(
     task: &str,
     step: &str,
@@ -56,7 +56,7 @@ fn run<T: Send>(
     })
 }
 
-/// Converts the scene to the submission's types, and builds the tree.
+/// Converts the scene to the submission's types and builds the tree.
 pub(super) fn build(
     submission: &dyn Submission,
     scene: &Scene,
@@ -75,8 +75,8 @@ pub(super) fn build(
     })
 }
 
-/// Calls each method that rendering will call, with one ray. An error is not reported here: not
-/// every picture calls every method.
+/// Calls each method that rendering will call, with one ray. Errors aren't reported here, because
+/// not every picture calls every method.
 pub(super) fn try_methods(
     submission: &dyn Submission,
     scene: &Scene,
@@ -105,7 +105,7 @@ pub(super) fn try_methods(
             })?;
         }
     }
-    // Without a tree, no box is tested.
+    // An empty tree needs no box tests.
     if !tree.nodes.is_empty() {
         let toward = Ray::new(Vec3::splat(2.0), Vec3::NEG_ONE);
         try_method("task 3, bbox", "BBox::hit", || {
@@ -118,7 +118,8 @@ pub(super) fn try_methods(
     })
 }
 
-/// Returns a message if a camera ray is not made of numbers: otherwise only its hits would look wrong.
+/// Returns a message if a camera ray contains NaN or infinity. Otherwise, only its hits would look
+/// wrong.
 fn not_numbers(ray: &Ray) -> Option<String> {
     let is_finite = ray.origin.is_finite() && ray.dir.is_finite();
     (!is_finite).then(|| {

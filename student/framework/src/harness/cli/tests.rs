@@ -110,7 +110,7 @@ fn recurse(depth: u64) -> u64 {
     recurse(depth + 1) + frame[0]
 }
 
-/// A stack overflow ends the process, so the test starts itself once more as the process that ends.
+/// A stack overflow ends the process, so the test runs itself in a child process.
 #[test]
 fn a_stack_overflow_names_the_task() {
     const IS_CHILD: &str = "FRAMEWORK_TEST_OVERFLOWS";
@@ -144,7 +144,7 @@ fn an_exr_file_holds_the_distances_themselves() {
     let bytes = picture("a.exr", "--view depth --size 3x3");
     let picture = image::load_from_memory(&bytes);
     let picture = picture.expect("the file is an EXR").to_rgb32f();
-    // The spheres at the sides are three away, with radius one.
+    // The spheres at the sides have radius 1 and are at distance 3.
     let distance = picture.get_pixel(0, 1).0[0];
     assert!((2.0..3.5).contains(&distance), "{distance}");
 }

@@ -1,9 +1,9 @@
 //! The path tracer, which renders a scene.
 //!
-//! The algorithm is that of Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at
+//! The algorithm follows Kajiya, "The Rendering Equation", SIGGRAPH 1986, with light sampling at
 //! each matte surface. Everything is computed in `f32` and in a fixed order, and each random number
-//! depends only on its use (see [`sampler`](crate::render::sampler)). So a picture has the same bytes on
-//! every machine and with any number of threads.
+//! depends only on its use (see [`sampler`](crate::render::sampler)). So a picture has the same
+//! bytes on every machine and with any number of threads.
 
 mod offset;
 mod optics;
@@ -34,7 +34,7 @@ pub struct RenderSettings {
 pub struct RenderStats {
     /// The number of rays traced by the submission, including shadow rays.
     pub rays: u64,
-    /// The number of paths that were discarded and count as black, because a hit contained NaN,
+    /// The number of discarded paths, which are treated as black because a hit contained NaN,
     /// infinity, a normal of length zero or an unknown shape.
     pub invalid_paths: u64,
 }

@@ -1,11 +1,11 @@
-//! How far rays start from the surface that they leave, so that they do not hit it again.
+//! How far from a surface rays must start so that they don't hit it again.
 //!
-//! Formulas for hits round, so a position is a little off the surface. How far depends on the shape
-//! and on where it is seen from, and not on the size of the scene: a ball on a sphere that is a
-//! thousand times as large gets the offset of a ball. The estimates follow the error terms in Pharr,
-//! Jakob and Humphreys, *Physically Based Rendering*, 4th edition, section 6.8 "Managing Rounding
-//! Error", and, for the sphere seen from far away, Haines et al., "Precision Improvements for
-//! Ray/Sphere Intersection", *Ray Tracing Gems*, 2019.
+//! Rounding moves a computed hit position slightly off the surface. How far depends on the shape
+//! and the viewpoint, but not on the size of the scene: a ball on a sphere that is a thousand times
+//! as large gets the offset for a ball. The estimates follow the error terms in Pharr, Jakob and
+//! Humphreys, *Physically Based Rendering*, 4th edition, section 6.8 "Managing Rounding Error",
+//! and, for the sphere seen from far away, Haines et al., "Precision Improvements for Ray/Sphere
+//! Intersection", *Ray Tracing Gems*, 2019.
 
 use glam::Vec3;
 use protocol::Shape;
@@ -17,10 +17,10 @@ const RELATIVE_ERROR: f32 = 8.0 * f32::EPSILON;
 /// infinitely far away.
 const MIN_COSINE: f32 = 1e-3;
 
-/// Returns how far a ray that leaves `shape` at `position` in direction `dir` must start from there, or
-/// how far before `position` a ray that arrives in this direction must end. Closer than that, rounding
-/// can put the ray on either side of the surface. `eye` is the origin of the ray by which `position` was
-/// found.
+/// Returns how far from `position` a ray that leaves `shape` in direction `dir` must start, or how
+/// far before `position` a ray that arrives in this direction must end. Closer than that, rounding
+/// can put the ray on either side of the surface. `eye` is the origin of the ray that found
+/// `position`.
 pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
     let (normal, term) = match *shape {
         Shape::Triangle { vertices, .. } => {
@@ -40,12 +40,12 @@ pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> 
     error / normal.dot(dir).abs().max(MIN_COSINE)
 }
 
-/// Returns the normal of a triangle, and the largest term in the formulas for its hits.
+/// Returns the normal of a triangle and the largest term in the formulas for its hits.
 fn triangle(corners: [Vec3; 3], eye: Vec3, position: Vec3) -> (Vec3, f32) {
     let [p0, p1, p2] = corners;
     let cross = (p1 - p0).cross(p2 - p0);
-    // The determinants are products of the edges and of the vector to a corner. In a narrow triangle,
-    // they are larger than the area by which they are divided.
+    // The determinants are products of the edges and of the vector to a corner. In a narrow
+    // triangle, they are larger than the area they are divided by.
     let edges = (p1 - p0).length() * (p2 - p0).length();
     let reach = corners.map(|corner| corner.distance(eye).max(corner.distance(position)));
     let reach = reach.into_iter().fold(0.0, f32::max);

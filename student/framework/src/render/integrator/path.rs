@@ -10,14 +10,14 @@ use crate::render::frame::{Frame, sample_cosine_hemisphere};
 use crate::render::sampler::{Purpose, Sampler};
 use crate::scene::{Material, checker};
 
-/// An error returned if the path of a sample contains an unusable hit from the submission, such as
-/// one with NaN.
+/// An error returned if a sample's path contains an unusable hit from the submission, such as one
+/// with NaN.
 pub(super) struct InvalidSample;
 
 /// The surface at the point where a path hits it.
 struct Surface<'a> {
     shape: &'a Shape,
-    /// The origin of the ray that hits it.
+    /// The origin of the ray that hit the surface.
     eye: Vec3,
     position: Vec3,
     /// The normal, of length one, on the side that the ray comes from.
@@ -31,10 +31,10 @@ struct Surface<'a> {
 /// The continuation of a path after it is scattered.
 struct Scattered {
     direction: Vec3,
-    /// The factor by which light that arrives from `direction` is multiplied.
+    /// The factor applied to light that arrives from `direction`.
     attenuation: Vec3,
     /// Whether light sampling already accounts for direct light. If so, a light that the path hits
-    /// by chance must not count.
+    /// by chance must not be added again.
     direct_light_sampled: bool,
 }
 
@@ -108,7 +108,7 @@ impl Integrator<'_> {
             return Ok(Vec3::ZERO);
         };
         let cosine = sample.direction.dot(surface.normal);
-        // The ray ends just before the light, so that the light does not block itself.
+        // The ray ends just before the light, so that the light doesn't block itself.
         let light = &self.scene.shapes[sample.shape as usize];
         let on_light = surface.position + sample.distance * sample.direction;
         let end = offset::along_ray(light, surface.position, on_light, sample.direction);
@@ -122,7 +122,7 @@ impl Integrator<'_> {
         }
     }
 
-    /// Traces a ray with the submission's code, and checks the result before it is used.
+    /// Traces a ray with the submission's code and checks the result before it is used.
     fn intersect(
         &self,
         ray: &Ray,
@@ -135,7 +135,7 @@ impl Integrator<'_> {
         let Some(trace) = self.world.bvh.closest_hit(ray) else {
             return Ok(None);
         };
-        // The number of a scene's shape is its index.
+        // In a scene, a shape's number is its index.
         let shape = self.scene.shapes.get(trace.shape as usize);
         let material = self.scene.material_of(trace.shape);
         let normal = trace.normal.try_normalize();
@@ -207,8 +207,8 @@ impl Surface<'_> {
                 Some(Scattered {
                     direction: direction.unwrap_or_else(|| reflect(incoming, self.normal)),
                     // The probability of each direction equals its share of the light, so the two
-                    // cancel. The factor eta², by which radiance grows on entry and shrinks on
-                    // exit, is left out both times.
+                    // cancel. Radiance should grow by eta² on entry and shrink by it on exit, so
+                    // the factor is left out both times.
                     attenuation: Vec3::ONE,
                     direct_light_sampled: false,
                 })

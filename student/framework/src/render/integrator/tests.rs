@@ -17,7 +17,7 @@ fn settings(samples: u32, bounces: u32) -> RenderSettings {
     }
 }
 
-/// Asserts that a value is the expected one up to this relative error.
+/// Asserts that a value equals the expected value up to this relative error.
 fn assert_near(got: f32, expected: f32, error: f32) {
     assert!(
         (got / expected - 1.0).abs() < error,
@@ -38,8 +38,8 @@ fn sphere(z: f32, radius: f32, material: &str) -> String {
 
 #[test]
 fn a_sphere_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
-    // Light of radiance 1 arrives from every direction and none of it is absorbed, so every pixel
-    // is 1.
+    // Light of radiance 1 arrives from every direction and nothing is absorbed, so every pixel is
+    // 1.
     for (name, material, bounces) in [("white", WHITE, 4), ("glass", GLASS, 200)] {
         let scene = scene(1.0, material, &sphere(-3.0, 2.0, name));
         let pixels = render(&CORRECT, &scene, &settings(4, bounces));
@@ -47,7 +47,7 @@ fn a_sphere_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
     }
 }
 
-/// A camera at the origin that looks down −z and sees `half_width` at distance 1 to each side.
+/// A camera at the origin that looks down −z and sees `half_width` to each side at distance 1.
 struct Zoomed {
     half_width: f32,
     film: UVec2,
@@ -98,7 +98,7 @@ fn contact_in_a_furnace(ball: f32, ground: f32, distance: f32) -> f32 {
 
 #[test]
 fn a_ball_on_a_large_sphere_is_invisible_in_a_white_furnace() {
-    // Rays that start too far from a surface begin inside the other sphere and are lost there. With
+    // Rays that start too far from a surface start inside the other sphere and are lost there. With
     // an offset of 1e-4 of the scene, a ball of radius 0.5 on a sphere of radius 1000 loses 41 %.
     for (ball, ground, distance) in [(0.5, 1000.0, 3.0), (0.1, 1000.0, 1.0), (0.5, 0.5, 30.0)] {
         assert_near(contact_in_a_furnace(ball, ground, distance), 1.0, 0.01);
@@ -142,7 +142,7 @@ fn light_inside_a_grey_shell_is_a_geometric_series() {
 fn a_large_light_on_a_sphere_matches_the_closed_form() {
     let shapes = [sphere(-3.0, 1.0, "grey"), sphere(7.0, 5.0, "light")].join(",");
     let scene = scene(0.0, &format!("{GREY}, {EMITTER}"), &shapes);
-    // The central pixel of a large film sees only a small area around the sphere's nearest point.
+    // The central pixel of a large film only sees a small area around the sphere's nearest point.
     let narrow = RenderSettings {
         film: uvec2(101, 101),
         ..settings(2000, 1)

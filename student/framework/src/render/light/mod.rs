@@ -1,7 +1,7 @@
 //! Light sampling for direct illumination (next-event estimation).
 //!
-//! The positions and shapes of lights come from the scene, and not from a submission's `hit`. The
-//! submission only decides whether something blocks the light.
+//! The positions and shapes of lights come from the scene rather than from a submission's `hit`.
+//! The submission only decides whether something blocks the light.
 
 mod shape;
 
@@ -11,7 +11,7 @@ use protocol::Shape;
 use self::shape::LightShape;
 use crate::scene::Scene;
 
-/// The lights of a scene, which are picked for sampling with probabilities proportional to their
+/// The lights of a scene. They are picked for sampling with probabilities proportional to their
 /// power.
 pub struct Lights {
     lights: Vec<AreaLight>,
@@ -70,7 +70,7 @@ impl Lights {
 
     /// Samples the light that reaches `point` from one light. The random numbers `choice` and
     /// `position`, in `[0, 1)`, pick the light and the position on it. Returns `None` if there is
-    /// no light, or if that position does not emit light toward `point`.
+    /// no light, or if that position doesn't emit light toward `point`.
     pub fn sample(&self, point: Vec3, choice: f32, position: Vec2) -> Option<LightSample> {
         let total = *self.cumulative_power.last()?;
         let target = choice * total;
@@ -118,8 +118,8 @@ mod tests {
         r#"{ "sphere": { "center": [4, 3, 0], "radius": 1, "material": "bright" } }"#;
     const DARK: &str = r#"{ "sphere": { "center": [0, 9, 0], "radius": 5, "material": "dark" } }"#;
 
-    /// Returns the irradiance at the origin on a floor that faces up, and how often the light
-    /// overhead was picked.
+    /// Returns the irradiance at the origin on a floor that faces up, and the number of times the
+    /// light overhead was picked.
     fn irradiance(lights: &Lights) -> (f32, u32) {
         let (mut light, mut overhead) = (0.0, 0);
         let count = 40_000;

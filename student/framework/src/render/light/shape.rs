@@ -1,4 +1,4 @@
-//! The shapes of lights, and sampling of points on them.
+//! The shapes of lights and the sampling of points on them.
 
 use std::f32::consts::TAU;
 
@@ -10,13 +10,13 @@ use crate::render::frame::Frame;
 
 /// The shape of a light.
 pub(super) enum LightShape {
-    /// A triangle that emits light only on the side that its unit `normal` points to.
+    /// A triangle that only emits light on the side its unit `normal` points to.
     Triangle {
         corners: [Vec3; 3],
         normal: Vec3,
         area: f32,
     },
-    /// A sphere that emits light only outward.
+    /// A sphere that only emits light outward.
     Sphere { center: Vec3, radius: f32 },
 }
 
@@ -41,8 +41,8 @@ impl LightShape {
         }
     }
 
-    /// Creates a triangle that emits light on the side that `outward` points to. If `outward` is
-    /// zero, the order of the corners determines the side.
+    /// Creates a triangle that emits light on the side `outward` points to. If `outward` is zero,
+    /// the order of the corners determines the side.
     fn triangle(corners: [Vec3; 3], outward: Vec3) -> Self {
         let [p0, p1, p2] = corners;
         let cross = (p1 - p0).cross(p2 - p0);
@@ -67,7 +67,7 @@ impl LightShape {
     }
 
     /// Samples a point on the light with two random numbers in `[0, 1)`. Returns `None` if the
-    /// light does not emit from there toward `point`.
+    /// light doesn't emit from there toward `point`.
     pub(super) fn sample(&self, point: Vec3, random: Vec2) -> Option<ShapeSample> {
         match *self {
             LightShape::Triangle {
@@ -113,7 +113,7 @@ fn sample_cone(center: Vec3, radius: f32, point: Vec3, random: Vec2) -> Option<S
     let frame = Frame::from_z(to_center / center_distance);
     let direction = frame.to_world(Vec3::new(sine * cos, sine * sin, cosine));
 
-    // Half of the chord that the ray cuts from the sphere; 0 at the silhouette.
+    // Half of the chord that the ray cuts from the sphere. It is 0 at the silhouette.
     let half_chord = (radius * radius - squared * sine * sine).max(0.0).sqrt();
     Some(ShapeSample {
         direction,

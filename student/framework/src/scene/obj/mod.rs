@@ -1,7 +1,7 @@
 //! Meshes in OBJ files, parsed by `tobj`.
 //!
-//! `tobj` reports errors without their lines, accepts NaN, and splits concave faces wrongly. So this
-//! module checks each line first, and splits the faces into triangles itself.
+//! `tobj` reports errors without line numbers, accepts NaN and splits concave faces incorrectly. So
+//! this module checks each line first and splits the faces into triangles itself.
 
 #[cfg(test)]
 mod tests;
@@ -15,7 +15,7 @@ use super::mesh::Face;
 use super::text_file::read_bytes;
 use super::triangulate::triangulate;
 
-/// The maximum number of corners of a face. Splitting a face takes up to the third power of this.
+/// The maximum number of corners of a face. Splitting a face takes cubic time in the worst case.
 const MAX_CORNERS: usize = 1000;
 
 /// The line of an error, if known, and its message.
@@ -23,12 +23,12 @@ type ObjError = (Option<usize>, String);
 
 /// Loads a mesh from an OBJ file.
 pub(super) fn load(path: &Path) -> Result<Vec<Face>, SceneError> {
-    // Names of groups and materials may have another encoding.
+    // Names of groups and materials may use a different encoding.
     let text = String::from_utf8_lossy(&read_bytes(path)?).into_owned();
     parse(&text).map_err(|error| error.in_file(path))
 }
 
-/// Parses the faces of an OBJ text, and splits them into triangles. The scene defines the materials,
+/// Parses the faces of an OBJ text and splits them into triangles. The scene defines the materials,
 /// so everything else is ignored.
 fn parse(text: &str) -> Result<Vec<Face>, SceneError> {
     let text = &text.replace("\r\n", "\n").replace('\r', "\n");
@@ -73,8 +73,7 @@ struct CheckedFace {
     has_normal: bool,
 }
 
-/// Checks the numbers and the faces. Returns them in the form that `tobj` parses, without anything
-/// else.
+/// Checks the numbers and the faces. Returns only these, in the form that `tobj` parses.
 fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>), ObjError> {
     let kinds = || statements.iter().filter_map(|(_, words)| words.first());
     let totals = INDEXED.map(|(kind, _)| kinds().filter(|other| **other == kind).count());
@@ -123,7 +122,7 @@ fn check_numbers<'a>(
     Ok(words.iter().copied().chain(["0"]).take(used).collect())
 }
 
-/// Checks the corners of a face. `so_far` is the number of elements before its line.
+/// Checks the corners of a face. `so_far` contains the numbers of elements before the face's line.
 fn check_face(
     line: usize,
     words: &[&str],
@@ -160,9 +159,9 @@ fn check_face(
     })
 }
 
-/// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`, and returns which indices it has. A
+/// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. Returns which indices it contains. A
 /// negative index counts backward from the last element before the current line. Like other
-/// programs, ignores the indices of uvs in a file that has none, and those of normals.
+/// programs, ignores the indices of uvs and normals if the file has none.
 fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bool; 3], String> {
     let mut form = [false; 3];
     for (i, text) in word.split('/').enumerate() {
@@ -189,7 +188,7 @@ fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bo
     Ok(form)
 }
 
-/// Parses a checked text, and splits its faces into triangles.
+/// Parses a checked text and splits its faces into triangles.
 fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
     let no_materials = |_: &Path| Ok(Default::default());
     let options = tobj::LoadOptions::default();

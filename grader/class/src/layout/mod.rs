@@ -20,7 +20,7 @@ use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
 
 use self::platforms::{CLASSROOM50_RESULT, Platform, SUBMISSIONS_SUFFIX, TEAMS_SUBMITTED};
-use self::reader::{ReadContext, common_prefix, is_canvas_download, is_name};
+use self::reader::{Reader, common_prefix, is_name};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
 use crate::listing::Node;
@@ -149,16 +149,15 @@ pub fn read_as(
 ) -> Result<RecognisedClass, Error> {
     let layout = match choice.layout {
         Some(layout) => layout,
-        None => recognise_layout(root, metadata.is_some(), known)?,
+        None if metadata.is_some() => Layout::Gradescope,
+        None => recognise_layout(root, handed_out, known)?,
     };
-    let title = choice.title.as_deref();
-    let context = ReadContext {
-        metadata,
+    let reader = Reader {
+        platform: Platform::of(layout),
         handed_out,
         known,
-        title,
     };
-    let (mut entries, unmatched) = reader::read(Platform::of(layout), root, context)?;
+    let (mut entries, unmatched) = reader.read(root, metadata, choice)?;
     reject_links(root, &mut entries);
     // Other layouts say who has handed in each entry, and so does a person who chooses this one.
     let mixtures = match choice.layout {
@@ -179,10 +178,11 @@ pub fn read_as(
 }
 
 /// Recognises the layout of a folder. A folder that can be read in two ways is rejected.
-fn recognise_layout(root: &Node, has_metadata: bool, known: &[Member]) -> Result<Layout, Error> {
-    if has_metadata {
-        return Ok(Layout::Gradescope);
-    }
+fn recognise_layout(
+    root: &Node,
+    handed_out: &HandedOut,
+    known: &[Member],
+) -> Result<Layout, Error> {
     let by_names = [
         Layout::Canvas,
         Layout::Moodle,
@@ -191,15 +191,19 @@ fn recognise_layout(root: &Node, has_metadata: bool, known: &[Member]) -> Result
         Layout::Sakai,
     ];
     let is_one = |layout: &Layout| {
-        let is_download = || is_canvas_download(Platform::of(*layout), root, known);
-        is_majority(root, |node| layout.has_name(&node.name))
-            && (*layout != Layout::Canvas || is_download())
+        let platform = Platform::of(*layout);
+        let reader = Reader {
+            platform,
+            handed_out,
+            known,
+        };
+        is_majority(root, |node| is_name(platform, &node.name))
+            && (!platform.has_attachments() || reader.is_canvas_download(root))
     };
     let found: Vec<Layout> = by_names.into_iter().filter(is_one).collect();
     match found.as_slice() {
         [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
         [] if is_github_classroom(root) => Ok(Layout::GitHub),
-        [] if is_gitlab_group(root) => Ok(Layout::GitLab),
         [] => Ok(Layout::Plain),
         [only] => Ok(*only),
         [one, other, ..] => Err(Error::user(format!(
@@ -223,16 +227,6 @@ fn is_github_classroom(root: &Node) -> bool {
         || root.find(CLASSROOM50_SCORES).is_some()
         // A student can add this file, but not make all folders begin alike.
         || (!common_prefix(&names, '-').is_empty() && has_results())
-}
-
-/// Returns whether most folders are clones of repositories, or have nothing else.
-fn is_gitlab_group(root: &Node) -> bool {
-    let is_group = |node: &Node| {
-        let mut inside = node.children().iter();
-        !node.children().is_empty() && inside.all(mixture::is_repository)
-    };
-    let is_one = |node: &Node| mixture::is_repository(node) || is_group(node);
-    is_majority(root, is_one) && root.children().len() > 1
 }
 
 /// Marks each entry whose files include a link as an entry without files.

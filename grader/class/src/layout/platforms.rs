@@ -2,6 +2,7 @@
 
 use super::Layout;
 use super::gradescope::METADATA;
+use crate::listing::Node;
 
 /// The name of the file that classroom50's tool writes beside the repositories. It has a row for each
 /// attempt of each student.
@@ -32,8 +33,8 @@ pub struct Platform {
     /// Templates of the names of submitted files and folders. Names that agree, apart from the file, are of
     /// one submission. Of several templates, the first that fits counts.
     pub files: &'static [&'static str],
-    /// The kinds of nodes that `files` can name.
-    pub holds: Holds,
+    /// Whether a file or folder can be a submission, or a file of one.
+    pub is_submission: fn(&Node) -> bool,
     /// Templates of the names of texts: submitted ones, or receipts that the platform writes.
     pub texts: &'static [&'static str],
     /// The reason for not grading a submission that has texts, but no files.
@@ -52,19 +53,11 @@ pub struct Platform {
     pub is_named_by_file: bool,
     /// The source of the people and the time, if it is not the name.
     pub record: Record,
-    /// The separator at the end of the text with which all names begin, such as the assignment's.
-    pub prefix_end: Option<char>,
+    /// The field that begins with the same text in all names, such as the assignment's title, and the
+    /// separator at the end of this text.
+    pub prefixed: Option<(&'static str, char)>,
     /// The name under which the platform accepts a page.
     pub hand_back: HandBackName,
-}
-
-/// The kinds of nodes that can be submissions, or files of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Holds {
-    Files,
-    Folders,
-    FilesAndFolders,
-    FoldersAndArchives,
 }
 
 /// A source of people and times that the platform has written.
@@ -98,6 +91,11 @@ impl Platform {
         let platform = platforms.find(|platform| platform.layout == layout);
         platform.expect("every layout is described")
     }
+
+    /// Returns whether names have the numbers of attachments, as in Canvas.
+    pub fn has_attachments(&self) -> bool {
+        self.hand_back == HandBackName::Attachment
+    }
 }
 
 /// The layout that others are variations of: a folder for each submission, named after its person.
@@ -106,7 +104,7 @@ const FOLDERS: Platform = Platform {
     description: "folders and archives, one per student",
     outer_folders: &[],
     files: &["{name}"],
-    holds: Holds::FoldersAndArchives,
+    is_submission: |node| node.is_folder() || node.is_archive(),
     texts: &[],
     text_only: "text was handed in, but no file",
     text_beside_files: Some(TEXT_BESIDE_FILES),
@@ -116,7 +114,7 @@ const FOLDERS: Platform = Platform {
     names: &["{name}"],
     is_named_by_file: true,
     record: Record::None,
-    prefix_end: None,
+    prefixed: None,
     hand_back: HandBackName::None,
 };
 
@@ -127,7 +125,7 @@ pub static PLATFORMS: [Platform; 10] = [
         layout: Layout::Gradescope,
         description: "a Gradescope export",
         files: &["{submission}"],
-        holds: Holds::FilesAndFolders,
+        is_submission: |_| true,
         unmatched: "it is not in submission_metadata.yml",
         own_files: &[METADATA],
         ids: &["{submission}"],
@@ -145,7 +143,7 @@ pub static PLATFORMS: [Platform; 10] = [
             "[{late}_]anon_{anonymous}_{attachment}_{file}",
             "{canvas_name}[_{late}]_{number}_{attachment}_{file}",
         ],
-        holds: Holds::Files,
+        is_submission: |node| !node.is_folder(),
         texts: &[
             "[{late}_]anon_{anonymous}_text.html",
             "[{late}_]anon_{anonymous}_link.html",
@@ -171,7 +169,7 @@ pub static PLATFORMS: [Platform; 10] = [
             "Participant_{participant}_assignsubmission_file[_{file}]",
             "{name}[_{number}]_assignsubmission_file[_{file}]",
         ],
-        holds: Holds::FilesAndFolders,
+        is_submission: |_| true,
         texts: &[
             "Participant_{participant}_assignsubmission_{kind}[_{file}]",
             "{name}[_{number}]_assignsubmission_{kind}[_{file}]",
@@ -190,7 +188,7 @@ pub static PLATFORMS: [Platform; 10] = [
         layout: Layout::Blackboard,
         description: "a Blackboard download",
         files: &["{account}_attempt_{time}[_{file}]"],
-        holds: Holds::Files,
+        is_submission: |node| !node.is_folder(),
         texts: &["{account}_attempt_{time}.txt"],
         text_beside_files: None,
         unmatched: "its name is not in Blackboard's format",
@@ -198,7 +196,7 @@ pub static PLATFORMS: [Platform; 10] = [
         names: &[],
         is_named_by_file: false,
         record: Record::Receipt,
-        prefix_end: Some('_'),
+        prefixed: Some(("account", '_')),
         ..FOLDERS
     },
     // "Download all files": `104840-170649 - Jane Doe - Nov 20, 2026 1134 PM` with the numbers of the user
@@ -207,7 +205,7 @@ pub static PLATFORMS: [Platform; 10] = [
         layout: Layout::Brightspace,
         description: "a Brightspace download",
         files: &["{number}-{folder} - {name} - {time}[ - {file}]"],
-        holds: Holds::FilesAndFolders,
+        is_submission: |_| true,
         unmatched: "its name is not in Brightspace's format",
         own_files: &["index.html"],
         ids: &["{name}_{number}_{time}"],
@@ -225,7 +223,7 @@ pub static PLATFORMS: [Platform; 10] = [
             "{name} ({uuid})",
             "{uuid} {word}",
         ],
-        holds: Holds::FilesAndFolders,
+        is_submission: |_| true,
         texts: &[
             "{members}_submissionText.html",
             "{members}_feedbackText.html",
@@ -244,7 +242,7 @@ pub static PLATFORMS: [Platform; 10] = [
         description: "the submitted files of a team in Microsoft Teams",
         outer_folders: &[&["{name}"], &["{title}"]],
         files: &["{version} {attempt}"],
-        holds: Holds::Folders,
+        is_submission: Node::is_folder,
         unmatched: "it is not in the folder of a version",
         ids: &["{name}_{attempt}"],
         ..FOLDERS
@@ -256,13 +254,13 @@ pub static PLATFORMS: [Platform; 10] = [
         layout: Layout::GitHub,
         description: "clones from a GitHub classroom",
         files: &["{account}"],
-        holds: Holds::Folders,
+        is_submission: Node::is_folder,
         unmatched: "it is not a repository",
         own_files: &[CLASSROOM50_SCORES],
         ids: &["{account}"],
         names: &[],
         is_named_by_file: false,
-        prefix_end: Some('-'),
+        prefixed: Some(("account", '-')),
         ..FOLDERS
     },
     // Clones of a GitLab group (`glab repo clone --group`), with `--preserve-namespace` in a folder for each
@@ -270,9 +268,9 @@ pub static PLATFORMS: [Platform; 10] = [
     Platform {
         layout: Layout::GitLab,
         description: "clones of a GitLab group",
-        holds: Holds::Folders,
+        is_submission: Node::is_folder,
         unmatched: "it is not a repository",
-        prefix_end: Some('-'),
+        prefixed: Some(("name", '-')),
         ..FOLDERS
     },
     FOLDERS,

@@ -8,10 +8,10 @@ use grader::handed_out::HandedOut;
 
 use super::gradescope::read_metadata;
 use super::mixture::is_section;
-use super::platforms::{HandBackName, Holds, Platform, Record, SUBMISSIONS_SUFFIX};
+use super::platforms::{HandBackName, Platform, Record, SUBMISSIONS_SUFFIX};
 use super::template::{Parts, read_members, readings};
 use super::times::written_time;
-use super::{Layout, LayoutContents, UnmatchedPath};
+use super::{Layout, LayoutChoice, LayoutContents, UnmatchedPath};
 use crate::entry::{Entry, Person, Source};
 use crate::error::Error;
 use crate::listing::Node;
@@ -35,19 +35,6 @@ pub const SAKAI_TIME: &str = "timestamp.txt";
 /// Sakai's file with the members of a group.
 pub const SAKAI_MEMBERS: &str = "members.txt";
 
-/// Everything apart from the class's folder that its entries depend on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ReadContext<'a> {
-    /// The text of Gradescope's metadata file.
-    pub metadata: Option<&'a str>,
-    /// The assignment.
-    pub handed_out: &'a HandedOut,
-    /// The people on lists.
-    pub known: &'a [Member],
-    /// The title of the assignment, for a class with several.
-    pub title: Option<&'a str>,
-}
-
 /// The people of a submission and its time, as the platform has recorded them. Unknown ones are empty.
 #[derive(Debug, Default)]
 pub(super) struct SubmissionRecord {
@@ -56,7 +43,6 @@ pub(super) struct SubmissionRecord {
 }
 
 /// A file or folder whose name belongs to a submission.
-#[derive(Clone, Debug)]
 struct Found<'a> {
     parts: Parts<'a>,
     node: &'a Node,
@@ -65,23 +51,21 @@ struct Found<'a> {
     is_text: bool,
 }
 
-/// The files and folders that were found in a class.
-struct Search<'a> {
-    platform: &'static Platform,
-    context: ReadContext<'a>,
+/// Reads the classes of a platform.
+pub(super) struct Reader<'a> {
+    pub platform: &'static Platform,
+    pub handed_out: &'a HandedOut,
+    /// The people on lists.
+    pub known: &'a [Member],
+}
+
+/// The names that were read in a class's folder.
+#[derive(Default)]
+struct Names<'a> {
     found: Vec<Found<'a>>,
     /// The entries of files whose names can be read in several ways.
     ambiguous: Vec<Entry>,
     unmatched: Vec<UnmatchedPath>,
-}
-
-/// The files and folders of one submission, and its texts.
-struct Group<'a> {
-    platform: &'static Platform,
-    /// The parts of the names that all of them share.
-    parts: Parts<'a>,
-    files: Vec<Found<'a>>,
-    texts: Vec<Found<'a>>,
 }
 
 /// Returns whether a name follows one of the platform's templates.
@@ -90,156 +74,162 @@ pub(super) fn is_name(platform: &Platform, name: &str) -> bool {
     templates.any(|template| !readings(template, name).is_empty())
 }
 
-/// Returns whether the files can be a download of Canvas, and not other files whose names have two
-/// numbers, such as a date. In these, the same number or name is where Canvas has the students', or
-/// two files have one attachment.
-pub(super) fn is_canvas_download(canvas: &Platform, root: &Node, known: &[Member]) -> bool {
-    let mut names: Vec<(bool, Parts)> = Vec::new();
-    for node in root.children() {
-        let first = first_readings(canvas.files, &node.name).into_iter().next();
-        names.extend(first.map(|parts| (node.is_archive(), parts)));
-    }
-    if names
-        .iter()
-        .any(|(_, parts)| is_listed(canvas, parts, known))
-    {
-        return true;
-    }
-    let count = |templates: &[&'static str]| {
-        let texts = names.iter().map(|(_, parts)| parts.fill_first(templates));
-        texts.collect::<BTreeSet<String>>().len()
-    };
-    let users = count(canvas.ids);
-    let whos = count(&["{canvas_name}", "anon"]);
-    let attachments = count(&[
-        "{canvas_name}_{number}_{attachment}",
-        "anon_{anonymous}_{attachment}",
-    ]);
-    let archives = names.iter().filter(|(is_archive, _)| *is_archive).count();
-    let mut anonymous = names.iter().map(|(_, parts)| parts.get("anonymous"));
-    let is_anonymous = anonymous.all(|anonymous| !anonymous.is_empty());
-    let is_of_one = (users == 1 && archives > 1) || (users > 1 && whos == 1 && !is_anonymous);
-    attachments == names.len() && !is_of_one
-}
-
-/// Returns the entries of a class, and the paths that belong to none.
-pub(super) fn read(
-    platform: &'static Platform,
-    root: &Node,
-    context: ReadContext,
-) -> Result<LayoutContents, Error> {
-    let metadata = context
-        .metadata
-        .filter(|_| platform.record == Record::Metadata);
-    let mut records = metadata.map(read_metadata).transpose()?.unwrap_or_default();
-    let mut search = Search {
-        platform,
-        context,
-        found: Vec::new(),
-        ambiguous: Vec::new(),
-        unmatched: Vec::new(),
-    };
-    search.visit(root, platform.outer_folders, &Parts::default(), "");
-    search.choose_title()?;
-    search.strip_prefix(root);
-    let (mut entries, mut unmatched) = (search.ambiguous, search.unmatched);
-    let groups = group(platform, search.found);
-    let shared = shared_numbers(&groups);
-    for mut group in groups {
-        let has_shared_number = !group.files.is_empty() && shared.contains(number(&group.parts));
-        let record = match platform.record {
-            Record::None => SubmissionRecord::default(),
-            Record::Receipt => group.read_receipt()?,
-            Record::FilesInFolder => group.read_files_in_folder()?,
-            Record::Metadata => match records.remove(group.parts.get("submission")) {
-                Some(record) => record,
-                None => {
-                    let others = group.files.iter();
-                    unmatched.extend(others.map(|found| found.unmatched(platform.unmatched)));
-                    continue;
-                }
-            },
-        };
-        let mut entry = group.into_entry(context.handed_out, &mut unmatched);
-        if has_shared_number {
-            entry.source = Source::Missing(SHARED_NUMBER.to_owned());
+impl Reader<'_> {
+    /// Returns whether the files can be a download of Canvas, and not other files whose names have two
+    /// numbers, such as a date. In these, the same number or name is where Canvas has the students', or
+    /// two files have one attachment.
+    pub fn is_canvas_download(&self, root: &Node) -> bool {
+        let nodes = root.children().iter();
+        let names = nodes.map(|node| (node, first_readings(self.platform.files, &node.name)));
+        let names: Vec<_> = names.filter(|(_, ways)| !ways.is_empty()).collect();
+        if names.iter().any(|(_, ways)| self.is_listed(&ways[0])) {
+            return true;
         }
-        entries.push(record.describe(entry));
+        let count = |templates: &[&'static str]| {
+            let texts = names.iter().map(|(_, ways)| ways[0].fill_first(templates));
+            texts.collect::<BTreeSet<String>>().len()
+        };
+        let users = count(self.platform.ids);
+        let whos = count(&["{canvas_name}", "anon"]);
+        let named = "{canvas_name}_{number}_{attachment}";
+        let attachments = count(&[named, "anon_{anonymous}_{attachment}"]);
+        let archives = names.iter().filter(|(node, _)| node.is_archive()).count();
+        let is_anonymous = names.iter().all(|(_, ways)| ways[0].has("anonymous"));
+        let is_of_one = (users == 1 && archives > 1) || (users > 1 && whos == 1 && !is_anonymous);
+        attachments == names.len() && !is_of_one
     }
-    for (name, record) in records {
-        let source = Source::Missing("its folder is not in the export".to_owned());
-        let entry = Entry::new(&name, Person::named_by_file(&name), &name, source);
-        entries.push(record.describe(entry));
-    }
-    Ok((entries, unmatched))
-}
 
-impl<'a> Search<'a> {
-    /// Finds the submissions in a folder. `levels` has the templates of the folders above them, `outer`
-    /// the parts of the folders so far, and `above` their path.
-    fn visit(
-        &mut self,
+    /// Returns the entries of a class, and the paths that belong to none. `metadata` is the text of
+    /// Gradescope's file.
+    pub fn read(
+        &self,
+        root: &Node,
+        metadata: Option<&str>,
+        choice: &LayoutChoice,
+    ) -> Result<LayoutContents, Error> {
+        let platform = self.platform;
+        let metadata = metadata.filter(|_| platform.record == Record::Metadata);
+        let mut records = metadata.map(read_metadata).transpose()?.unwrap_or_default();
+        let mut names = Names::default();
+        self.visit(
+            root,
+            platform.outer_folders,
+            &Parts::default(),
+            "",
+            &mut names,
+        );
+        choose_title(&mut names.found, choice)?;
+        self.strip_prefix(root, &mut names.found);
+        let (mut entries, mut unmatched) = (names.ambiguous, names.unmatched);
+        let mut groups: BTreeMap<Parts, Vec<Found>> = BTreeMap::new();
+        for found in names.found {
+            groups
+                .entry(found.parts.without(&OF_FILES))
+                .or_default()
+                .push(found);
+        }
+        let mut names_of: BTreeMap<&str, usize> = BTreeMap::new();
+        for (parts, group) in &groups {
+            let has_files = group.iter().any(|found| !found.is_text);
+            *names_of.entry(number(parts)).or_default() += usize::from(has_files);
+        }
+        for (mut parts, group) in groups {
+            let (texts, files): (Vec<_>, Vec<_>) =
+                group.into_iter().partition(|found| found.is_text);
+            let record = match platform.record {
+                Record::None => SubmissionRecord::default(),
+                Record::Receipt => read_receipt(&mut parts, &texts)?,
+                Record::FilesInFolder => read_files_in_folder(&parts, &files)?,
+                Record::Metadata => match records.remove(parts.get("submission")) {
+                    Some(record) => record,
+                    None => {
+                        let others = files.into_iter();
+                        unmatched.extend(others.map(|found| found.unmatched(platform.unmatched)));
+                        continue;
+                    }
+                },
+            };
+            let is_shared =
+                platform.has_attachments() && !files.is_empty() && names_of[number(&parts)] > 1;
+            let mut entry = self.entry(&parts, files, texts, &mut unmatched);
+            if is_shared {
+                entry.source = Source::Missing(SHARED_NUMBER.to_owned());
+            }
+            entries.push(record.describe(entry));
+        }
+        for (name, record) in records {
+            let source = Source::Missing("its folder is not in the export".to_owned());
+            let entry = Entry::new(&name, Person::named_by_file(&name), &name, source);
+            entries.push(record.describe(entry));
+        }
+        Ok((entries, unmatched))
+    }
+
+    /// Reads the names in a folder. `levels` has the templates of the folders in it that are above the
+    /// submissions, `outer` the parts of those that it is in, and `above` their path.
+    fn visit<'a>(
+        &self,
         folder: &'a Node,
         levels: &[&'static [&'static str]],
         outer: &Parts<'a>,
         above: &str,
+        names: &mut Names<'a>,
     ) {
         for node in folder.children() {
             let path = match above {
                 "" => node.name.clone(),
                 above => format!("{above}/{}", node.name),
             };
+            let may_have_sections = self.platform.layout == Layout::GitLab && above.is_empty();
             if let [templates, inner @ ..] = levels {
                 let own = first_readings(templates, &node.name).into_iter().next();
                 match own.filter(|_| node.is_folder() && !node.is_link) {
-                    Some(own) => self.visit(node, inner, &outer.join(&own), &path),
-                    None => self.add_unmatched(path),
+                    Some(own) => self.visit(node, inner, &outer.join(&own), &path, names),
+                    None => names
+                        .unmatched
+                        .push(unmatched(path, self.platform.unmatched)),
                 }
-            } else if self.is_section(node) && above.is_empty() {
-                self.visit(node, levels, outer, &path);
-            } else if !above.is_empty() || !self.platform.own_files.contains(&node.name.as_str()) {
-                self.add(node, outer, path);
+            } else if may_have_sections && is_section(node, self.handed_out) {
+                self.visit(node, levels, outer, &path, names);
+            } else if node.is_folder() || !self.platform.own_files.contains(&path.as_str()) {
+                self.add(node, outer, path, names);
             }
         }
     }
 
-    /// Returns whether a folder in a GitLab group is a subgroup, and not a repository.
-    fn is_section(&self, node: &Node) -> bool {
-        self.platform.layout == Layout::GitLab && is_section(node, self.context.handed_out)
-    }
-
-    /// Adds a file or folder that is in the place of a submission.
-    fn add(&mut self, node: &'a Node, outer: &Parts<'a>, path: String) {
-        let name = node.name.as_str();
+    /// Adds a file or folder that is where submissions are.
+    fn add<'a>(&self, node: &'a Node, outer: &Parts<'a>, path: String, names: &mut Names<'a>) {
         let mut ways = Vec::new();
-        if self.platform.holds.can_be(node) {
-            ways = first_readings(self.platform.files, name);
+        if (self.platform.is_submission)(node) {
+            ways = first_readings(self.platform.files, &node.name);
         }
-        if self.platform.hand_back == HandBackName::Attachment {
-            // The student's name and the file's may contain numbers as well.
-            let is_listed = |parts: &Parts| is_listed(self.platform, parts, self.context.known);
-            if ways.iter().filter(|parts| is_listed(parts)).count() == 1 {
-                ways.retain(is_listed);
-            }
-        } else {
+        if !self.platform.has_attachments() {
             ways.truncate(1);
+        } else if ways.iter().filter(|parts| self.is_listed(parts)).count() == 1 {
+            // The student's name and the file's may contain numbers as well.
+            ways.retain(|parts| self.is_listed(parts));
         }
-        let texts = || first_readings(self.platform.texts, name).into_iter().next();
-        let (parts, is_text) = match ways.as_slice() {
-            [_, _, ..] => return self.ambiguous.push(ambiguous(&ways, node)),
-            [parts] => (parts.clone(), false),
-            [] => match texts() {
-                Some(parts) => (parts, true),
-                None => return self.add_unmatched(path),
-            },
+        if ways.len() > 1 {
+            names.ambiguous.push(ambiguous(&ways, node));
+            return;
+        }
+        let is_text = ways.is_empty();
+        if is_text {
+            ways = first_readings(self.platform.texts, &node.name);
+        }
+        let Some(own) = ways.first() else {
+            names
+                .unmatched
+                .push(unmatched(path, self.platform.unmatched));
+            return;
         };
-        let mut parts = outer.join(&parts);
-        if self.platform.holds == Holds::FoldersAndArchives && !node.is_folder() {
-            parts.set("name", strip_archive_extension(name));
+        let mut parts = outer.join(own);
+        if self.platform.layout == Layout::Plain && !node.is_folder() {
             // A folder of the same name is another submission.
-            parts.set("whole_name", name);
+            parts.set("whole_name", &node.name);
+            parts.set("name", strip_archive_extension(&node.name));
         }
-        self.found.push(Found {
+        names.found.push(Found {
             parts,
             node,
             path,
@@ -247,90 +237,129 @@ impl<'a> Search<'a> {
         });
     }
 
-    fn add_unmatched(&mut self, path: String) {
-        self.unmatched.push(UnmatchedPath {
-            name: path,
-            why: self.platform.unmatched.to_owned(),
-        });
-    }
-
-    /// Keeps the submissions of one assignment. Rejects a class with several, of which none is chosen.
-    fn choose_title(&mut self) -> Result<(), Error> {
-        let titles = self.found.iter().map(|found| found.parts.get("title"));
-        let titles: BTreeSet<&str> = titles.filter(|title| !title.is_empty()).collect();
-        let all = Vec::from_iter(titles.iter().copied()).join(", ");
-        match self.context.title {
-            Some(title) if titles.contains(title) => {
-                self.found.retain(|found| found.parts.get("title") == title);
-                Ok(())
-            }
-            Some(title) => Err(Error::user(format!(
-                "no folder of an assignment has the title {title:?}; there are: {all}"
-            ))),
-            None if titles.len() > 1 => Err(Error::user(format!(
-                "the input has several assignments ({all}): choose one with --title"
-            ))),
-            None => Ok(()),
-        }
-    }
-
     /// Removes the text with which all names begin, such as the assignment's title.
-    fn strip_prefix(&mut self, root: &Node) {
-        let Some(separator) = self.platform.prefix_end else {
+    fn strip_prefix(&self, root: &Node, found: &mut [Found]) {
+        let Some((field, separator)) = self.platform.prefixed else {
             return;
         };
-        let field = if self.platform.names.is_empty() {
-            "account"
-        } else {
-            "name"
-        };
-        let names = self.found.iter().filter(|found| !found.node.is_link);
+        let names = found.iter().filter(|found| !found.node.is_link);
         let names: BTreeSet<&str> = names.map(|found| found.parts.get(field)).collect();
-        let is_listed = |name: &&str| {
-            let person = Person::named_by_file(*name);
-            self.context
-                .known
-                .iter()
-                .any(|member| member.matches(&person))
-        };
-        if field == "name" && names.iter().any(is_listed) {
-            return;
-        }
         let assignment = root.name.strip_suffix(SUBMISSIONS_SUFFIX);
         let prefix = match assignment.filter(|_| self.platform.layout == Layout::GitHub) {
             Some(assignment) => format!("{assignment}{separator}"),
             None => common_prefix(&Vec::from_iter(names), separator).to_owned(),
         };
-        for Found { parts, .. } in &mut self.found {
+        for Found { parts, .. } in found {
             let whole = parts.get(field);
             parts.set("whole_name", whole);
             parts.set(field, whole.strip_prefix(&prefix).unwrap_or(whole));
         }
     }
+
+    /// Returns whether a list has the person's number with a name like the person's.
+    fn is_listed(&self, parts: &Parts) -> bool {
+        let person = person(self.platform, parts);
+        let mut members = self.known.iter().map(|member| &member.person);
+        members.any(|member| person.has_number(&member.number, &member.name))
+    }
+
+    /// Returns the entry of a submission. Texts that are not graded are added to `others`.
+    fn entry(
+        &self,
+        parts: &Parts,
+        mut files: Vec<Found>,
+        mut texts: Vec<Found>,
+        others: &mut Vec<UnmatchedPath>,
+    ) -> Entry {
+        let platform = self.platform;
+        files.sort_by_key(|found| found.parts.get("attachment").parse::<u64>().ok());
+        let folder = files.iter().find(|found| found.node.is_folder());
+        let text = texts.pop_if(|_| files.is_empty());
+        let (from, source) = match (files.as_slice(), &text) {
+            ([], text) => {
+                let from = text.as_ref().map(|text| text.path.clone());
+                let source = Source::Missing(platform.text_only.to_owned());
+                (from.unwrap_or_default(), source)
+            }
+            ([others @ .., last], _) if platform.has_attachments() && !others.is_empty() => {
+                let from = format!("{} and {} more", last.path, others.len());
+                (from, self.source(&files))
+            }
+            ([first, ..], _) => (folder.unwrap_or(first).path.clone(), self.source(&files)),
+        };
+        let mut named = files.iter().chain(&text);
+        let late = named.any(|found| found.parts.has("late"));
+        let why = if files.is_empty() {
+            Some(platform.text_only)
+        } else {
+            platform.text_beside_files
+        };
+        if let Some(why) = why {
+            others.extend(texts.into_iter().map(|found| found.unmatched(why)));
+        }
+        let id = parts.fill_first(platform.ids);
+        let mut entry = Entry::new(id, person(platform, parts), &from, source);
+        entry.info.late = late;
+        entry.info.marks_late = platform.files.iter().any(|name| name.contains("{late}"));
+        entry.info.submitted = written_time(parts.get("time"));
+        entry.info.hand_back_as = match platform.hand_back {
+            HandBackName::None => None,
+            HandBackName::Marks(name) => Some(name.to_owned()),
+            HandBackName::Attachment => attachment_name(platform, &files),
+        };
+        entry
+    }
+
+    /// Returns the location of a submission's files.
+    fn source(&self, files: &[Found]) -> Source {
+        let name = |found: &Found| found.parts.get("file").to_owned();
+        match files {
+            [only] if only.node.is_folder() => {
+                let attachments = only.node.find(SAKAI_ATTACHMENTS);
+                return Source::Path(attachments.unwrap_or(only.node).path.clone());
+            }
+            [only] if name(only).is_empty() => return Source::Path(only.node.path.clone()),
+            files if files.iter().any(|found| found.node.is_folder()) => {
+                return Source::Missing(SEVERAL.to_owned());
+            }
+            _ => {}
+        }
+        let names: BTreeSet<String> = files.iter().map(name).collect();
+        if names.len() < files.len() {
+            return Source::Missing(REPEATED_FILE.to_owned());
+        }
+        let mut counting = Vec::new();
+        for (index, found) in files.iter().enumerate() {
+            // Of the archives that were handed in under one name, the newest counts. Files that were
+            // handed in again come later in the list.
+            let base = without_number(&name(found));
+            let mut later = files[index + 1..]
+                .iter()
+                .filter(|other| other.node.is_archive());
+            let is_replaced =
+                found.node.is_archive() && later.any(|other| without_number(&name(other)) == base);
+            let is_renamed = self.platform.has_attachments();
+            if is_renamed && is_replaced {
+                continue;
+            }
+            // Other names than those of task files may end in a number of their own.
+            let is_task_file = is_renamed && self.handed_out.task_file(&base).is_some();
+            let own = if is_task_file { base } else { name(found) };
+            counting.push((own, found.node.path.clone()));
+        }
+        Source::Files(counting)
+    }
 }
 
 impl Found<'_> {
-    fn unmatched(&self, why: &str) -> UnmatchedPath {
-        UnmatchedPath {
-            name: self.path.clone(),
-            why: why.to_owned(),
-        }
-    }
-
-    fn is_late(&self) -> bool {
-        !self.parts.get("late").is_empty()
+    fn unmatched(self, why: &str) -> UnmatchedPath {
+        unmatched(self.path, why)
     }
 }
 
-impl Holds {
-    fn can_be(self, node: &Node) -> bool {
-        match self {
-            Holds::Files => !node.is_folder(),
-            Holds::Folders => node.is_folder(),
-            Holds::FilesAndFolders => true,
-            Holds::FoldersAndArchives => node.is_folder() || node.is_archive(),
-        }
-    }
+fn unmatched(name: String, why: &str) -> UnmatchedPath {
+    let why = why.to_owned();
+    UnmatchedPath { name, why }
 }
 
 impl SubmissionRecord {
@@ -344,189 +373,79 @@ impl SubmissionRecord {
     }
 }
 
-/// Groups files and folders by submission.
-fn group<'a>(platform: &'static Platform, found: Vec<Found<'a>>) -> Vec<Group<'a>> {
-    let mut groups: BTreeMap<Parts, Group> = BTreeMap::new();
-    for found in found {
-        let parts = found.parts.without(&OF_FILES);
-        let group = groups.entry(parts.clone()).or_insert_with(|| Group {
-            platform,
-            parts,
-            files: Vec::new(),
-            texts: Vec::new(),
-        });
-        let list = if found.is_text {
-            &mut group.texts
-        } else {
-            &mut group.files
-        };
-        list.push(found);
-    }
-    groups.into_values().collect()
-}
-
-/// Returns the numbers with which Canvas has different names.
-fn shared_numbers<'a>(groups: &[Group<'a>]) -> BTreeSet<&'a str> {
-    let (mut all, mut shared) = (BTreeSet::new(), BTreeSet::new());
-    for Group {
-        platform,
-        parts,
-        files,
-        ..
-    } in groups
-    {
-        if platform.hand_back == HandBackName::Attachment
-            && !files.is_empty()
-            && !all.insert(number(parts))
-        {
-            shared.insert(number(parts));
+/// Keeps the submissions of one assignment. Rejects a class with several, of which none is chosen.
+fn choose_title(found: &mut Vec<Found>, choice: &LayoutChoice) -> Result<(), Error> {
+    let titles = found.iter().map(|found| found.parts.get("title"));
+    let titles: BTreeSet<&str> = titles.filter(|title| !title.is_empty()).collect();
+    let all = Vec::from_iter(titles.iter().copied()).join(", ");
+    match choice.title.as_deref() {
+        Some(title) if titles.contains(title) => {
+            found.retain(|found| found.parts.get("title") == title);
+            Ok(())
         }
-    }
-    shared
-}
-
-impl Group<'_> {
-    /// Reads the first line of Blackboard's text file, `Name: Jane Doe (jdoe)`, in which the word before
-    /// the colon depends on the language. The assignment's title and the account may contain `_`, so
-    /// only this line tells where the account begins.
-    fn read_receipt(&mut self) -> Result<SubmissionRecord, Error> {
-        let Some(receipt) = self.texts.first() else {
-            return Ok(SubmissionRecord::default());
-        };
-        let text = read_text(receipt.node)?;
-        let line = text.lines().next().and_then(|line| line.split_once(": "));
-        let name = line.and_then(|(_, name)| name.trim().strip_suffix(')')?.rsplit_once(" ("));
-        let whole = self.parts.get("whole_name");
-        let Some((name, account)) = name.filter(|(_, account)| {
-            let title = whole.strip_suffix(account);
-            title.is_some_and(|title| title.is_empty() || title.ends_with('_'))
-        }) else {
-            return Ok(SubmissionRecord::default());
-        };
-        self.parts
-            .set("account", &whole[whole.len() - account.len()..]);
-        let person = Person {
-            login: account.to_owned(),
-            ..Person::named(name.trim())
-        };
-        Ok(SubmissionRecord {
-            people: vec![person],
-            time: None,
-        })
-    }
-
-    /// Reads the files that Sakai writes into each folder.
-    fn read_files_in_folder(&self) -> Result<SubmissionRecord, Error> {
-        let read = |name: &str| {
-            let file = self.files.iter().find_map(|found| found.node.find(name));
-            file.map(read_text).transpose()
-        };
-        let members = read(SAKAI_MEMBERS)?;
-        let members = members.as_deref().unwrap_or(self.parts.get("members"));
-        let person = |parts: Parts| Person {
-            login: parts.get("account").to_owned(),
-            ..Person::named_by_file(parts.fill_first(&["{first} {last}", "{last}"]))
-        };
-        let people = read_members(members.trim()).unwrap_or_default();
-        let time = read(SAKAI_TIME)?.map(|text| text.trim().to_owned());
-        Ok(SubmissionRecord {
-            people: people.into_iter().map(person).collect(),
-            time: time.map(|text| written_time(&text).unwrap_or(text)),
-        })
-    }
-
-    /// Returns the entry of the submission. Texts that are not graded are added to `unmatched`.
-    fn into_entry(mut self, handed_out: &HandedOut, unmatched: &mut Vec<UnmatchedPath>) -> Entry {
-        let platform = self.platform;
-        let is_canvas = platform.hand_back == HandBackName::Attachment;
-        if is_canvas {
-            let attachment = |found: &Found| found.parts.get("attachment").parse::<u64>().ok();
-            self.files.sort_by_key(attachment);
-        }
-        let last_text = self.texts.pop();
-        let mut late = self.files.iter().any(Found::is_late);
-        let folder = self.files.iter().find(|found| found.node.is_folder());
-        let (from, source) = match (self.files.as_slice(), folder, last_text) {
-            ([], _, text) => {
-                late = text.as_ref().is_some_and(Found::is_late);
-                let others = self.texts.iter();
-                unmatched.extend(others.map(|found| found.unmatched(platform.text_only)));
-                let from = text.map(|text| text.path).unwrap_or_default();
-                (from, Source::Missing(platform.text_only.to_owned()))
-            }
-            (files @ [first, ..], folder, text) => {
-                if let Some(why) = platform.text_beside_files {
-                    let texts = self.texts.iter().chain(&text);
-                    unmatched.extend(texts.map(|found| found.unmatched(why)));
-                }
-                let from = match files {
-                    [others @ .., last] if is_canvas && !others.is_empty() => {
-                        format!("{} and {} more", last.path, others.len())
-                    }
-                    _ => folder.unwrap_or(first).path.clone(),
-                };
-                (from, source(files, folder, is_canvas, handed_out))
-            }
-        };
-        let id = self.parts.fill_first(platform.ids);
-        let mut entry = Entry::new(id, person(platform, &self.parts), &from, source);
-        entry.info.late = late;
-        entry.info.marks_late = platform.files.iter().any(|name| name.contains("{late}"));
-        entry.info.submitted = written_time(self.parts.get("time"));
-        entry.info.hand_back_as = match platform.hand_back {
-            HandBackName::None => None,
-            HandBackName::Marks(name) => Some(name.to_owned()),
-            HandBackName::Attachment => attachment_name(platform, &self.files),
-        };
-        entry
+        Some(title) => Err(Error::user(format!(
+            "no folder of an assignment has the title {title:?}; there are: {all}"
+        ))),
+        None if titles.len() > 1 => Err(Error::user(format!(
+            "the input has several assignments ({all}): choose one with --title"
+        ))),
+        None => Ok(()),
     }
 }
 
-/// Returns the location of a submission's files.
-fn source(
-    files: &[Found],
-    folder: Option<&Found>,
-    is_canvas: bool,
-    handed_out: &HandedOut,
-) -> Source {
-    if let Some(folder) = folder {
-        return match files {
-            [_] => {
-                let attachments = folder.node.find(SAKAI_ATTACHMENTS);
-                Source::Path(attachments.unwrap_or(folder.node).path.clone())
-            }
-            _ => Source::Missing(SEVERAL.to_owned()),
-        };
-    }
-    let name = |found: &Found| found.parts.get("file").to_owned();
-    if let [only] = files
-        && name(only).is_empty()
-    {
-        return Source::Path(only.node.path.clone());
-    }
-    let names: BTreeSet<String> = files.iter().map(name).collect();
-    if names.len() < files.len() {
-        return Source::Missing(REPEATED_FILE.to_owned());
-    }
-    // Of the archives that were handed in under one name, the newest counts. Files that were handed in
-    // again come later in the list.
-    let is_replaced = |index: usize| {
-        let is_archive = |found: &&Found| found.node.is_archive();
-        let base = |found: &Found| without_number(&name(found));
-        let own = Some(&files[index]).filter(is_archive);
-        let mut later = files[index + 1..].iter().filter(is_archive);
-        own.is_some_and(|own| later.any(|other| base(other) == base(own)))
+/// Reads the first line of Blackboard's text file, `Name: Jane Doe (jdoe)`, in which the word before the
+/// colon depends on the language. The assignment's title and the account may contain `_`, so only this
+/// line tells where the account begins.
+fn read_receipt(parts: &mut Parts, texts: &[Found]) -> Result<SubmissionRecord, Error> {
+    let text = texts
+        .first()
+        .map(|text| read_text(text.node))
+        .transpose()?
+        .unwrap_or_default();
+    let line = text.lines().next().and_then(|line| line.split_once(": "));
+    let name = line.and_then(|(_, name)| name.trim().strip_suffix(')')?.rsplit_once(" ("));
+    let whole = parts.get("whole_name");
+    let is_end = |account: &str| {
+        let title = whole.strip_suffix(account);
+        title.is_some_and(|title| title.is_empty() || title.ends_with('_'))
     };
-    let counting = (0..files.len()).filter(|index| !is_canvas || !is_replaced(*index));
-    let counting = counting.map(|index| {
-        let own = if is_canvas {
-            original_name(&name(&files[index]), handed_out)
-        } else {
-            name(&files[index])
-        };
-        (own, files[index].node.path.clone())
+    let Some((name, account)) = name.filter(|(_, account)| is_end(account)) else {
+        return Ok(SubmissionRecord::default());
+    };
+    parts.set("account", &whole[whole.len() - account.len()..]);
+    let person = Person {
+        login: account.to_owned(),
+        ..Person::named(name.trim())
+    };
+    Ok(SubmissionRecord {
+        people: vec![person],
+        time: None,
+    })
+}
+
+/// Reads the files that Sakai writes into each folder.
+fn read_files_in_folder(parts: &Parts, files: &[Found]) -> Result<SubmissionRecord, Error> {
+    let read = |name: &str| {
+        let file = files.iter().find_map(|found| found.node.find(name));
+        file.map(read_text).transpose()
+    };
+    let members = read(SAKAI_MEMBERS)?;
+    let members = read_members(members.as_deref().unwrap_or(parts.get("members")).trim());
+    let people = members.unwrap_or_default().into_iter().map(|parts| Person {
+        login: parts.get("eid").to_owned(),
+        ..Person::named_by_file(parts.fill_first(&["{first} {last}", "{last}"]))
     });
-    Source::Files(counting.collect())
+    let people = people.collect();
+    let time = read(SAKAI_TIME)?.map(|text| text.trim().to_owned());
+    let time = time.map(|text| written_time(&text).unwrap_or(text));
+    Ok(SubmissionRecord { people, time })
+}
+
+/// Reads a file that the platform has written.
+fn read_text(node: &Node) -> Result<String, Error> {
+    let bytes = files::read(&node.path).map_err(Error::user)?;
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(text.trim_start_matches('\u{feff}').to_owned())
 }
 
 /// Returns the name under which Canvas shows a page: that of the last attachment, if Canvas takes the first
@@ -559,13 +478,6 @@ fn number<'a>(parts: &Parts<'a>) -> &'a str {
         .unwrap_or_default()
 }
 
-/// Returns whether a list has the person's number with a name like the person's.
-fn is_listed(platform: &Platform, parts: &Parts, known: &[Member]) -> bool {
-    let person = person(platform, parts);
-    let mut members = known.iter().map(|member| &member.person);
-    members.any(|member| person.has_number(&member.number, &member.name))
-}
-
 /// Returns the ways to read a name by the first template that it follows.
 fn first_readings<'a>(templates: &[&'static str], name: &'a str) -> Vec<Parts<'a>> {
     let ways = templates.iter().map(|template| readings(template, name));
@@ -587,7 +499,7 @@ fn ambiguous(ways: &[Parts], node: &Node) -> Entry {
     );
     let person = Person::named_by_file(&node.name);
     let mut entry = Entry::new(&node.name, person, &node.name, Source::Missing(why));
-    entry.info.late = ways.iter().any(|parts| !parts.get("late").is_empty());
+    entry.info.late = ways.iter().any(|parts| parts.has("late"));
     entry
 }
 
@@ -616,16 +528,6 @@ fn without_number(name: &str) -> String {
     original().unwrap_or_else(|| name.to_owned())
 }
 
-/// Returns `camera.rs` for `camera-2.rs`. Changes only the names of task files, since other names may
-/// end in a number of their own.
-fn original_name(name: &str, handed_out: &HandedOut) -> String {
-    let original = without_number(name);
-    match handed_out.task_file(&original) {
-        Some(_) => original,
-        None => name.to_owned(),
-    }
-}
-
 /// Returns the name without the archive's extension.
 fn strip_archive_extension(name: &str) -> &str {
     let lower = name.to_ascii_lowercase();
@@ -637,17 +539,8 @@ fn strip_archive_extension(name: &str) -> &str {
     &name[..name.len() - end.map_or(0, |end| end.len())]
 }
 
-/// Reads a file that the platform has written.
-fn read_text(node: &Node) -> Result<String, Error> {
-    let bytes = files::read(&node.path).map_err(Error::user)?;
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(text.trim_start_matches('\u{feff}').to_owned())
-}
-
 #[cfg(test)]
 mod tests {
-    use grader::handed_out::RAYS;
-
     use super::*;
 
     #[test]
@@ -662,9 +555,12 @@ mod tests {
     }
 
     #[test]
-    fn removes_canvas_numbers_from_task_file_names_only() {
-        assert_eq!(original_name("camera-12.rs", &RAYS), "camera.rs");
-        assert_eq!(original_name("camera-final.rs", &RAYS), "camera-final.rs");
-        assert_eq!(original_name("scene-2.rs", &RAYS), "scene-2.rs");
+    fn removes_the_numbers_of_files_that_were_handed_in_again() {
+        for (name, original) in [
+            ("camera-12.rs", "camera.rs"),
+            ("camera-final.rs", "camera-final.rs"),
+        ] {
+            assert_eq!(without_number(name), original);
+        }
     }
 }

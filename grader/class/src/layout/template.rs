@@ -8,7 +8,7 @@ use super::times::written_time;
 use crate::names::is_number;
 
 /// The template for one of the people in a name or file of Sakai.
-const MEMBER: &str = "{last},[ {first}]({account})";
+const MEMBER: &str = "{last},[ {first}]({eid})";
 
 /// The texts in the fields of a template.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,6 +20,11 @@ impl<'a> Parts<'a> {
         self.0.get(field).copied().unwrap_or_default()
     }
 
+    /// Returns whether the name has the field.
+    pub fn has(&self, field: &str) -> bool {
+        !self.get(field).is_empty()
+    }
+
     /// Sets the text in a field.
     pub fn set(&mut self, field: &'static str, text: &'a str) {
         self.0.insert(field, text);
@@ -27,9 +32,8 @@ impl<'a> Parts<'a> {
 
     /// Returns the parts without some fields.
     pub fn without(&self, fields: &[&str]) -> Self {
-        let mut parts = self.clone();
-        parts.0.retain(|field, _| !fields.contains(field));
-        parts
+        let others = self.0.iter().filter(|(field, _)| !fields.contains(field));
+        Parts(others.map(|(field, text)| (*field, *text)).collect())
     }
 
     /// Returns the parts of both.
@@ -165,7 +169,7 @@ fn fits(field: &str, text: &str) -> bool {
         "anonymous" => !text.is_empty() && !text.contains('_'),
         "late" => text == "LATE",
         "time" => written_time(text).is_some(),
-        "account" => !text.is_empty() && !text.contains(['(', ')']),
+        "eid" => !text.is_empty() && !text.contains(['(', ')']),
         "members" => read_members(text).is_some(),
         "uuid" => text.len() == 36 && text.chars().all(|c| c.is_ascii_hexdigit() || c == '-'),
         "file" => true,
@@ -243,7 +247,7 @@ mod tests {
             members[0].fill("{first} {last}").unwrap(),
             "Ann (Annie) Lee"
         );
-        assert_eq!(members[0].get("account"), "ann");
+        assert_eq!(members[0].get("eid"), "ann");
         assert_eq!(read_members("Lee,(ann); Kim, Bob(bob)").unwrap().len(), 2);
         assert_eq!(read_members("Ann Lee"), None);
     }

@@ -5,31 +5,26 @@ use crate::names::is_number;
 /// Returns a time of a platform in a form with the usual signs, or `None` for other texts. Times without
 /// a zone are local times.
 pub fn written_time(text: &str) -> Option<String> {
-    with_dashes(text)
-        .or_else(|| without_signs(text))
+    // Blackboard's local time, and the one of older versions of Sakai, which ends in milliseconds.
+    with_signs(text, "0000-00-00-00-00-00", "0000-00-00 00:00:00")
+        .or_else(|| with_signs(text, "00000000000000000", "0000-00-00 00:00:00 UTC"))
         .or_else(|| with_month(text))
 }
 
-/// Blackboard's `2026-11-20-23-34-05`.
-fn with_dashes(text: &str) -> Option<String> {
-    let parts: Vec<&str> = text.split('-').collect();
-    let &[year, month, day, hour, minute, second] = parts.as_slice() else {
-        return None;
-    };
-    let is_time = year.len() == 4 && parts[1..].iter().all(|part| part.len() == 2);
-    (is_time && parts.iter().all(|part| is_number(part)))
-        .then(|| format!("{year}-{month}-{day} {hour}:{minute}:{second}"))
-}
-
-/// The `20261120233405000` of older versions of Sakai, in UTC, with milliseconds at the end.
-fn without_signs(text: &str) -> Option<String> {
-    let (date, time) = text.split_at_checked(8)?;
-    let is_time = text.len() == 17 && is_number(text);
-    is_time.then(|| {
-        let (year, month, day) = (&date[..4], &date[4..6], &date[6..]);
-        let (hour, minute, second) = (&time[..2], &time[2..4], &time[4..6]);
-        format!("{year}-{month}-{day} {hour}:{minute}:{second} UTC")
-    })
+/// Writes the digits of a time between the signs of `written`, if its form is `form`, in which `0` stands
+/// for a digit.
+fn with_signs(text: &str, form: &str, written: &str) -> Option<String> {
+    let as_form = |sign: char| if sign.is_ascii_digit() { '0' } else { sign };
+    let mut digits = text.chars().filter(char::is_ascii_digit);
+    let is_of_form = text.chars().map(as_form).eq(form.chars());
+    let signs = written.chars().map(|sign| {
+        if sign == '0' {
+            digits.next()
+        } else {
+            Some(sign)
+        }
+    });
+    signs.collect::<Option<String>>().filter(|_| is_of_form)
 }
 
 /// Brightspace's `Nov 20, 2026 1134 PM`. The colon is left out in names of files.

@@ -20,7 +20,7 @@ use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
 
 use self::platforms::{CLASSROOM50_RESULT, Platform, SUBMISSIONS_SUFFIX, TEAMS_SUBMITTED};
-use self::reader::{Reader, common_prefix, is_name};
+use self::reader::{Reader, SAKAI_MEMBERS, SAKAI_TIME, common_prefix, is_name};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
 use crate::listing::Node;
@@ -117,14 +117,8 @@ impl Layout {
 pub fn is_record(name: &str) -> bool {
     let receipts = Platform::of(Layout::Blackboard).texts.iter();
     let mut receipts = receipts.map(|template| template::readings(template, name));
-    [
-        METADATA,
-        CLASSROOM50_SCORES,
-        reader::SAKAI_TIME,
-        reader::SAKAI_MEMBERS,
-    ]
-    .contains(&name)
-        || receipts.any(|ways| !ways.is_empty())
+    let lists = [METADATA, CLASSROOM50_SCORES, SAKAI_TIME, SAKAI_MEMBERS];
+    lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
 }
 
 /// Recognises the layout of a folder and returns its entries. `metadata` is the text of
@@ -147,17 +141,17 @@ pub fn read_as(
     handed_out: &HandedOut,
     known: &[Member],
 ) -> Result<RecognisedClass, Error> {
-    let layout = match choice.layout {
-        Some(layout) => layout,
-        None if metadata.is_some() => Layout::Gradescope,
-        None => recognise_layout(root, handed_out, known)?,
-    };
-    let reader = Reader {
+    let reader = |layout| Reader {
         platform: Platform::of(layout),
         handed_out,
         known,
     };
-    let (mut entries, unmatched) = reader.read(root, metadata, choice)?;
+    let layout = match choice.layout {
+        Some(layout) => layout,
+        None if metadata.is_some() => Layout::Gradescope,
+        None => recognise_layout(root, reader)?,
+    };
+    let (mut entries, unmatched) = reader(layout).read(root, metadata, choice)?;
     reject_links(root, &mut entries);
     // Other layouts say who has handed in each entry, and so does a person who chooses this one.
     let mixtures = match choice.layout {
@@ -178,10 +172,9 @@ pub fn read_as(
 }
 
 /// Recognises the layout of a folder. A folder that can be read in two ways is rejected.
-fn recognise_layout(
+fn recognise_layout<'a>(
     root: &Node,
-    handed_out: &HandedOut,
-    known: &[Member],
+    reader: impl Fn(Layout) -> Reader<'a>,
 ) -> Result<Layout, Error> {
     let by_names = [
         Layout::Canvas,
@@ -192,13 +185,8 @@ fn recognise_layout(
     ];
     let is_one = |layout: &Layout| {
         let platform = Platform::of(*layout);
-        let reader = Reader {
-            platform,
-            handed_out,
-            known,
-        };
-        is_majority(root, |node| is_name(platform, &node.name))
-            && (!platform.has_attachments() || reader.is_canvas_download(root))
+        let is_canvas_download = || reader(*layout).is_canvas_download(root);
+        is_majority(root, platform) && (!platform.has_attachments() || is_canvas_download())
     };
     let found: Vec<Layout> = by_names.into_iter().filter(is_one).collect();
     match found.as_slice() {
@@ -256,10 +244,13 @@ fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
     }
 }
 
-/// Returns whether `is_one` is true for more than half of the files and folders in `root`.
-fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
-    let count = root.children().iter().filter(|node| is_one(node)).count();
-    2 * count > root.children().len()
+/// Returns whether more than half of the files and folders in `root` have names of the platform, apart
+/// from those that it writes beside the submissions.
+fn is_majority(root: &Node, platform: &Platform) -> bool {
+    let is_own = |node: &&Node| platform.own_files.contains(&node.name.as_str());
+    let nodes = root.children().iter().filter(|node| !is_own(node));
+    let count = nodes.clone().filter(|node| is_name(platform, &node.name));
+    2 * count.count() > nodes.count()
 }
 
 /// Turns ids into safe folder names, and appends numbers to those that would be equal on a file

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use grader::files;
 use grader::handed_out::HandedOut;
+use judging::sanitize::sanitize_line;
 
 use super::gradescope::read_metadata;
 use super::mixture::is_section;
@@ -26,6 +27,8 @@ const REPEATED_FILE: &str = "two of its files have the same name: remove the one
     or put the files of each student into a folder of their own";
 /// The reason for not grading two downloads that were unpacked into one folder.
 const SEVERAL: &str = "it is in several folders of this name: keep the one that counts";
+/// The maximum length of a list of titles in a message, in characters.
+const MAX_CHARS: usize = 400;
 /// The fields that differ between the files of one submission.
 const OF_FILES: [&str; 4] = ["file", "attachment", "late", "kind"];
 /// Sakai's folder for the files that a student handed in. Other folders beside it have feedback.
@@ -110,23 +113,15 @@ impl Reader<'_> {
         let platform = self.platform;
         let metadata = metadata.filter(|_| platform.record == Record::Metadata);
         let mut records = metadata.map(read_metadata).transpose()?.unwrap_or_default();
-        let mut names = Names::default();
-        self.visit(
-            root,
-            platform.outer_folders,
-            &Parts::default(),
-            "",
-            &mut names,
-        );
+        let (mut names, outer) = (Names::default(), Parts::default());
+        self.visit(root, platform.outer_folders, &outer, "", &mut names);
         choose_title(&mut names.found, choice)?;
         self.strip_prefix(root, &mut names.found);
         let (mut entries, mut unmatched) = (names.ambiguous, names.unmatched);
         let mut groups: BTreeMap<Parts, Vec<Found>> = BTreeMap::new();
         for found in names.found {
-            groups
-                .entry(found.parts.without(&OF_FILES))
-                .or_default()
-                .push(found);
+            let key = found.parts.without(&OF_FILES);
+            groups.entry(key).or_default().push(found);
         }
         let mut names_of: BTreeMap<&str, usize> = BTreeMap::new();
         for (parts, group) in &groups {
@@ -315,8 +310,9 @@ impl Reader<'_> {
         let name = |found: &Found| found.parts.get("file").to_owned();
         match files {
             [only] if only.node.is_folder() => {
-                let attachments = only.node.find(SAKAI_ATTACHMENTS);
-                return Source::Path(attachments.unwrap_or(only.node).path.clone());
+                let is_sakai = self.platform.record == Record::FilesInFolder;
+                let inside = only.node.find(SAKAI_ATTACHMENTS).filter(|_| is_sakai);
+                return Source::Path(inside.unwrap_or(only.node).path.clone());
             }
             [only] if name(only).is_empty() => return Source::Path(only.node.path.clone()),
             files if files.iter().any(|found| found.node.is_folder()) => {
@@ -378,13 +374,14 @@ fn choose_title(found: &mut Vec<Found>, choice: &LayoutChoice) -> Result<(), Err
     let titles = found.iter().map(|found| found.parts.get("title"));
     let titles: BTreeSet<&str> = titles.filter(|title| !title.is_empty()).collect();
     let all = Vec::from_iter(titles.iter().copied()).join(", ");
+    let all = sanitize_line(&all, MAX_CHARS);
     match choice.title.as_deref() {
         Some(title) if titles.contains(title) => {
             found.retain(|found| found.parts.get("title") == title);
             Ok(())
         }
         Some(title) => Err(Error::user(format!(
-            "no folder of an assignment has the title {title:?}; there are: {all}"
+            "no folder of an assignment has the title {title:?}, only: {all}"
         ))),
         None if titles.len() > 1 => Err(Error::user(format!(
             "the input has several assignments ({all}): choose one with --title"
@@ -397,11 +394,8 @@ fn choose_title(found: &mut Vec<Found>, choice: &LayoutChoice) -> Result<(), Err
 /// colon depends on the language. The assignment's title and the account may contain `_`, so only this
 /// line tells where the account begins.
 fn read_receipt(parts: &mut Parts, texts: &[Found]) -> Result<SubmissionRecord, Error> {
-    let text = texts
-        .first()
-        .map(|text| read_text(text.node))
-        .transpose()?
-        .unwrap_or_default();
+    let text = texts.first().map(|text| read_text(text.node));
+    let text = text.transpose()?.unwrap_or_default();
     let line = text.lines().next().and_then(|line| line.split_once(": "));
     let name = line.and_then(|(_, name)| name.trim().strip_suffix(')')?.rsplit_once(" ("));
     let whole = parts.get("whole_name");

@@ -394,8 +394,7 @@ fn choose_title(found: &mut Vec<Found>, choice: &LayoutChoice) -> Result<(), Err
 /// colon depends on the language. The assignment's title and the account may contain `_`, so only this
 /// line tells where the account begins.
 fn read_receipt(parts: &mut Parts, texts: &[Found]) -> Result<SubmissionRecord, Error> {
-    let text = texts.first().map(|text| read_text(text.node));
-    let text = text.transpose()?.unwrap_or_default();
+    let text = read_text(texts.first().map(|text| text.node))?.unwrap_or_default();
     let line = text.lines().next().and_then(|line| line.split_once(": "));
     let name = line.and_then(|(_, name)| name.trim().strip_suffix(')')?.rsplit_once(" ("));
     let whole = parts.get("whole_name");
@@ -419,10 +418,7 @@ fn read_receipt(parts: &mut Parts, texts: &[Found]) -> Result<SubmissionRecord, 
 
 /// Reads the files that Sakai writes into each folder.
 fn read_files_in_folder(parts: &Parts, files: &[Found]) -> Result<SubmissionRecord, Error> {
-    let read = |name: &str| {
-        let file = files.iter().find_map(|found| found.node.find(name));
-        file.map(read_text).transpose()
-    };
+    let read = |name| read_text(files.iter().find_map(|found| found.node.find(name)));
     let members = read(SAKAI_MEMBERS)?;
     let members = read_members(members.as_deref().unwrap_or(parts.get("members")).trim());
     let people = members.unwrap_or_default().into_iter().map(|parts| Person {
@@ -435,11 +431,14 @@ fn read_files_in_folder(parts: &Parts, files: &[Found]) -> Result<SubmissionReco
     Ok(SubmissionRecord { people, time })
 }
 
-/// Reads a file that the platform has written.
-fn read_text(node: &Node) -> Result<String, Error> {
-    let bytes = files::read(&node.path).map_err(Error::user)?;
+/// Reads a file that the platform has written, if it is one. A link may lead anywhere.
+fn read_text(node: Option<&Node>) -> Result<Option<String>, Error> {
+    let Some(file) = node.filter(|node| !node.is_folder() && !node.is_link) else {
+        return Ok(None);
+    };
+    let bytes = files::read(&file.path).map_err(Error::user)?;
     let text = String::from_utf8_lossy(&bytes);
-    Ok(text.trim_start_matches('\u{feff}').to_owned())
+    Ok(Some(text.trim_start_matches('\u{feff}').to_owned()))
 }
 
 /// Returns the name under which Canvas shows a page: that of the last attachment, if Canvas takes the first

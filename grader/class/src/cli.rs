@@ -10,7 +10,7 @@ use grader::probe::Budget;
 use grader::sandbox::Isolation;
 use grader::select_isolation::IsolationRequest;
 
-use crate::layout::LayoutChoice;
+use crate::layout_kind::LayoutChoice;
 use crate::list_kind::ListKind;
 use crate::shard::Shard;
 

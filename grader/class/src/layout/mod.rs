@@ -14,7 +14,6 @@ mod times;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use clap::{Args, ValueEnum};
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
@@ -26,6 +25,7 @@ use crate::error::Error;
 use crate::listing::Node;
 use crate::roster::Member;
 
+pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
@@ -55,56 +55,10 @@ pub struct UnmatchedPath {
     pub why: String,
 }
 
-/// A layout of the input, named after the platform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Layout {
-    /// Gradescope's "Export submissions"
-    Gradescope,
-    /// Canvas's "Download submissions"
-    Canvas,
-    /// Moodle's "Download all submissions"
-    Moodle,
-    /// Blackboard's "Assignment file download"
-    Blackboard,
-    /// Brightspace's (D2L's) "Download all files"
-    Brightspace,
-    /// Sakai's "Download all"
-    Sakai,
-    /// Submitted files of a class in Microsoft Teams
-    Teams,
-    /// Clones of repositories from GitHub Classroom or classroom50
-    #[value(name = "github", alias = "classroom50")]
-    GitHub,
-    /// Clones of a GitLab group, or a folder for each tutorial with a folder for each student
-    #[value(name = "gitlab", alias = "tutorials")]
-    GitLab,
-    /// A folder or archive for each student
-    #[value(name = "folders")]
-    Plain,
-}
-
-/// How to read the input, where its names do not tell.
-#[derive(Clone, Debug, Default, Args)]
-pub struct LayoutChoice {
-    /// Layout of the input; default: it is recognised by the names of files and folders
-    #[arg(long, value_name = "PLATFORM")]
-    pub layout: Option<Layout>,
-
-    /// Title of the assignment, if the input has several, as from Microsoft Teams
-    #[arg(long, value_name = "TITLE")]
-    pub title: Option<String>,
-}
-
 impl Layout {
     /// Returns a description for messages.
     pub fn description(self) -> &'static str {
         Platform::of(self).description
-    }
-
-    /// Returns the name on the command line.
-    pub fn name(self) -> String {
-        let value = self.to_possible_value().expect("no layout is hidden");
-        value.get_name().to_owned()
     }
 
     /// Returns whether a file or folder has a name as in this layout.

@@ -118,7 +118,7 @@ const FOLDERS: Platform = Platform {
     hand_back: HandBackName::None,
 };
 
-/// All layouts. Of those that are recognised by names in the class's folder, no two can fit.
+/// All layouts.
 pub static PLATFORMS: [Platform; 10] = [
     // "Export submissions": `submission_123` and `submission_metadata.yml`.
     Platform {

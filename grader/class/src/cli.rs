@@ -10,6 +10,7 @@ use grader::probe::Budget;
 use grader::sandbox::Isolation;
 use grader::select_isolation::IsolationRequest;
 
+use crate::layout_kind::LayoutChoice;
 use crate::list_kind::ListKind;
 use crate::shard::Shard;
 
@@ -78,6 +79,10 @@ pub struct ClassArguments {
     /// Number of submissions to grade at a time; default: one per core
     #[arg(long, value_name = "COUNT", value_parser = value_parser!(u16).range(1..=512))]
     pub jobs: Option<u16>,
+
+    /// How to read the input.
+    #[command(flatten)]
+    pub choice: LayoutChoice,
 
     /// The options for grading each submission.
     #[command(flatten)]

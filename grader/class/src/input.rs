@@ -12,7 +12,7 @@ use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::layout::{self, METADATA, RecognisedClass, UnmatchedPath};
+use crate::layout::{self, LayoutChoice, METADATA, RecognisedClass, UnmatchedPath};
 use crate::listing::{Node, hidden_names, list_folder};
 use crate::roster::Member;
 use crate::unpack::{CLASS_FOLDER, unpack};
@@ -40,6 +40,17 @@ impl Input {
         handed_out: &'static HandedOut,
         known: &[Member],
     ) -> Result<Self, Error> {
+        Input::open_as(&LayoutChoice::default(), path, parent, handed_out, known)
+    }
+
+    /// Like [`Input::open`], unless the layout is chosen.
+    pub fn open_as(
+        choice: &LayoutChoice,
+        path: &Path,
+        parent: &Path,
+        handed_out: &'static HandedOut,
+        known: &[Member],
+    ) -> Result<Self, Error> {
         remove_abandoned(parent);
         let refused = |why: &str| Err(Error::user(format!("{} {why}", path.display())));
         let unpacked = match fs::metadata(path) {
@@ -58,12 +69,19 @@ impl Input {
         let listed = list_folder(&folder).map_err(Error::user)?;
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
-        let (root, note) = layout::find_class_folder(&listed, archive);
+        let (root, note) = match (choice.layout, listed.children()) {
+            (None, _) => layout::find_class_folder(&listed, archive),
+            // A folder that is no submission of the chosen layout has the class.
+            (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
+                (only, None)
+            }
+            (Some(_), _) => (&listed, None),
+        };
         let root = root.clone();
         let metadata = root.find(METADATA).map(|node| files::read(&node.path));
         let metadata = metadata.transpose().map_err(Error::user)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        let mut class = layout::recognise(&root, metadata.as_deref(), handed_out, known)?;
+        let mut class = layout::read_as(choice, &root, metadata.as_deref(), handed_out, known)?;
         class.notes.extend(note);
         let unpacked = unpacked.map(|unpacked| {
             class.unmatched.extend(unpacked.problems);
@@ -86,7 +104,11 @@ impl Input {
         if let Some(why) = of_several {
             let unpack = archive.map_or("", |_| "; unpack the archive first");
             let why = sanitize_line(&why, MAX_CHARS);
-            return refused(&format!("cannot be read as a class: {why}{unpack}"));
+            return refused(&format!(
+                "cannot be read as a class: {why}{unpack}; or choose how to read it: with --layout \
+                 tutorials, each folder has several students' folders, and with --layout folders, each \
+                 is one submission"
+            ));
         }
         if class.entries.is_empty() {
             return refused(

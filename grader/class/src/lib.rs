@@ -19,7 +19,7 @@
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
-//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
+//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`layout_kind`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
 
 pub mod archive;
 pub mod attempts;
@@ -39,6 +39,7 @@ pub mod identity;
 pub mod input;
 pub mod late;
 pub mod layout;
+pub mod layout_kind;
 pub mod list_kind;
 pub mod list_memory;
 pub mod listing;

@@ -15,7 +15,7 @@ use grader::submission::{
 };
 
 use crate::error::Error;
-use crate::layout::{CLASSROOM50_SCORES, METADATA, UnmatchedPath};
+use crate::layout::{UnmatchedPath, is_record};
 
 /// The maximum size of a student's archive or a platform's list, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -171,7 +171,7 @@ fn is_wanted(path: &str) -> bool {
 fn max_bytes(path: &str, handed_out: &HandedOut) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name {
-        METADATA | CLASSROOM50_SCORES => MAX_FILE_BYTES,
+        name if is_record(name) => MAX_FILE_BYTES,
         name if is_archive_name(name) => MAX_FILE_BYTES,
         name if name.ends_with(".rs") || may_be_task_file(name, handed_out) => MAX_TEXT_BYTES,
         _ => 0,

@@ -69,7 +69,8 @@ pub fn grade_class_with(
         let others: Vec<&Path> = [path].into_iter().chain(out).collect();
         similarity::check_folder(folder, &others)?;
     }
-    let input = Input::open(
+    let input = Input::open_as(
+        &arguments.choice,
         path,
         &workspace.cache_folder().join("classes"),
         options.handed_out,

@@ -4,16 +4,22 @@
 //! tell: a student may have written them. The name tells, if a platform or a teacher has chosen it.
 
 use super::METADATA;
+use super::platforms::{SAKAI_ARCHIVE, TEAMS_DRAFTS, TEAMS_SUBMITTED};
 use crate::listing::Node;
 use crate::names::{fold, is_number};
 
 /// Returns the folder with the entries, and a note if it is not `root`, or if it could be another.
 /// `archive` is the name of the archive that the folder was unpacked from.
 pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node, Option<String>) {
+    if let Some(found) = find_teams_folder(root) {
+        return found;
+    }
     match root.children() {
         [only] if only.is_folder() && !only.is_link => {
             let name = &only.name;
-            if is_gradescopes(only) || archive.is_some_and(|archive| is_packed(name, archive)) {
+            let is_sakais = archive.unwrap_or(&root.name).starts_with(SAKAI_ARCHIVE);
+            let is_packed = || archive.is_some_and(|archive| is_packed(name, archive));
+            if is_gradescopes(only) || is_sakais || is_packed() {
                 let note = format!("the submissions are those in the folder {name}");
                 return (only, Some(note));
             }
@@ -26,6 +32,21 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
         }
         _ => (root, None),
     }
+}
+
+/// Returns the folder with the submissions in a library of Microsoft Teams, and a note. Beside it, the
+/// library has only drafts.
+fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
+    let names = root.children().iter().map(|node| node.name.as_str());
+    let mut others = names.filter(|name| *name != TEAMS_SUBMITTED);
+    let submitted = root.find(TEAMS_SUBMITTED)?;
+    let drafts = match (others.next(), others.next()) {
+        (None, _) => "",
+        (Some(TEAMS_DRAFTS), None) => "; those in Working files are drafts",
+        (Some(_), _) => return None,
+    };
+    let note = format!("the submissions are those in the folder {TEAMS_SUBMITTED}{drafts}");
+    Some((submitted, Some(note)))
 }
 
 /// Returns whether a folder has the name that Gradescope gives to an export, `assignment_55_export`.

@@ -1,15 +1,13 @@
-//! Gradescope's "Export submissions": a folder for each submission, and `submission_metadata.yml`,
-//! whose keys are Ruby symbols, with a colon in front.
+//! Gradescope's `submission_metadata.yml`, whose keys are Ruby symbols, with a colon in front.
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use super::{LayoutContents, unmatched_path};
-use crate::entry::{Entry, Person, Source};
+use super::reader::SubmissionRecord;
+use crate::entry::Person;
 use crate::error::Error;
-use crate::listing::Node;
 
 /// The name of the file that lists the people who submitted each folder.
 pub const METADATA: &str = "submission_metadata.yml";
@@ -42,27 +40,8 @@ enum Scalar {
     Other(IgnoredAny),
 }
 
-pub(super) fn read(root: &Node, metadata: &str) -> Result<LayoutContents, Error> {
-    let mut known = parse(metadata)?;
-    let (mut entries, mut others) = (Vec::new(), Vec::new());
-    for node in root.children() {
-        match known.remove(&node.name) {
-            Some(metadata) => {
-                let source = Source::Path(node.path.clone());
-                entries.push(entry(&node.name, metadata, source));
-            }
-            None if node.name == METADATA => {}
-            None => others.push(unmatched_path(node, "it is not in submission_metadata.yml")),
-        }
-    }
-    for (name, metadata) in known {
-        let source = Source::Missing("its folder is not in the export".to_owned());
-        entries.push(entry(&name, metadata, source));
-    }
-    Ok((entries, others))
-}
-
-fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, Error> {
+/// Parses the file. Returns the record of each submission by the name of its folder.
+pub(super) fn read_metadata(metadata: &str) -> Result<BTreeMap<String, SubmissionRecord>, Error> {
     // The exports of large classes include all earlier results, and exceed the default limits,
     // which are meant for untrusted input.
     let budget = serde_saphyr::budget! {
@@ -72,15 +51,21 @@ fn parse(metadata: &str) -> Result<BTreeMap<String, Metadata>, Error> {
         max_total_scalar_bytes: 256 << 20,
     };
     let options = serde_saphyr::options! { budget: budget };
-    serde_saphyr::from_str_with_options(metadata, options).map_err(|error| {
+    let submissions: Result<BTreeMap<String, Metadata>, _> =
+        serde_saphyr::from_str_with_options(metadata, options);
+    let submissions = submissions.map_err(|error| {
         Error::user(format!(
             "cannot read {METADATA}: {error}; export the submissions again, or delete the file to go \
              by folder names"
         ))
-    })
+    })?;
+    let submissions = submissions.into_iter();
+    Ok(submissions
+        .map(|(name, metadata)| (name, record(metadata)))
+        .collect())
 }
 
-fn entry(name: &str, metadata: Metadata, source: Source) -> Entry {
+fn record(metadata: Metadata) -> SubmissionRecord {
     let text = |scalar: Option<Scalar>| scalar.and_then(Scalar::text).unwrap_or_default();
     let person = |submitter: Submitter| Person {
         name: text(submitter.name),
@@ -88,13 +73,10 @@ fn entry(name: &str, metadata: Metadata, source: Source) -> Entry {
         sid: text(submitter.sid),
         ..Person::default()
     };
-    let people: Vec<Person> = metadata.submitters.into_iter().map(person).collect();
-    let mut entry = Entry::new(name, Person::named_by_file(name), name, source);
-    if !people.is_empty() {
-        entry.info.people = people;
+    SubmissionRecord {
+        people: metadata.submitters.into_iter().map(person).collect(),
+        time: metadata.created_at.and_then(Scalar::text),
     }
-    entry.info.submitted = metadata.created_at.and_then(Scalar::text);
-    entry
 }
 
 impl Scalar {

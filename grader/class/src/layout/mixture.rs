@@ -114,6 +114,15 @@ fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<
     (inside.len() > 1).then_some(inside)
 }
 
+/// Returns whether a folder has repositories, and is none. Git creates the hidden folder in each, which
+/// nobody can hand in. Without it, the task files tell.
+pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
+    let is_repository = |node: &Node| node.path.join(".git").exists();
+    let has_repositories = || node.children().iter().any(is_repository);
+    let is_section = || has_repositories() || submissions_inside(node, handed_out).is_some();
+    !node.is_link && !is_repository(node) && is_section()
+}
+
 /// Returns whether a folder has task files where people are expected to hand them in.
 fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
     let below = |path: &&str| {

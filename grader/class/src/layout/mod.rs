@@ -3,13 +3,13 @@
 //!
 //! Files that do not fit the layout are reported, never silently ignored.
 
-mod canvas;
 mod class_folder;
-mod github;
 mod gradescope;
 mod mixture;
-mod moodle;
-mod plain;
+mod platforms;
+mod reader;
+mod template;
+mod times;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -18,15 +18,18 @@ use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
 
+use self::platforms::{CLASSROOM50_RESULT, Platform, SUBMISSIONS_SUFFIX, TEAMS_SUBMITTED};
+use self::reader::{Reader, SAKAI_MEMBERS, SAKAI_TIME, common_prefix, is_name};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
 use crate::listing::Node;
 use crate::roster::Member;
 
+pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
-pub use github::CLASSROOM50_SCORES;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
+pub use platforms::CLASSROOM50_SCORES;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,32 +55,24 @@ pub struct UnmatchedPath {
     pub why: String,
 }
 
-/// A layout of the input, named after the platform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layout {
-    /// Gradescope's "Export submissions".
-    Gradescope,
-    /// Canvas's "Download submissions".
-    Canvas,
-    /// Moodle's "Download all submissions".
-    Moodle,
-    /// Clones of repositories from GitHub Classroom or classroom50.
-    GitHub,
-    /// A folder with a folder or archive for each student.
-    Plain,
-}
-
 impl Layout {
     /// Returns a description for messages.
     pub fn description(self) -> &'static str {
-        match self {
-            Layout::Gradescope => "a Gradescope export",
-            Layout::Canvas => "a Canvas download",
-            Layout::Moodle => "a Moodle download",
-            Layout::GitHub => "clones from a GitHub classroom",
-            Layout::Plain => "folders and archives, one per student",
-        }
+        Platform::of(self).description
     }
+
+    /// Returns whether a file or folder has a name as in this layout.
+    pub fn has_name(self, name: &str) -> bool {
+        is_name(Platform::of(self), name)
+    }
+}
+
+/// Returns whether a file is one that a platform writes, and whose text is read.
+pub fn is_record(name: &str) -> bool {
+    let receipts = Platform::of(Layout::Blackboard).texts.iter();
+    let mut receipts = receipts.map(|template| template::readings(template, name));
+    let lists = [METADATA, CLASSROOM50_SCORES, SAKAI_TIME, SAKAI_MEMBERS];
+    lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
 }
 
 /// Recognises the layout of a folder and returns its entries. `metadata` is the text of
@@ -89,24 +84,35 @@ pub fn recognise(
     handed_out: &HandedOut,
     known: &[Member],
 ) -> Result<RecognisedClass, Error> {
-    let (layout, (mut entries, unmatched)) = if let Some(metadata) = metadata {
-        (Layout::Gradescope, gradescope::read(root, metadata)?)
-    } else if is_majority(root, |node| canvas::is_name(&node.name))
-        && canvas::is_download(root, known)
-    {
-        (Layout::Canvas, canvas::read(root, handed_out, known))
-    } else if is_majority(root, |node| moodle::parse(&node.name).is_some()) {
-        (Layout::Moodle, moodle::read(root))
-    } else if github::prefix(root).is_some() {
-        (Layout::GitHub, github::read(root))
-    } else {
-        (Layout::Plain, plain::read(root))
+    read_as(&LayoutChoice::default(), root, metadata, handed_out, known)
+}
+
+/// Like [`recognise`], unless the layout is chosen.
+pub fn read_as(
+    choice: &LayoutChoice,
+    root: &Node,
+    metadata: Option<&str>,
+    handed_out: &HandedOut,
+    known: &[Member],
+) -> Result<RecognisedClass, Error> {
+    let reader = |layout| Reader {
+        platform: Platform::of(layout),
+        handed_out,
+        known,
     };
+    let layout = match choice.layout {
+        Some(layout) => layout,
+        None if metadata.is_some() => Layout::Gradescope,
+        None => recognise_layout(root, reader)?,
+    };
+    let (mut entries, unmatched) = reader(layout).read(root, metadata, choice)?;
     reject_links(root, &mut entries);
-    let mixtures = match layout {
-        Layout::Plain => mixture::reject_mixtures(root, &mut entries, handed_out, known),
-        // These say who has handed in each entry.
-        Layout::Gradescope | Layout::Canvas | Layout::Moodle | Layout::GitHub => Vec::new(),
+    // Other layouts say who has handed in each entry, and so does a person who chooses this one.
+    let mixtures = match choice.layout {
+        None if layout == Layout::Plain => {
+            mixture::reject_mixtures(root, &mut entries, handed_out, known)
+        }
+        None | Some(_) => Vec::new(),
     };
     entries.sort_by(|one, other| one.id.cmp(&other.id));
     make_ids_unique(&mut entries);
@@ -119,12 +125,56 @@ pub fn recognise(
     })
 }
 
+/// Recognises the layout of a folder. A folder that can be read in two ways is rejected.
+fn recognise_layout<'a>(
+    root: &Node,
+    reader: impl Fn(Layout) -> Reader<'a>,
+) -> Result<Layout, Error> {
+    let by_names = [
+        Layout::Canvas,
+        Layout::Moodle,
+        Layout::Blackboard,
+        Layout::Brightspace,
+        Layout::Sakai,
+    ];
+    let is_one = |layout: &Layout| {
+        let platform = Platform::of(*layout);
+        let is_canvas_download = || reader(*layout).is_canvas_download(root);
+        is_majority(root, platform) && (!platform.has_attachments() || is_canvas_download())
+    };
+    let found: Vec<Layout> = by_names.into_iter().filter(is_one).collect();
+    match found.as_slice() {
+        [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
+        [] if is_github_classroom(root) => Ok(Layout::GitHub),
+        [] => Ok(Layout::Plain),
+        [only] => Ok(*only),
+        [one, other, ..] => Err(Error::user(format!(
+            "the input can be read in two ways: as {}, or as {}; choose one with --layout {} or \
+             --layout {}",
+            one.description(),
+            other.description(),
+            one.name(),
+            other.name()
+        ))),
+    }
+}
+
+/// Returns whether the folders are clones from GitHub Classroom or classroom50.
+fn is_github_classroom(root: &Node) -> bool {
+    let is_clone = |node: &&Node| node.is_folder() && !node.is_link;
+    let folders = || root.children().iter().filter(is_clone);
+    let names: Vec<&str> = folders().map(|node| node.name.as_str()).collect();
+    let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
+    root.name.ends_with(SUBMISSIONS_SUFFIX)
+        || root.find(CLASSROOM50_SCORES).is_some()
+        // A student can add this file, but not make all folders begin alike.
+        || (!common_prefix(&names, '-').is_empty() && has_results())
+}
+
 /// Marks each entry whose files include a link as an entry without files.
 fn reject_links(root: &Node, entries: &mut [Entry]) {
-    let links = root.children().iter().filter(|node| node.is_link);
-    let links: BTreeMap<&Path, &str> = links
-        .map(|node| (node.path.as_path(), node.name.as_str()))
-        .collect();
+    let mut links = BTreeMap::new();
+    add_links(root, &mut links);
     for entry in entries {
         let link = match &entry.source {
             Source::Path(path) => links.get(path.as_path()),
@@ -138,10 +188,23 @@ fn reject_links(root: &Node, entries: &mut [Entry]) {
     }
 }
 
-/// Returns whether `is_one` is true for more than half of the files and folders in `root`.
-fn is_majority(root: &Node, is_one: impl Fn(&Node) -> bool) -> bool {
-    let count = root.children().iter().filter(|node| is_one(node)).count();
-    2 * count > root.children().len()
+/// Adds the paths and names of all links in a folder.
+fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
+    for node in folder.children() {
+        if node.is_link {
+            links.insert(&node.path, &node.name);
+        }
+        add_links(node, links);
+    }
+}
+
+/// Returns whether more than half of the files and folders in `root` have names of the platform, apart
+/// from those that it writes beside the submissions.
+fn is_majority(root: &Node, platform: &Platform) -> bool {
+    let is_own = |node: &&Node| platform.own_files.contains(&node.name.as_str());
+    let nodes = root.children().iter().filter(|node| !is_own(node));
+    let count = nodes.clone().filter(|node| is_name(platform, &node.name));
+    2 * count.count() > nodes.count()
 }
 
 /// Turns ids into safe folder names, and appends numbers to those that would be equal on a file
@@ -163,14 +226,6 @@ fn make_ids_unique(entries: &mut [Entry]) {
 
 /// The entries of a layout, and the paths that belong to none.
 type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>);
-
-/// Returns a path that belongs to no entry, with the reason.
-fn unmatched_path(node: &Node, why: &str) -> UnmatchedPath {
-    UnmatchedPath {
-        name: node.name.clone(),
-        why: why.to_owned(),
-    }
-}
 
 #[cfg(test)]
 mod tests;

@@ -1,9 +1,12 @@
 //! Prints the output of `--dry-run`: the files that would be graded for each student.
 
+use std::collections::BTreeSet;
+
 use grader::handed_out::HandedOut;
 use judging::sanitize::sanitize_line;
 
 use crate::entry::{Entry, Person};
+use crate::identity::attempts_by_person;
 use crate::input::{NotCollected, collect_submission};
 use crate::layout::{RecognisedClass, UnmatchedPath};
 use grader::printing::counted;
@@ -49,11 +52,11 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
     for note in &class.notes {
         text += &format!("\n  {}\n", sanitized(note));
     }
-    for (one, other) in duplicate_people(&class.entries) {
-        let (one, other) = (sanitized(one), sanitized(other));
+    for ids in several_of_one_person(&class.entries) {
+        let ids: Vec<String> = ids.into_iter().map(sanitized).collect();
         text += &format!(
-            "\n  {one} and {other} belong to the same person: keep the one that counts, or set [attempts] \
-             in the policy\n"
+            "\n  {} belong to the same person: keep the one that counts, or set [attempts] in the policy\n",
+            ids.join(" and ")
         );
     }
     if !class.unmatched.is_empty() {
@@ -88,18 +91,15 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
     Ok(text)
 }
 
-/// Returns the pairs of entries that belong to the same person.
-fn duplicate_people(entries: &[Entry]) -> Vec<(&str, &str)> {
-    let mut pairs = Vec::new();
-    for (index, one) in entries.iter().enumerate() {
-        for other in &entries[index + 1..] {
-            let mut people = one.info.people.iter();
-            if people.any(|one| other.info.people.iter().any(|other| one.is_same(other))) {
-                pairs.push((one.id.as_str(), other.id.as_str()));
-            }
-        }
-    }
-    pairs
+/// Returns the ids of the entries that belong to the same person, for each person with several.
+fn several_of_one_person(entries: &[Entry]) -> BTreeSet<Vec<&str>> {
+    let people = entries.iter().map(|entry| entry.info.people.as_slice());
+    let of_one = attempts_by_person(people).into_iter().map(|attempts| {
+        let rows: BTreeSet<usize> = attempts.into_iter().map(|(row, _)| row).collect();
+        let ids = rows.into_iter().map(|row| entries[row].id.as_str());
+        Vec::from_iter(ids)
+    });
+    of_one.filter(|ids| ids.len() > 1).collect()
 }
 
 fn sanitized(text: &str) -> String {

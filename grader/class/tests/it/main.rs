@@ -11,6 +11,7 @@ mod layouts;
 mod numbers;
 mod page;
 mod people;
+mod platforms;
 mod recipes;
 mod resuming;
 #[cfg(unix)]

@@ -1,0 +1,254 @@
+//! Templates for the names that platforms give to files and folders, such as
+//! `{name}[_{number}]_assignsubmission_file[_{file}]`: text, fields in braces, and parts in brackets that
+//! a name may lack. A field is as short as possible; which texts can be in it depends on its name.
+
+use std::collections::BTreeMap;
+
+use super::times::written_time;
+use crate::names::is_number;
+
+/// The template for one of the people in a name or file of Sakai.
+const MEMBER: &str = "{last},[ {first}]({eid})";
+
+/// The texts in the fields of a template.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Parts<'a>(BTreeMap<&'static str, &'a str>);
+
+impl<'a> Parts<'a> {
+    /// Returns the text in a field, which is empty if the name lacks it.
+    pub fn get(&self, field: &str) -> &'a str {
+        self.0.get(field).copied().unwrap_or_default()
+    }
+
+    /// Returns whether the name has the field.
+    pub fn has(&self, field: &str) -> bool {
+        !self.get(field).is_empty()
+    }
+
+    /// Sets the text in a field.
+    pub fn set(&mut self, field: &'static str, text: &'a str) {
+        self.0.insert(field, text);
+    }
+
+    /// Returns the parts without some fields.
+    pub fn without(&self, fields: &[&str]) -> Self {
+        let others = self.0.iter().filter(|(field, _)| !fields.contains(field));
+        Parts(others.map(|(field, text)| (*field, *text)).collect())
+    }
+
+    /// Returns the parts of both.
+    pub fn join(&self, other: &Parts<'a>) -> Self {
+        let both = self.0.iter().chain(&other.0);
+        Parts(both.map(|(field, text)| (*field, *text)).collect())
+    }
+
+    /// Fills in the first template whose fields all have a text, or returns an empty text. Parts in
+    /// brackets are left out if a field in them is empty.
+    pub fn fill_first(&self, templates: &[&'static str]) -> String {
+        let mut filled = templates.iter().filter_map(|template| self.fill(template));
+        filled.next().unwrap_or_default()
+    }
+
+    fn fill(&self, mut template: &'static str) -> Option<String> {
+        let mut text = String::new();
+        while let Some((item, rest)) = next_item(template) {
+            match item {
+                Item::Text(own) => text += own,
+                Item::Field(field) => {
+                    text += Some(self.get(field)).filter(|own| !own.is_empty())?
+                }
+                Item::Optional(inside) => text += &self.fill(inside).unwrap_or_default(),
+            }
+            template = rest;
+        }
+        Some(text)
+    }
+}
+
+/// Returns every way in which a name follows a template; the first is the one that is usually meant.
+pub fn readings<'a>(template: &'static str, name: &'a str) -> Vec<Parts<'a>> {
+    let mut found = Vec::new();
+    find_readings(vec![template], name, &Parts::default(), &mut found);
+    found
+}
+
+/// Returns the people in a text such as `Lee, Ann(ann); Kim, Bob(bob)`, or `None` if it has another
+/// form.
+pub fn read_members(text: &str) -> Option<Vec<Parts<'_>>> {
+    let members = text
+        .split("; ")
+        .map(|member| readings(MEMBER, member.trim()));
+    members.map(|ways| ways.into_iter().next()).collect()
+}
+
+/// An item at the beginning of a template.
+enum Item {
+    Text(&'static str),
+    Field(&'static str),
+    Optional(&'static str),
+}
+
+/// Splits off the first item of a template; returns `None` at its end.
+fn next_item(template: &'static str) -> Option<(Item, &'static str)> {
+    if let Some(rest) = template.strip_prefix('{') {
+        let (field, rest) = rest.split_once('}')?;
+        Some((Item::Field(field), rest))
+    } else if let Some(rest) = template.strip_prefix('[') {
+        let (inside, rest) = rest.split_once(']')?;
+        Some((Item::Optional(inside), rest))
+    } else {
+        let end = template.find(['{', '[']).unwrap_or(template.len());
+        let (text, rest) = template.split_at(end);
+        (end > 0).then_some((Item::Text(text), rest))
+    }
+}
+
+/// Adds the ways in which a text follows the templates in `pending`, the last of which comes first.
+fn find_readings<'a>(
+    mut pending: Vec<&'static str>,
+    text: &'a str,
+    parts: &Parts<'a>,
+    found: &mut Vec<Parts<'a>>,
+) {
+    let next = pending.pop().map(next_item);
+    match next {
+        None if text.is_empty() => found.push(parts.clone()),
+        None => {}
+        Some(None) => find_readings(pending, text, parts, found),
+        Some(Some((item, rest))) => {
+            pending.push(rest);
+            match item {
+                Item::Text(own) => {
+                    if let Some(text) = text.strip_prefix(own) {
+                        find_readings(pending, text, parts, found);
+                    }
+                }
+                Item::Optional(inside) => {
+                    let mut with = pending.clone();
+                    with.push(inside);
+                    find_readings(with, text, parts, found);
+                    find_readings(pending, text, parts, found);
+                }
+                Item::Field(field) => {
+                    let ends = text.char_indices().map(|(end, _)| end);
+                    for end in ends.chain([text.len()]) {
+                        let (own, after) = text.split_at(end);
+                        // Most ends are ruled out by the text that comes next, which is compared fast.
+                        if may_follow(&pending, after) && fits(field, own) {
+                            let mut parts = parts.clone();
+                            parts.set(field, own);
+                            find_readings(pending.clone(), after, &parts, found);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns whether a text can follow templates, judged by their first item.
+fn may_follow(pending: &[&'static str], text: &str) -> bool {
+    let mut items = pending
+        .iter()
+        .rev()
+        .filter_map(|template| next_item(template));
+    match items.next() {
+        None => text.is_empty(),
+        Some((Item::Text(own), _)) => text.starts_with(own),
+        Some((Item::Field(_) | Item::Optional(_), _)) => true,
+    }
+}
+
+/// Returns whether a text can be in a field of this name.
+fn fits(field: &str, text: &str) -> bool {
+    match field {
+        "canvas_name" => is_canvas_name(text),
+        "number" | "participant" | "folder" | "attempt" => is_number(text),
+        "attachment" => is_number(text) && text.parse::<u64>().is_ok(),
+        "kind" => !text.contains('_'),
+        "anonymous" => !text.is_empty() && !text.contains('_'),
+        "late" => text == "LATE",
+        "time" => written_time(text).is_some(),
+        "eid" => !text.is_empty() && !text.contains(['(', ')']),
+        "members" => read_members(text).is_some(),
+        "uuid" => text.len() == 36 && text.chars().all(|c| c.is_ascii_hexdigit() || c == '-'),
+        "file" => true,
+        _ => !text.is_empty(),
+    }
+}
+
+/// Returns whether Canvas can have written a name: it has a letter, unlike a date, and no number in
+/// its midst, where Canvas removes it. `LATE` after the name is not part of it.
+fn is_canvas_name(name: &str) -> bool {
+    let parts: Vec<&str> = name.split('_').collect();
+    let inner = parts.get(1..parts.len() - 1).unwrap_or_default();
+    name.chars().any(char::is_alphabetic)
+        && !inner.iter().any(|part| is_number(part))
+        && !name.ends_with("_LATE")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the readings of a name, each filled into another template.
+    fn read(template: &'static str, shown: &'static str, name: &str) -> Vec<String> {
+        let ways = readings(template, name).into_iter();
+        ways.map(|parts| parts.fill_first(&[shown])).collect()
+    }
+
+    #[test]
+    fn a_name_is_split_at_the_texts_of_the_template() {
+        let moodle = "{name}[_{number}]_assignsubmission_file[_{file}]";
+        let read_moodle = |name| {
+            read(moodle, "{name}|[{number}]|[{file}]", name)
+                .into_iter()
+                .next()
+        };
+        for (name, expected) in [
+            (
+                "José, Jr._12_assignsubmission_file_my_a.rs",
+                Some("José, Jr.|12|my_a.rs"),
+            ),
+            (
+                "Default group_assignsubmission_file_",
+                Some("Default group||"),
+            ),
+            ("_assignsubmission_file_", None),
+        ] {
+            assert_eq!(read_moodle(name).as_deref(), expected);
+        }
+    }
+
+    #[test]
+    fn fields_accept_only_texts_of_their_kind() {
+        let name = |text| read("{number}-{folder} - {name} - {time}", "{name}", text);
+        let ann = "104840-170649 - Ann - Marie Lee - Nov 26, 2025 933 PM";
+        assert_eq!(name(ann), ["Ann - Marie Lee"]);
+        assert!(name("104840-170649 - Ann - Marie").is_empty());
+        let members = read_members("Lee, Ann (Annie)(ann); Kim,(bob)").unwrap();
+        let shown = members
+            .iter()
+            .map(|member| member.fill_first(&["[{first} ]{last} {eid}"]));
+        assert_eq!(Vec::from_iter(shown), ["Ann (Annie) Lee ann", "Kim bob"]);
+        assert_eq!(read_members("Ann Lee"), None);
+    }
+
+    #[test]
+    fn a_name_that_follows_a_template_in_two_ways_has_two_readings() {
+        let canvas = "{canvas_name}[_{late}]_{number}_{attachment}_{file}";
+        let users = |name| read(canvas, "{canvas_name} {number}", name);
+        assert_eq!(
+            users("doejane_LATE_7001_9001_my_work-1.zip"),
+            ["doejane 7001"]
+        );
+        assert_eq!(users("red_2_7001_9001_hw.zip"), ["red 2", "red_2 7001"]);
+        for none in [
+            "doejane_7001_text.html",
+            "7001_9001_hw.zip",
+            "2026_11_21_jdoe.zip",
+        ] {
+            assert!(users(none).is_empty(), "{none}");
+        }
+    }
+}

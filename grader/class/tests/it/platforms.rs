@@ -1,0 +1,423 @@
+//! Exports of platforms that record several attempts, and clones of groups. The names are those in the
+//! platforms' sources and in tools that read their exports.
+
+use std::fs;
+use std::path::Path;
+
+use clap::ValueEnum;
+use class::entry::Source;
+use class::layout::{Layout, LayoutChoice, read_as};
+use class::listing::list_folder;
+use grader::handed_out::RAYS;
+use insta::assert_snapshot;
+use proptest::prelude::*;
+
+use crate::harness::{
+    TestClass, assert_contains, cell, class_command, files_below, refusal, source, zip,
+};
+
+/// Returns the receipt that Blackboard writes for each attempt.
+fn receipt(person: &str) -> String {
+    format!(
+        "\u{feff}Name: {person}\r\nAssignment: Path_tracer\r\n\
+         Date Submitted: Friday, 20 November 2026 23:34:05 o'clock CET\r\nCurrent Mark: Needs Marking\r\n\r\n\
+         Submission Field:\r\nThere is no student submission text data for this assignment.\r\n"
+    )
+}
+
+fn blackboard() -> TestClass {
+    let title = "gradebook_CG26_Path_tracer";
+    let early = format!("{title}_john_doe_attempt_2026-11-19-10-00-00");
+    let late = format!("{title}_john_doe_attempt_2026-11-21-10-00-00");
+    let zoe = format!("{title}_u42_attempt_2026-11-20-23-34-05");
+    let text = format!("{title}_bob_attempt_2026-11-20-12-00-00");
+    let receiptless = format!("{title}_eve_attempt_2026-11-20-13-00-00");
+    TestClass::named("export")
+        .with(&format!("{early}.txt"), receipt("John Doe (john_doe)"))
+        .with(
+            &format!("{early}_camera.rs"),
+            source("reference/src/camera.rs"),
+        )
+        .with(&format!("{late}.txt"), receipt("John Doe (john_doe)"))
+        .with(
+            &format!("{late}_camera.rs"),
+            source("grader/starter/camera.rs"),
+        )
+        .with(&format!("{zoe}.txt"), receipt("Zoë O'Hara (PhD) (u42)"))
+        .with(
+            &format!("{zoe}_my work.zip"),
+            zip([("src/camera.rs", "text")]),
+        )
+        // Her file is named like the receipt of somebody else.
+        .with(
+            &format!("{zoe}_x_bob_attempt_2026-11-20-12-00-00.txt"),
+            receipt("Bob (bob)"),
+        )
+        .with(&format!("{text}.txt"), receipt("Bob Lee (bob)"))
+        .with(&format!("{receiptless}_camera.rs"), "text")
+        .with("notes.txt", "text")
+}
+
+#[test]
+fn reads_blackboard_attempts_with_the_people_in_their_receipts() {
+    assert_snapshot!(blackboard().preview());
+}
+
+#[test]
+fn the_policy_chooses_among_attempts_by_their_times() {
+    let class = blackboard();
+    let policy = "[late]\ndue = 2026-11-20T23:59:59+01:00\ntimezone = 'Europe/Berlin'\n\
+                  percent_per_day = 10\n[attempts]\ncounts = 'latest'\n";
+    let exam = class.small_exam(&["camera.offset"]);
+    class.graded_with(&exam, &[("policy", policy)], &[]);
+    let of = |time: &str, column: &str| {
+        cell(
+            &class,
+            &format!("john_doe_2026-11-{time}-10-00-00"),
+            "John Doe",
+            column,
+        )
+    };
+    assert_eq!(of("19", "counts"), "");
+    assert_contains(&of("19", "why"), &["john_doe_2026-11-21-10-00-00"]);
+    assert_eq!(of("21", "late_days"), "1");
+    assert_eq!(of("21", "submitted"), "2026-11-21 10:00:00");
+}
+
+#[test]
+fn reads_brightspace_attempts_in_folders_and_flat() {
+    let class = TestClass::named("Path tracer Download Nov 27, 2026 1124 AM")
+        .with("index.html", "<html>")
+        .with_minimal_submission("104840-170649 - Ann - Marie Lee - Nov 19, 2026 933 PM")
+        .with_minimal_submission("104840-170649 - Ann - Marie Lee - Nov 20, 2026 1134 PM")
+        .with(
+            "104860-170649 - . Karan Singh - Nov 20, 2026 1059 PM/hw.zip",
+            zip([("bvh.rs", "text")]),
+        )
+        .with(
+            "104861-170649 - Bob O'Hara - Nov 20, 2026 12:01 AM - camera.rs",
+            "text",
+        )
+        .with(
+            "104861-170649 - Bob O'Hara - Nov 20, 2026 12:01 AM - bvh.rs",
+            "text",
+        )
+        .with_folder("someone else");
+    assert_snapshot!(class.preview());
+}
+
+fn sakai(folder: &str) -> TestClass {
+    let class = TestClass::named("bulk_download");
+    let path = |name: &str| format!("{folder}/{name}");
+    let attachments = |name: &str| path(&format!("{name}/Submission attachment(s)"));
+    let with_time = |class: TestClass, name: &str, time: &str| {
+        class.with(&path(&format!("{name}/timestamp.txt")), time)
+    };
+    let group = "Team A (0d5a2a1e-96a8-4a0b-9a1c-1f2e3d4c5b6a)";
+    let hidden = "7c9e6679-7425-40de-944b-e07fc1f90ae7 Anonymous";
+    let class = with_time(class, "Lee, Ann(ann)", "20261121093405000");
+    let class = with_time(
+        class,
+        "Kim, Bob (Bobby)(bob@x.edu)",
+        "2026-11-20T22:34:05.123Z",
+    );
+    let class = with_time(class, group, "2026-11-20T22:34:05.123Z");
+    class
+        .with(
+            &path("grades.csv"),
+            "\"Path tracer\",\"SCORE_GRADE_TYPE\"\n\"\"\n\"Display ID\",\"ID\"\n",
+        )
+        .with(
+            &format!("{}/camera.rs", attachments("Lee, Ann(ann)")),
+            source("reference/src/camera.rs"),
+        )
+        // The instructor's file is not the student's.
+        .with(
+            &path("Lee, Ann(ann)/Feedback Attachment(s)/camera.rs"),
+            "better",
+        )
+        .with(
+            &path("Lee, Ann(ann)/Lee, Ann(ann)_submissionText.html"),
+            "text",
+        )
+        .with_minimal_submission(&attachments("Kim, Bob (Bobby)(bob@x.edu)"))
+        .with_folder(&attachments("Mono,(mono)"))
+        .with_minimal_submission(&attachments(group))
+        .with(
+            &path(&format!("{group}/members.txt")),
+            "Roe, Jane(jane); Doe,(doe)",
+        )
+        .with_minimal_submission(&attachments(hidden))
+}
+
+#[test]
+fn reads_sakai_folders_with_times_and_groups() {
+    let class = sakai("Path tracer");
+    let preview = class.preview();
+    assert_snapshot!(preview);
+    let file = class.path_beside("bulk_download (1).zip");
+    let files = files_below(&class.input()).into_iter().map(|path| {
+        let name = path.strip_prefix(class.input()).unwrap().to_str().unwrap();
+        (name.to_owned(), fs::read(&path).unwrap())
+    });
+    fs::write(&file, zip(files)).unwrap();
+    // Archives have no entry for the empty folder.
+    let packed = class.preview_of(&file, &[]);
+    assert_contains(
+        &packed,
+        &[
+            "4 submissions in a Sakai download",
+            "Jane Roe + Doe: all 5 files",
+        ],
+    );
+}
+
+#[test]
+fn the_times_in_sakais_folders_count() {
+    let class = sakai("Path tracer");
+    let policy = "[late]\ndue = 2026-11-20T23:59:59+01:00\npercent_per_day = 10\n";
+    let exam = class.small_exam(&["camera.offset"]);
+    class.graded_with(&exam, &[("policy", policy)], &[]);
+    let late = |id: &str, name: &str| cell(&class, id, name, "late_days");
+    assert_eq!(late("Lee__Ann_ann_", "Ann Lee"), "1");
+    assert_eq!(late("Kim__Bob__Bobby__bob_x.edu_", "Bob (Bobby) Kim"), "0");
+}
+
+#[test]
+fn reads_sakai_files_without_folders() {
+    let class = TestClass::named("Path tracer")
+        .with("Lee, Ann(ann)_Submission attachment(s)_camera.rs", "text")
+        .with(
+            "Lee, Ann(ann)_Submission attachment(s)_my (1).zip",
+            zip([("bvh.rs", "text")]),
+        )
+        .with("Lee, Ann(ann)_submissionText.html", "text")
+        .with("Kim, Bob(bob)_submissionText.html", "text")
+        .with("grades.csv", "");
+    assert_snapshot!(class.preview());
+}
+
+fn teams(class: TestClass) -> TestClass {
+    let submitted = |person: &str, version: &str| {
+        format!("Submitted files/{person}/Path tracer/Version {version}")
+    };
+    class
+        .with_minimal_submission(&submitted("Ann Lee", "1"))
+        .with_minimal_submission(&submitted("Ann Lee", "2"))
+        .with(
+            &format!("{}/hw.zip", submitted("Bob O'Hara", "1")),
+            zip([("bvh.rs", "text")]),
+        )
+        .with("Submitted files/Bob O'Hara/Path tracer/stray.rs", "text")
+        .with("Working files/Ann Lee/Path tracer/camera.rs", "draft")
+}
+
+#[test]
+fn reads_the_versions_in_a_teams_library() {
+    let class = teams(TestClass::named("CG26 - Student Work"));
+    let preview = class.preview();
+    assert_snapshot!(preview);
+    let submitted = class.input().join("Submitted files");
+    assert_contains(
+        &class.preview_of(&submitted, &[]),
+        &["3 submissions in the submitted files"],
+    );
+}
+
+#[test]
+fn one_of_several_assignments_in_teams_is_chosen_by_its_title() {
+    let class = teams(TestClass::named("library"))
+        .with_minimal_submission("Submitted files/Ann Lee/Essay/Version 1");
+    let error = class.refused_preview();
+    assert_contains(
+        &error,
+        &[
+            "several assignments (Essay, Path tracer)",
+            "choose one with --title",
+        ],
+    );
+    let preview = class.preview_of(&class.input(), &["--title", "Essay"]);
+    assert_contains(
+        &preview,
+        &[
+            "1 submission in the submitted files",
+            "Ann Lee/Essay/Version 1",
+        ],
+    );
+    let error = refused(&class.input(), &["--title", "Eßay"]);
+    assert_contains(&error, &["has the title \"Eßay\"", "Essay, Path tracer"]);
+}
+
+/// Microsoft translates the names of the folders.
+#[test]
+fn a_teams_library_in_another_language_is_read_if_it_is_chosen() {
+    let class = TestClass::named("Eingereichte Dateien")
+        .with_minimal_submission("Ann Lee/Path tracer/Version 1")
+        .with_minimal_submission("Bob/Path tracer/Version 1")
+        .with_minimal_submission("Bob/Path tracer/Version 2");
+    let preview = class.preview_of(&class.input(), &["--layout", "teams"]);
+    assert_contains(
+        &preview,
+        &[
+            "3 submissions in the submitted files",
+            "3 of 3 can be graded",
+        ],
+    );
+}
+
+/// Adds a repository as `git clone` makes it.
+fn with_clone(class: TestClass, path: &str) -> TestClass {
+    class
+        .with(&format!("{path}/.git/HEAD"), "ref: refs/heads/main")
+        .with_minimal_submission(&format!("{path}/student/src"))
+}
+
+#[test]
+fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
+    let preview = |paths: &[&str]| {
+        let class = TestClass::named("cg26").with("README.md", "text");
+        let class = paths.iter().copied().fold(class, with_clone);
+        class.preview_of(&class.input(), &["--layout", "gitlab"])
+    };
+    let flat = preview(&["cg26-ann", "cg26-bob"]);
+    // There is only one student in the second.
+    let tutorials = preview(&["mon/cg26-ann", "mon/cg26-bob", "tue/cg26-eve"]);
+    assert_snapshot!(format!("{flat}\n\n{tutorials}"));
+}
+
+#[test]
+fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
+    let class = TestClass::named("class")
+        .with_minimal_submission("mon/ann")
+        .with_minimal_submission("mon/bob")
+        .with_minimal_submission("tue/eve")
+        .with_minimal_submission("tue/zoe");
+    let error = class.refused_preview();
+    assert_snapshot!(error.replace(class.path_beside("").to_str().unwrap(), "FOLDER/"));
+    let preview = class.preview_of(&class.input(), &["--layout", "tutorials"]);
+    assert_contains(
+        &preview,
+        &["4 submissions", "mon/ann", "4 of 4 can be graded"],
+    );
+    let preview = class.preview_of(&class.input(), &["--layout", "folders"]);
+    assert_contains(
+        &preview,
+        &["2 submissions in folders and archives", "  mon: "],
+    );
+}
+
+#[test]
+fn names_of_two_platforms_are_refused_with_both_readings() {
+    let class = TestClass::named("class")
+        .with("leeann_302_9001_assignsubmission_file_camera.rs", "text")
+        .with("doejane_303_9002_assignsubmission_file_camera.rs", "text");
+    let error = class.refused_preview();
+    assert_snapshot!(error);
+    let preview = class.preview_of(&class.input(), &["--layout", "canvas"]);
+    assert_contains(&preview, &["2 submissions in a Canvas download"]);
+    let preview = class.preview_of(&class.input(), &["--layout", "moodle"]);
+    assert_contains(&preview, &["2 submissions in a Moodle download"]);
+}
+
+/// A link in any folder may lead to another student's files.
+#[cfg(unix)]
+#[test]
+fn links_between_the_folders_of_a_platform_are_not_followed() {
+    let class = teams(TestClass::named("library"));
+    let submitted = class.input().join("Submitted files");
+    let target = submitted.join("Ann Lee/Path tracer");
+    let link = |path: &str, target: &Path| {
+        std::os::unix::fs::symlink(target, submitted.join(path)).unwrap()
+    };
+    link(
+        "Bob O'Hara/Path tracer/Version 2",
+        &target.join("Version 1"),
+    );
+    link("Mallory", &submitted.join("Ann Lee"));
+    let preview = class.preview();
+    let expected = [
+        "Version 2 is a link, and links are not followed",
+        "Mallory: it is not in the folder",
+    ];
+    assert_contains(&preview, &expected);
+    assert_eq!(preview.matches("all 5 files").count(), 2);
+}
+
+/// Previews a class that is refused, and returns the error.
+fn refused(input: &Path, more: &[&str]) -> String {
+    let mut command = class_command();
+    command.arg(input).arg("--dry-run").args(more);
+    refusal(&command.output().unwrap())
+}
+
+/// A part of a name, as platforms and students write it.
+fn name_part() -> impl Strategy<Value = String> {
+    let usual = [
+        "ann",
+        "Lee, Ann(ann)",
+        "Participant",
+        "anon",
+        "LATE",
+        "_",
+        "_7001_9001_",
+        "_303",
+        " - ",
+        "(1)",
+        "é",
+        "\u{202e}",
+        "104840-170649 - ",
+        "Nov 20, 2026 1134 PM",
+        "_attempt_2026-11-20-10-00-00",
+        "_assignsubmission_file_",
+        "_assignsubmission_onlinetext_",
+        "_Submission attachment(s)_",
+        "_submissionText.html",
+        ".txt",
+        "camera.rs",
+        "hw-1.zip",
+        "Version 2",
+        "grades.csv",
+    ];
+    let usual = proptest::sample::select(usual.to_vec()).prop_map(str::to_owned);
+    prop_oneof![9 => usual, 1 => "[^/\0.]{1,8}"]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Students choose the names of their files, and people their own.
+    #[test]
+    fn whatever_names_an_export_has_each_is_graded_or_listed(
+        names in proptest::collection::btree_map(
+            proptest::collection::vec(name_part(), 1..6).prop_map(|parts| parts.concat()),
+            any::<bool>(),
+            1..6,
+        ),
+    ) {
+        let mut class = TestClass::named("class");
+        for (name, is_folder) in &names {
+            let inner = if *is_folder { "/camera.rs" } else { "" };
+            class = class.with(&format!("{name}{inner}"), "Name: Zoë (zoe)\n");
+        }
+        let root = list_folder(&class.input()).unwrap();
+        for layout in Layout::value_variants() {
+            let choice = LayoutChoice { layout: Some(*layout), title: None };
+            let found = read_as(&choice, &root, None, &RAYS, &[]).unwrap();
+            let is_known = |name: &str| {
+                let path = class.input().join(name);
+                found.unmatched.iter().any(|other| other.name.starts_with(name))
+                    || found.entries.iter().any(|entry| match &entry.source {
+                        Source::Path(own) => own.starts_with(&path),
+                        Source::Files(files) => files.iter().any(|(_, own)| *own == path),
+                        // The message asks a person to look at all files of the submission.
+                        Source::Missing(_) => true,
+                    })
+            };
+            // Canvas's archives can be replaced by newer ones, and a receipt is no submission.
+            let is_other = *layout == Layout::Canvas || *layout == Layout::Blackboard;
+            for node in root.children().iter().filter(|node| node.name != "grades.csv") {
+                prop_assert!(is_other || is_known(&node.name), "{layout:?}: {}", node.name);
+            }
+        }
+    }
+}

@@ -12,7 +12,7 @@ use crate::entry::Person;
 use crate::error::Error;
 use crate::identity::person_ids;
 use crate::names::are_equal;
-use crate::outcome::EntryOutcome;
+use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
 /// The columns of the file.
@@ -107,30 +107,28 @@ impl ManualPointsList {
         own.cloned().collect()
     }
 
-    /// Checks that no task gets more points than it has, or fewer than 0. `tasks` has the maximum of
-    /// each task in the exam. If the grader or the machine failed, what was earned is not known yet.
+    /// Checks that no task gets more points than it has, or fewer than 0. `exam` is the tasks without
+    /// any points. If the grader or the machine failed, what was earned is not known yet.
     pub fn check_range(
         &self,
         points: &[ManualPoints],
         outcome: &EntryOutcome,
-        tasks: &BTreeMap<String, u32>,
+        exam: &[TaskScore],
     ) -> Result<(), Error> {
+        let tasks = match outcome {
+            EntryOutcome::Graded(score) => &score.tasks,
+            EntryOutcome::NothingToGrade(_) => exam,
+            EntryOutcome::Fault(_) => return Ok(()),
+        };
         for ManualPoints {
             row, task, delta, ..
         } in points
         {
-            let known = match outcome {
-                EntryOutcome::Graded(score) => {
-                    let graded = score.tasks.iter().find(|graded| graded.id == *task);
-                    graded.map(|graded| (graded.points, graded.max_points))
-                }
-                EntryOutcome::NothingToGrade(_) => tasks.get(task).map(|most| (0, *most)),
-                EntryOutcome::Fault(_) => continue,
-            };
-            let Some((earned, most)) = known else {
+            let Some(graded) = tasks.iter().find(|graded| graded.id == *task) else {
                 let problem = format!("the exam has no items of the task {task}: remove the row");
                 return Err(self.error(*row, problem));
             };
+            let (earned, most) = (graded.points, graded.max_points);
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
                 let problem = format!(
@@ -314,7 +312,7 @@ mod tests {
             let list = read(&[&format!("Kim,Ann,{task},,{delta}")]).unwrap();
             let result = result("a", &["Ann"], graded(80));
             let own = list.of(&result.info.people[0]);
-            let checked = list.check_range(&own, &result.outcome, &BTreeMap::new());
+            let checked = list.check_range(&own, &result.outcome, &[]);
             checked.map_err(|error| without_folder(&error))
         };
         for delta in [20, -80, 0] {

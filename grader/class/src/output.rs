@@ -12,7 +12,7 @@ use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
 use crate::list_kind::ListKind;
 use crate::lists::ListFindings;
-use crate::outcome::EntryResult;
+use crate::outcome::{EntryResult, exam_tasks};
 use crate::regrade_diff::{Changes, find_regrade_changes, find_resubmitted};
 use crate::report::{grades, page, text};
 use crate::run::Run;
@@ -56,7 +56,12 @@ impl ClassContext<'_> {
         let settings = &run.settings;
         let regrade = find_regrade_changes(store, run, &results)?;
         let resubmitted = find_resubmitted(store, &results)?;
-        let rows = count_points(results, self.policy, &self.findings.manual, &run.tasks)?;
+        let rows = count_points(
+            results,
+            self.policy,
+            &self.findings.manual,
+            &exam_tasks(&run.items),
+        )?;
         let class = &GradedClass {
             exam: settings.exam.clone(),
             exam_hash: settings.exam_hash.clone(),

@@ -23,9 +23,9 @@ pub struct Run {
     /// The policy, the roster and the other lists. The folder has copies of them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lists: KeptLists,
-    /// The maximum points of each task of the exam.
+    /// The maximum points of each item of the exam.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub tasks: BTreeMap<String, u32>,
+    pub items: BTreeMap<String, u32>,
     /// The ids of the entries. The folder may have others, of students who are no longer in the
     /// input.
     pub entries: Vec<String>,
@@ -82,7 +82,7 @@ impl Run {
             state: RoundState::Started,
             shard: None,
             lists: KeptLists::new(),
-            tasks: BTreeMap::new(),
+            items: BTreeMap::new(),
             entries: Vec::new(),
             class: String::new(),
             settings,

@@ -115,7 +115,7 @@ pub fn grade_class_with(
     let run = Run {
         shard: arguments.shard,
         lists: used.kept.clone(),
-        tasks: grader.task_points(),
+        items: grader.item_points(),
         entries: entries.iter().map(|entry| entry.id.clone()).collect(),
         class,
         ..run

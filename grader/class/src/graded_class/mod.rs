@@ -1,6 +1,6 @@
 //! The data of a graded class, from which all files of the class are written.
 
-use grader::policy::{CountedPoints, Policy};
+use grader::policy::{CountedPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
 use crate::late::{UnclearTime, is_undated, lateness};
@@ -90,26 +90,29 @@ impl GradedClass {
 
 impl ClassRow {
     /// Creates the row of a result, and applies the policy to its points. `manual` has the manual
-    /// points of each person, and `max_points` is the maximum of the exam.
+    /// points of each person, and `exam` the tasks without any points.
     pub fn new(
         result: EntryResult,
         policy: &Policy,
         manual: Vec<Vec<ManualPoints>>,
-        max_points: u32,
+        exam: &[TaskScore],
     ) -> Self {
         let grade = |(person, manual): (&Person, Vec<ManualPoints>)| {
-            let sum = manual.iter().map(|points| points.delta).sum();
             let earned = match &result.outcome {
-                EntryOutcome::Graded(score) => Some((score.points, score.max_points)),
+                EntryOutcome::Graded(score) => Some(score.tasks.as_slice()),
                 // Staff have looked at it, and their points count without any others.
                 EntryOutcome::NothingToGrade(_) if manual.iter().any(|own| own.delta != 0) => {
-                    Some((0, max_points))
+                    Some(exam)
                 }
                 EntryOutcome::NothingToGrade(_) | EntryOutcome::Fault(_) => None,
             };
-            let counted = earned.map(|(points, max_points)| {
+            let counted = earned.map(|tasks| {
                 let lateness = lateness(policy, &result.info, person)?;
-                Ok(policy.counted_points_with(points, max_points, sum, lateness))
+                let tasks = tasks.iter().map(|task| {
+                    let own = manual.iter().filter(|points| points.task == task.id);
+                    task.for_policy(own.map(|points| points.delta).sum())
+                });
+                Ok(policy.count(&tasks.collect::<Vec<TaskPoints>>(), lateness))
             });
             let (counted, problem) = match counted.transpose() {
                 Ok(counted) => (counted, None),
@@ -148,7 +151,10 @@ impl ClassRow {
             // Without either, the columns of the table say as much.
             let needs_words =
                 |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
-            let counted = grade.counted.filter(needs_words);
+            let counted = grade
+                .counted
+                .as_ref()
+                .filter(|counted| needs_words(counted));
             let counted = counted.filter(|_| grade.problem.is_none());
             let counted = counted.map(|counted| counted.explanation());
             let manual = grade.manual.iter().map(ToString::to_string);
@@ -233,7 +239,7 @@ impl PersonGrade {
     /// Returns sentences about what the score counts towards the grade, and the comments of staff.
     /// There are none if it counts as it is.
     pub fn explanation(&self) -> Vec<String> {
-        let counts = match (&self.problem, self.counted) {
+        let counts = match (&self.problem, &self.counted) {
             (Some(problem), _) => Some(format!("No points count: {problem}.")),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,

@@ -54,7 +54,10 @@ pub fn merge_shards(
     let used = UsedLists::choose(given, Some(&arguments.out), &parts)?;
     let lists = &used.lists;
     let policy = match &lists.policy {
-        Some(path) => Policy::read(path)?,
+        Some(path) => {
+            let items = shards[0].1.items.keys().map(String::as_str);
+            Policy::for_exam(path, &Policy::read_text(path)?, items)?
+        }
         None => Policy::default(),
     };
     let mut sources: BTreeMap<String, &Store> = BTreeMap::new();

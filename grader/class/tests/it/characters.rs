@@ -62,6 +62,7 @@ fn info(text: &str) -> EntryInfo {
 
 fn score(text: &str) -> ScoreSummary {
     let item = ItemScore {
+        blocked_by: Some(text.to_owned()),
         id: text.to_owned(),
         title: text.to_owned(),
         points: 0,
@@ -104,7 +105,7 @@ fn class_with(text: &str) -> GradedClass {
             author: text.to_owned(),
         };
         let result = EntryResult { id, info, outcome };
-        ClassRow::new(result, &Policy::default(), vec![vec![manual]], 100)
+        ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])
     };
     GradedClass {
         exam: text.to_owned(),

@@ -21,3 +21,4 @@ mod similarity;
 mod stored_class;
 mod times;
 mod ungraded_files;
+mod void_items;

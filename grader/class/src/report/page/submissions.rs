@@ -64,7 +64,7 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
 
 /// Returns the final points of the people, once if they are equal.
 fn counts(row: &ClassRow) -> String {
-    let counts = row.grades.iter().map(|grade| match grade.counted {
+    let counts = row.grades.iter().map(|grade| match &grade.counted {
         Some(counted) => counted.points.to_string(),
         None => "–".to_owned(),
     });

@@ -13,7 +13,7 @@ use grader::printing::counted;
 pub(super) fn section(class: &GradedClass) -> Markup {
     let grades = || class.rows.iter().flat_map(ClassRow::people);
     let mut days: BTreeMap<u32, usize> = BTreeMap::new();
-    for counted in grades().filter_map(|(_, grade)| grade.counted) {
+    for counted in grades().filter_map(|(_, grade)| grade.counted.as_ref()) {
         *days.entry(counted.late_days).or_default() += 1;
     }
     let undated = names(grades().filter(|(_, grade)| grade.is_undated));

@@ -12,7 +12,7 @@
 //! | grading of a class | [`grade`] |
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
-//! | grading of entries, and changes of scores | [`entry_grader`], [`regrade_diff`] |
+//! | grading of entries, changes of scores, and questions about them | [`entry_grader`], [`regrade_diff`], [`replay`] |
 //! | what is made of grades; the input | [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
 //! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
@@ -53,6 +53,7 @@ pub mod paths;
 pub mod progress;
 pub mod queue;
 pub mod regrade_diff;
+pub mod replay;
 pub mod report;
 pub mod roster;
 pub mod run;

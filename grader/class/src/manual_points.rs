@@ -15,7 +15,7 @@ use crate::names::are_equal;
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
-/// The columns of the file.
+/// The columns that the file must have. A column `date` is optional.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
@@ -35,6 +35,9 @@ pub struct ManualPoints {
     pub comment: String,
     /// The person who gave the points.
     pub author: String,
+    /// The date of the decision, as it is written in the file; may be empty.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub date: String,
 }
 
 /// The manual points of a class.
@@ -52,15 +55,20 @@ impl ManualPointsList {
         for (index, name) in columns.iter_mut().zip(COLUMNS) {
             *index = table.require_column(path, name, REMEDY)?;
         }
+        let date = table.column("date");
         let mut list = ManualPointsList {
             path: path.to_owned(),
             all: Vec::new(),
         };
         for (row, cells) in table.numbered_rows() {
+            let date = date.map_or("", |index| cells[index].trim());
             let cells = columns.map(|index| cells[index].trim().to_owned());
             let points = ManualPoints::parse(row, cells, handed_out);
             let points = points.map_err(|problem| list.error(row, problem))?;
-            list.all.push(points);
+            list.all.push(ManualPoints {
+                date: date.to_owned(),
+                ..points
+            });
         }
         Ok(list)
     }
@@ -170,6 +178,7 @@ impl ManualPoints {
             delta,
             comment,
             author,
+            date: String::new(),
         })
     }
 
@@ -186,6 +195,7 @@ impl fmt::Display for ManualPoints {
             delta,
             comment,
             author,
+            date,
             ..
         } = self;
         let points = match delta.abs() {
@@ -193,6 +203,9 @@ impl fmt::Display for ManualPoints {
             _ => "points",
         };
         write!(f, "{task}: {delta:+} {points} by {author}")?;
+        if !date.is_empty() {
+            write!(f, ", {date}")?;
+        }
         match comment.as_str() {
             "" => Ok(()),
             comment => write!(f, ": {comment}"),
@@ -241,6 +254,7 @@ mod tests {
                 delta: -1,
                 comment: "nice".to_owned(),
                 author: "Kim".to_owned(),
+                date: String::new(),
             }]
         );
         assert_eq!(points[0].to_string(), "sphere: -1 point by Kim: nice");

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::distribution::Distribution;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
+use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, ScoreSummary, id_and_names};
 
 /// The format version of `class.json`.
@@ -51,6 +52,20 @@ pub struct ClassSummary {
     pub mistakes: Vec<MistakeCount>,
     /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
+    /// The points and comments by hand.
+    pub decisions: Vec<Decision>,
+}
+
+/// Points or a comment by hand.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Decision {
+    /// The entry's id.
+    pub submission: String,
+    /// The student's name.
+    pub name: String,
+    /// The points, the reason, the author and the date.
+    #[serde(flatten)]
+    pub points: ManualPoints,
 }
 
 /// The distribution of a task's points.
@@ -134,9 +149,21 @@ impl ClassSummary {
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),
             outliers: outliers(class, points.as_ref()),
+            decisions: class.rows.iter().flat_map(decisions).collect(),
             points,
         }
     }
+}
+
+fn decisions(row: &ClassRow) -> impl Iterator<Item = Decision> {
+    row.people().flat_map(move |(person, grade)| {
+        let decision = |points: &ManualPoints| Decision {
+            submission: row.result.id.clone(),
+            name: person.display_name().to_owned(),
+            points: points.clone(),
+        };
+        grade.manual.iter().map(decision)
+    })
 }
 
 fn has_nothing(row: &ClassRow) -> bool {

@@ -86,6 +86,7 @@ fn points_by_hand(delta: i32) -> ManualPoints {
         delta,
         comment: "nice".to_owned(),
         author: "Lee".to_owned(),
+        date: String::new(),
     }
 }
 

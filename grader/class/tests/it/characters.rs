@@ -103,6 +103,7 @@ fn class_with(text: &str) -> GradedClass {
             delta: 1,
             comment: text.to_owned(),
             author: text.to_owned(),
+            date: text.to_owned(),
         };
         let result = EntryResult { id, info, outcome };
         ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])

@@ -12,6 +12,7 @@ mod numbers;
 mod page;
 mod people;
 mod recipes;
+mod replay;
 mod resuming;
 #[cfg(unix)]
 mod runner_commands;

@@ -151,6 +151,11 @@ pub struct Lists {
     #[arg(long)]
     pub hand_back: bool,
 
+    /// Write a copy of the class for graders into this folder, with pseudonyms instead of names;
+    /// anonymous-key.json in the output folder is the key
+    #[arg(long, value_name = "FOLDER")]
+    pub anonymous: Option<PathBuf>,
+
     /// Gradebook exported from Canvas; the points are written to a copy
     #[arg(long, value_name = "CSV")]
     pub canvas: Option<PathBuf>,

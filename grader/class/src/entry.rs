@@ -47,6 +47,9 @@ pub struct EntryInfo {
     /// such rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
+    /// The pseudonym for graders; empty if there is none.
+    #[serde(skip)]
+    pub pseudonym: String,
     /// The name of the group that the submission is named after, if its people are those whom a list
     /// has in this group.
     #[serde(default, skip_serializing_if = "Option::is_none")]

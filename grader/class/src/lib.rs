@@ -13,7 +13,7 @@
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
 //! | grading of entries, changes of scores, and questions about them | [`entry_grader`], [`regrade_diff`], [`replay`] |
-//! | what is made of grades; the input | [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
+//! | what is made of grades; the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
 //! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
@@ -21,6 +21,7 @@
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
 //! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
 
+pub mod anonymous;
 pub mod archive;
 pub mod attempts;
 pub mod cli;

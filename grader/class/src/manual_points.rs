@@ -3,12 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
+use std::mem;
 use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
 use serde::Serialize;
 
-use crate::entry::Person;
+use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::identity::person_ids;
 use crate::names::are_equal;
@@ -71,6 +72,29 @@ impl ManualPointsList {
             });
         }
         Ok(list)
+    }
+
+    /// Replaces each row for a pseudonym by a row for each person of the submission.
+    pub fn resolve_pseudonyms(&mut self, entries: &[&mut EntryInfo]) {
+        let resolve = |points: ManualPoints| {
+            let is_meant = |info: &&&mut EntryInfo| info.pseudonym == points.student;
+            let Some(info) = entries.iter().find(is_meant) else {
+                return vec![points];
+            };
+            let names = info
+                .people
+                .iter()
+                .filter_map(|own| own.identifiers().next());
+            let of_person = |name: &str| ManualPoints {
+                student: name.to_owned(),
+                ..points.clone()
+            };
+            names.map(of_person).collect()
+        };
+        self.all = mem::take(&mut self.all)
+            .into_iter()
+            .flat_map(resolve)
+            .collect();
     }
 
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to

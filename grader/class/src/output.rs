@@ -1,8 +1,11 @@
 //! Writes the files of a graded class, and prints the summary.
 
+use std::path::Path;
+
 use grader::policy::Policy;
 use grader::printing::{print, print_line};
 
+use crate::anonymous::Pseudonyms;
 use crate::attempts::count_points;
 use crate::cli::Lists;
 use crate::error::Error;
@@ -10,7 +13,7 @@ use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
-use crate::list_kind::ListKind;
+use crate::list_kind::{KeptLists, ListKind};
 use crate::lists::ListFindings;
 use crate::outcome::{EntryResult, exam_tasks};
 use crate::regrade_diff::{Changes, find_regrade_changes, find_resubmitted};
@@ -78,8 +81,12 @@ impl ClassContext<'_> {
             removed,
             grades: history.changes(),
         };
-        write_results(class, store, &changes)?;
+        let summary = write_results(class, store, &changes)?;
+        print_results(&summary, &changes);
         write_for_platforms(class, store, lists)?;
+        if let Some(folder) = &lists.anonymous {
+            write_for_graders(class, store, run, folder)?;
+        }
         print_line("");
         for name in ["grades.csv", "class.html"] {
             print_path(store, name);
@@ -92,8 +99,12 @@ impl ClassContext<'_> {
     }
 }
 
-/// Writes the files about a class and prints the summary and the changes.
-fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Result<(), Error> {
+/// Writes the files about a class.
+fn write_results(
+    class: &GradedClass,
+    store: &Store,
+    changes: &Changes,
+) -> Result<ClassSummary, Error> {
     let summary = ClassSummary::new(class);
     for row in &class.rows {
         let id = &row.result.id;
@@ -105,16 +116,56 @@ fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Resul
     store.write("class.json", json(&summary))?;
     store.write("class.html", page::render_page(class, &summary, changes))?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
-    print(text::render_summary(&summary));
     if let Some(regrade) = &changes.regrade {
         store.write("drift.json", json(&regrade.drifts))?;
-        print(text::render_regrade(regrade));
     }
+    Ok(summary)
+}
+
+/// Writes a copy of the class with pseudonyms, which graders can use like the output folder.
+fn write_for_graders(
+    class: &GradedClass,
+    store: &Store,
+    run: &Run,
+    folder: &Path,
+) -> Result<(), Error> {
+    let copy = Store::new(folder);
+    let mut pseudonyms = Pseudonyms::read(store)?;
+    let hidden = pseudonyms.hide(class, store)?;
+    for EntryResult { id, .. } in class.rows.iter().map(|row| &row.result) {
+        copy.copy_files(&pseudonyms.known(id), store, id)?;
+    }
+    for row in &hidden.rows {
+        copy.save_result(&row.result, "", run.round)?;
+    }
+    copy.write_run(&Run {
+        lists: KeptLists::new(),
+        entries: hidden
+            .rows
+            .iter()
+            .map(|row| row.result.id.clone())
+            .collect(),
+        ..run.clone()
+    })?;
+    write_results(&hidden, &copy, &Changes::default())?;
+    print_path(&copy, "class.html");
+    Ok(())
+}
+
+/// Prints the summary and the changes.
+fn print_results(summary: &ClassSummary, changes: &Changes) {
+    print(text::render_summary(summary));
+    print(
+        changes
+            .regrade
+            .iter()
+            .map(text::render_regrade)
+            .collect::<String>(),
+    );
     print(text::render_resubmitted(&changes.resubmitted));
     let grades = changes.grades.iter().map(text::render_grade_changes);
     print(grades.collect::<String>());
     print(text::render_removed(&changes.removed));
-    Ok(())
 }
 
 /// Writes the copies of gradebooks, and the archive to hand back.

@@ -10,8 +10,9 @@ use grader::printing::print;
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
+use crate::anonymous::{self, Pseudonyms};
 use crate::cli::{ClassArguments, Lists};
-use crate::entry::EntryInfo;
+use crate::entry::{Entry, EntryInfo};
 use crate::entry_grader::EntryGrader;
 use crate::error::Error;
 use crate::input::Input;
@@ -76,6 +77,12 @@ pub fn grade_class_with(
         &roster::read_lists(given)?,
     )?;
     let mut recognised = input.class.clone();
+    if let Some(out) = &arguments.out {
+        let pseudonyms = Pseudonyms::read(&Store::new(out))?;
+        for Entry { id, info, .. } in &mut recognised.entries {
+            info.pseudonym = pseudonyms.known(id);
+        }
+    }
     let entries = recognised.entries.iter_mut();
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
     let lists = resolve_lists(&input, given);
@@ -102,6 +109,7 @@ pub fn grade_class_with(
     findings.warn_about_extensions(grader.policy());
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
+    anonymous::check_folder(given, out)?;
     let settings = grader.settings()?;
     let run = start_or_resume(&store, settings, arguments.regrade)?;
     store.remove_temporary_files()?;

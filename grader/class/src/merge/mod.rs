@@ -8,6 +8,7 @@ use grader::policy::Policy;
 use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
+use crate::anonymous::{self, Pseudonyms};
 use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
 use crate::error::Error;
@@ -26,6 +27,7 @@ pub fn merge_shards(
     handed_out: &HandedOut,
 ) -> Result<Completion, Error> {
     check_out(arguments)?;
+    anonymous::check_folder(&arguments.lists, &arguments.out)?;
     let shards = arguments.shards.iter();
     let shards = shards.map(|path| read_finished_run(Store::new(path)));
     let shards: Vec<(Store, Run)> = shards.collect::<Result<_, Error>>()?;
@@ -88,6 +90,10 @@ pub fn merge_shards(
 
     let mut rows = out.results()?;
     rows.retain(|row| sources.contains_key(&row.id));
+    let pseudonyms = Pseudonyms::read(&out)?;
+    for row in &mut rows {
+        row.info.pseudonym = pseudonyms.known(&row.id);
+    }
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if lists.roster.is_some() {
         for info in &mut infos {

@@ -34,6 +34,7 @@ fn hostile_text() -> String {
 
 fn info(text: &str) -> EntryInfo {
     EntryInfo {
+        pseudonym: text.to_owned(),
         people: vec![Person {
             name: text.to_owned(),
             email: text.to_owned(),

@@ -1,5 +1,6 @@
 //! Tests of the `class` binary, with classes like those that platforms export.
 
+mod anonymous;
 mod characters;
 mod every_oddity;
 mod faulty_submissions;

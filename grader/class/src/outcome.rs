@@ -136,23 +136,18 @@ pub struct ItemScore {
 impl TaskScore {
     /// Returns the task for the policy, with the points that staff gave by hand.
     pub fn for_policy(&self, manual: i32) -> TaskPoints<'_> {
+        let items = self.items.iter().map(|item| ItemPoints {
+            id: &item.id,
+            points: item.points,
+            max_points: item.max_points,
+            blocked_by: item.blocked_by.as_deref(),
+        });
         TaskPoints {
             id: &self.id,
             points: self.points,
             max_points: self.max_points,
             manual,
-            items: self.items.iter().map(ItemScore::for_policy).collect(),
-        }
-    }
-}
-
-impl ItemScore {
-    fn for_policy(&self) -> ItemPoints<'_> {
-        ItemPoints {
-            id: &self.id,
-            points: self.points,
-            max_points: self.max_points,
-            blocked_by: self.blocked_by.as_deref(),
+            items: items.collect(),
         }
     }
 }

@@ -132,8 +132,11 @@ fn write_for_graders(
     let copy = Store::new(folder);
     let mut pseudonyms = Pseudonyms::read(store)?;
     let hidden = pseudonyms.hide(class, store)?;
-    for EntryResult { id, .. } in class.rows.iter().map(|row| &row.result) {
-        copy.copy_files(&pseudonyms.known(id), store, id)?;
+    for row in &class.rows {
+        if row.result.score().is_some() {
+            let id = &row.result.id;
+            copy.copy_files(&pseudonyms.of(id), store, id)?;
+        }
     }
     for row in &hidden.rows {
         copy.save_result(&row.result, "", run.round)?;

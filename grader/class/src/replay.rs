@@ -8,9 +8,10 @@ use grader::question_ref::QuestionRef;
 use grader::replay::replay;
 use judging::sanitize::sanitize;
 
+use crate::entry::Person;
 use crate::error::Error;
 use crate::names::are_equal;
-use crate::outcome::{EntryOutcome, EntryResult, id_and_names};
+use crate::outcome::{EntryResult, id_and_names};
 use crate::store::Store;
 
 /// The maximum length of an item's message, in characters.
@@ -41,49 +42,46 @@ pub fn replay_question(
     }
     let result = find_result(&store, who)?;
     let title = id_and_names(&result.id, &result.info.display_names());
-    let score = match &result.outcome {
-        EntryOutcome::Graded(score) => score,
-        EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why) => {
-            return Err(Error::user(format!("{title} was not graded: {why}")));
-        }
+    let Some(score) = result.score() else {
+        return Err(Error::user(format!("{title} has no score: see grades.csv")));
     };
-    let item = score.items().find(|item| item.id == question.item);
-    let graded = item.map(|item| {
-        let (points, of) = (item.points, item.max_points);
-        let separator = if item.message.is_empty() { "" } else { ": " };
-        let verdict = format!("{}{separator}{}", item.verdict, item.message);
-        format!("graded   {points} of {of} points, {verdict}\n")
-    });
     let options = GradeOptions {
         submission: Some(store.submission_path(&result.id)),
         ..options.clone()
     };
     let replayed = replay(&options, &question)?;
-    let head = format!("{title}\n{}", graded.unwrap_or_default());
-    Ok(sanitize(&head, MAX_CHARS) + &replayed)
+    let mut text = format!("{title}\n");
+    if let Some(item) = score.items().find(|item| item.id == question.item) {
+        let (points, of) = (item.points, item.max_points);
+        let why = format!("{}: {}", item.verdict, item.message);
+        let why = why.trim_end_matches(": ");
+        text += &format!("graded   {points} of {of} points, {why}\n");
+    }
+    Ok(sanitize(&text, MAX_CHARS) + &replayed)
 }
 
 /// Returns the result of the submission with this id, or of the only person with this name or
 /// identifier.
 fn find_result(store: &Store, who: &str) -> Result<EntryResult, Error> {
     let results = store.results()?;
+    if let Some(result) = results.iter().find(|result| result.id == who) {
+        return Ok(result.clone());
+    }
     let is_theirs = |result: &&EntryResult| {
-        let mut names = result.info.people.iter().flat_map(|own| own.identifiers());
+        let mut names = result.info.people.iter().flat_map(Person::identifiers);
         names.any(|name| are_equal(name, who))
     };
-    let ids = || results.iter().map(|result| result.id.as_str());
-    let by_id = results.iter().find(|result| result.id == who);
-    let mut theirs = results.iter().filter(is_theirs);
-    match (by_id, theirs.next(), theirs.next()) {
-        (Some(result), ..) | (None, Some(result), None) => Ok(result.clone()),
-        (None, Some(one), Some(other)) => Err(Error::user(format!(
+    let theirs: Vec<&EntryResult> = results.iter().filter(is_theirs).collect();
+    Err(Error::user(match theirs.as_slice() {
+        [result] => return Ok((*result).clone()),
+        [one, other, ..] => format!(
             "{who:?} could be {} or {}: write the name of the submission's folder",
             one.id, other.id
-        ))),
-        (None, None, _) => Err(Error::user(format!(
+        ),
+        [] => format!(
             "nobody with the name or identifier {who:?} was graded{}; the folder students has the \
              submissions",
-            suggestion(who, ids())
-        ))),
-    }
+            suggestion(who, results.iter().map(|result| result.id.as_str()))
+        ),
+    }))
 }

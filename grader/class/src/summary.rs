@@ -53,19 +53,7 @@ pub struct ClassSummary {
     /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
     /// The points and comments by hand.
-    pub decisions: Vec<Decision>,
-}
-
-/// Points or a comment by hand.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Decision {
-    /// The entry's id.
-    pub submission: String,
-    /// The student's name.
-    pub name: String,
-    /// The points, the reason, the author and the date.
-    #[serde(flatten)]
-    pub points: ManualPoints,
+    pub decisions: Vec<ManualPoints>,
 }
 
 /// The distribution of a task's points.
@@ -132,6 +120,7 @@ impl ClassSummary {
             let rows = class.rows.iter();
             rows.filter(|row| is_one(row)).count()
         };
+        let grades = class.rows.iter().flat_map(|row| &row.grades);
         ClassSummary {
             schema: SCHEMA,
             exam: class.exam.clone(),
@@ -149,21 +138,10 @@ impl ClassSummary {
             failed_most: failed_most(&scores),
             mistakes: mistakes(&scores),
             outliers: outliers(class, points.as_ref()),
-            decisions: class.rows.iter().flat_map(decisions).collect(),
+            decisions: grades.flat_map(|grade| &grade.manual).cloned().collect(),
             points,
         }
     }
-}
-
-fn decisions(row: &ClassRow) -> impl Iterator<Item = Decision> {
-    row.people().flat_map(move |(person, grade)| {
-        let decision = |points: &ManualPoints| Decision {
-            submission: row.result.id.clone(),
-            name: person.display_name().to_owned(),
-            points: points.clone(),
-        };
-        grade.manual.iter().map(decision)
-    })
 }
 
 fn has_nothing(row: &ClassRow) -> bool {

@@ -10,7 +10,7 @@ use grader::printing::print;
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
-use crate::anonymous::{self, Pseudonyms};
+use crate::anonymous::Pseudonyms;
 use crate::cli::{ClassArguments, Lists};
 use crate::entry::{Entry, EntryInfo};
 use crate::entry_grader::EntryGrader;
@@ -65,10 +65,15 @@ pub fn grade_class_with(
     options.policy.clone_from(&given.policy);
     let workspace = Workspace::find()?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
-    if let Some(folder) = &arguments.similarity_input {
-        let out = arguments.out.as_deref();
-        let others: Vec<&Path> = [path].into_iter().chain(out).collect();
-        similarity::check_folder(folder, &others)?;
+    let out = arguments.out.as_deref();
+    let others: Vec<&Path> = [path].into_iter().chain(out).collect();
+    for (option, folder) in [
+        ("--similarity-input", &arguments.similarity_input),
+        ("--anonymous", &given.anonymous),
+    ] {
+        if let Some(folder) = folder {
+            similarity::check_folder(folder, &others, option)?;
+        }
     }
     let input = Input::open(
         path,
@@ -77,10 +82,10 @@ pub fn grade_class_with(
         &roster::read_lists(given)?,
     )?;
     let mut recognised = input.class.clone();
-    if let Some(out) = &arguments.out {
+    if let Some(out) = out {
         let pseudonyms = Pseudonyms::read(&Store::new(out))?;
         for Entry { id, info, .. } in &mut recognised.entries {
-            info.pseudonym = pseudonyms.known(id);
+            info.pseudonym = pseudonyms.of(id);
         }
     }
     let entries = recognised.entries.iter_mut();
@@ -109,7 +114,6 @@ pub fn grade_class_with(
     findings.warn_about_extensions(grader.policy());
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
-    anonymous::check_folder(given, out)?;
     let settings = grader.settings()?;
     let run = start_or_resume(&store, settings, arguments.regrade)?;
     store.remove_temporary_files()?;

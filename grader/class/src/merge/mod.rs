@@ -1,14 +1,14 @@
 //! `cargo class merge`: merges the parts of a class that several machines have graded.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
 use grader::policy::Policy;
 use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
-use crate::anonymous::{self, Pseudonyms};
+use crate::anonymous::Pseudonyms;
 use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
 use crate::error::Error;
@@ -19,6 +19,7 @@ use crate::paths::contains;
 use crate::regrade_diff::find_removed;
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
+use crate::similarity::check_folder;
 use crate::store::Store;
 
 /// Copies the shards' results into one folder, and writes the class's files.
@@ -27,7 +28,11 @@ pub fn merge_shards(
     handed_out: &HandedOut,
 ) -> Result<Completion, Error> {
     check_out(arguments)?;
-    anonymous::check_folder(&arguments.lists, &arguments.out)?;
+    if let Some(folder) = &arguments.lists.anonymous {
+        let others = arguments.shards.iter().chain([&arguments.out]);
+        let others: Vec<&Path> = others.map(PathBuf::as_path).collect();
+        check_folder(folder, &others, "--anonymous")?;
+    }
     let shards = arguments.shards.iter();
     let shards = shards.map(|path| read_finished_run(Store::new(path)));
     let shards: Vec<(Store, Run)> = shards.collect::<Result<_, Error>>()?;
@@ -92,7 +97,7 @@ pub fn merge_shards(
     rows.retain(|row| sources.contains_key(&row.id));
     let pseudonyms = Pseudonyms::read(&out)?;
     for row in &mut rows {
-        row.info.pseudonym = pseudonyms.known(&row.id);
+        row.info.pseudonym = pseudonyms.of(&row.id);
     }
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if lists.roster.is_some() {

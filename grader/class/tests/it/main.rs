@@ -9,6 +9,7 @@ mod handing_back;
 mod harness;
 mod identity;
 mod layouts;
+mod manual_points;
 mod numbers;
 mod page;
 mod people;

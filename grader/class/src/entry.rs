@@ -89,6 +89,9 @@ pub struct Person {
     /// The group in the roster.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub group: String,
+    /// The section or tutor in the roster.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub section: String,
     /// The extension in the roster: a number of days, or a time.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub extension: String,
@@ -204,6 +207,7 @@ impl Person {
             (&mut self.login, &other.login),
             (&mut self.number, &other.number),
             (&mut self.group, &other.group),
+            (&mut self.section, &other.section),
             (&mut self.extension, &other.extension),
             (&mut self.status, &other.status),
         ];

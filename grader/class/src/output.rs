@@ -82,7 +82,18 @@ impl ClassContext<'_> {
             grades: history.changes(),
         };
         let summary = write_results(class, store, &changes)?;
-        print_results(&summary, &changes);
+        print(text::render_summary(&summary));
+        print(
+            changes
+                .regrade
+                .iter()
+                .map(text::render_regrade)
+                .collect::<String>(),
+        );
+        print(text::render_resubmitted(&changes.resubmitted));
+        let grades = changes.grades.iter().map(text::render_grade_changes);
+        print(grades.collect::<String>());
+        print(text::render_removed(&changes.removed));
         write_for_platforms(class, store, lists)?;
         if let Some(folder) = &lists.anonymous {
             write_for_graders(class, store, run, folder)?;
@@ -153,22 +164,6 @@ fn write_for_graders(
     write_results(&hidden, &copy, &Changes::default())?;
     print_path(&copy, "class.html");
     Ok(())
-}
-
-/// Prints the summary and the changes.
-fn print_results(summary: &ClassSummary, changes: &Changes) {
-    print(text::render_summary(summary));
-    print(
-        changes
-            .regrade
-            .iter()
-            .map(text::render_regrade)
-            .collect::<String>(),
-    );
-    print(text::render_resubmitted(&changes.resubmitted));
-    let grades = changes.grades.iter().map(text::render_grade_changes);
-    print(grades.collect::<String>());
-    print(text::render_removed(&changes.removed));
 }
 
 /// Writes the copies of gradebooks, and the archive to hand back.

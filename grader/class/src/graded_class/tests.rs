@@ -1,15 +1,12 @@
 //! Tests of what counts for each person, and of the words for it.
 
-use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
 use super::*;
-use crate::attempts::count_points;
 use crate::cli::Lists;
 use crate::entry::EntryInfo;
 use crate::late::ONLY_A_FLAG;
 use crate::list_kind::ListKind;
-use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};
 
 /// Returns the result of a submission by these people, with this outcome.
@@ -300,49 +297,4 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
     assert_eq!((&unclear.counted, unclear.is_undated), (&None, false));
     let is_unclear = |problem| matches!(problem, Some(GradeProblem::UnclearTime(_)));
     assert!(is_unclear(unclear.problem));
-}
-
-/// Returns the points by hand in a file with this row.
-fn manual_list(row: &str) -> ManualPointsList {
-    let text = format!("student,task,delta,comment,author\n{row}\n");
-    let (_folder, lists) = lists(&[(ListKind::ManualPoints, &text)]);
-    ManualPointsList::read(&lists.manual_points.unwrap(), &RAYS).unwrap()
-}
-
-/// Returns the points that count for each person.
-fn counted(rows: &[ClassRow]) -> Vec<Option<u32>> {
-    let grades = rows.iter().flat_map(|row| &row.grades);
-    grades
-        .map(|grade| Some(grade.counted.as_ref()?.points))
-        .collect()
-}
-
-#[test]
-fn points_by_hand_are_added_for_their_person_and_checked() {
-    let count = |delta: &str| {
-        let manual = manual_list(&format!("Bob,sphere,{delta},,Lee"));
-        let results = vec![
-            result("a", &["Ann", "Bob"], graded(80)),
-            result("b", &["Bob B."], nothing()),
-        ];
-        count_points(results, &Policy::default(), &manual, &exam(20))
-    };
-    assert_eq!(counted(&count("5").unwrap()), [Some(80), Some(85), None]);
-    let error = count("21").unwrap_err().to_string();
-    assert!(error.contains("+21 points are out of range"), "{error}");
-}
-
-/// Ann's first attempt has 10 points, from which 20 cannot be taken off.
-#[test]
-fn points_by_hand_must_fit_the_attempt_that_counts() {
-    let manual = manual_list("Ann,sphere,-20,,Lee");
-    let results = [("a", 10), ("b", 80)];
-    let results = results.map(|(id, points)| result(id, &["Ann"], graded(points)));
-    let count = |results: &[EntryResult], text: &str| {
-        count_points(results.to_vec(), &policy(text), &manual, &[])
-    };
-    let rows = count(&results, "[attempts]\ncounts = 'best'").unwrap();
-    assert_eq!(counted(&rows), [None, Some(60)]);
-    assert!(count(&results, "").is_ok(), "nobody has chosen yet");
-    assert!(count(&results[..1], "").is_err());
 }

@@ -42,6 +42,7 @@ fn info(text: &str) -> EntryInfo {
             login: text.to_owned(),
             number: text.to_owned(),
             group: text.to_owned(),
+            section: text.to_owned(),
             extension: text.to_owned(),
             status: text.to_owned(),
             is_named_by_file: true,

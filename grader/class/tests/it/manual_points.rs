@@ -73,3 +73,32 @@ fn a_row_that_cannot_be_used_is_an_error_with_its_number() {
     let no_author = refused("student,task,delta,comment");
     insta::assert_snapshot!(errors.concat() + &no_author);
 }
+
+/// Ann's first attempt has no points, so none can be taken off.
+#[test]
+fn a_row_must_fit_the_attempt_that_counts() {
+    let class = TestClass::named("class")
+        .with_starter("ann")
+        .with_reference("u1");
+    let exam = class.small_exam(&["camera.offset"]);
+    let roster = "name,username,sid\nAnn Lee,ann,u1\n";
+    let manual = "student,task,delta,comment,author\nann,camera,-1,,Kim\n";
+    let grade = |rule: &str| {
+        let policy = format!("[attempts]\ncounts = \"{rule}\"\n");
+        let lists = [
+            ("roster", roster),
+            ("manual-points", manual),
+            ("policy", &policy),
+        ];
+        class.graded_with(&exam, &lists, &[]);
+        ["ann", "u1"].map(|id| cell(&class, id, "Ann Lee", "counts"))
+    };
+    assert_eq!(grade("ask"), ["", ""], "nobody has chosen yet");
+    assert_eq!(grade("best"), ["", "1"]);
+    std::fs::remove_dir_all(class.input().join("u1")).unwrap();
+    let error = class.refused(&exam, &[]);
+    assert!(
+        error.contains("-1 points are out of range: 0 of"),
+        "{error}"
+    );
+}

@@ -4,6 +4,7 @@
 //! its time, and the final points are computed from them.
 
 mod counted;
+mod exam_names;
 mod exam_points;
 mod extension;
 mod late;

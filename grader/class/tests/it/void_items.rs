@@ -3,13 +3,15 @@
 
 use std::fs;
 
+use serde_json::Value;
+
 use crate::harness::{TestClass, cell};
 
 const ITEMS: [&str; 3] = ["camera.offset", "camera.unit_length", "sphere.radius"];
 /// Points by hand for the submission that cannot be graded.
 const MANUAL: &str = "student,task,delta,comment,author\ncarl,sphere,1,drawn on paper,Tess\n";
 
-/// Ann has all points, and Bob has none for `camera.offset`.
+/// Ann has all points, and Bob has none for `camera.offset`, which blocks his wrong `sphere.radius`.
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")
@@ -19,8 +21,13 @@ fn graded() -> (TestClass, String) {
             "pixel.as_vec2() + offset",
             "pixel.as_vec2() + 0.5",
         )
+        .with_replaced("bob/sphere.rs", "self.radius * self.radius", "self.radius")
         .with_folder("carl");
     let exam = class.small_exam(&ITEMS);
+    let text = fs::read_to_string(&exam).unwrap();
+    let mut parsed: Value = serde_json::from_str(&text).unwrap();
+    parsed["items"][2]["needs"] = vec![ITEMS[0]].into();
+    fs::write(&exam, parsed.to_string()).unwrap();
     class.graded_with(&exam, &[("manual-points", MANUAL)], &["--hand-back"]);
     (class, exam)
 }

@@ -48,7 +48,7 @@ struct FinalGrade {
     graded: u32,
     manual: i32,
     late_days: u32,
-    /// What the policy counts differently than the exam.
+    /// The policy's differences from the exam, in items and tasks.
     #[serde(default)]
     changes: Vec<String>,
 }

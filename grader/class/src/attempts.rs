@@ -1,7 +1,7 @@
 //! Counts the points of all submissions, by the policy, with the points by hand. Of several submissions
 //! of one person, the policy's rule says which one counts.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
@@ -10,25 +10,25 @@ use crate::graded_class::{ClassRow, GradeProblem};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
 use crate::manual_points::{ManualPoints, ManualPointsList};
-use crate::outcome::{EntryOutcome, EntryResult};
+use crate::outcome::{EntryOutcome, EntryResult, TaskScore};
 
-/// Applies the policy and the manual points to all results.
+/// Applies the policy and the manual points to all results. `exam` is the tasks without any points.
 pub fn count_points(
     results: Vec<EntryResult>,
     policy: &Policy,
     manual: &ManualPointsList,
-    tasks: &BTreeMap<String, u32>,
+    exam: &[TaskScore],
 ) -> Result<Vec<ClassRow>, Error> {
     let mut rows = Vec::new();
     for result in results {
         let people = result.info.people.iter();
         let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
-        rows.push(ClassRow::new(result, policy, own, tasks.values().sum()));
+        rows.push(ClassRow::new(result, policy, own, exam));
     }
     apply_rule(policy, &mut rows);
     for row in &rows {
         for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
-            manual.check_range(&grade.manual, &row.result.outcome, tasks)?;
+            manual.check_range(&grade.manual, &row.result.outcome, exam)?;
         }
     }
     Ok(rows)
@@ -102,8 +102,10 @@ fn choose(
         AttemptRule::Best => {
             let points = |row: &usize| {
                 let own = attempts.iter().filter(|attempt| attempt.0 == *row);
-                let points = own.map(|(row, person)| rows[*row].grades[*person].counted);
-                let points: Option<Vec<u32>> = points.map(|c| Some(c?.points)).collect();
+                let grades = own.map(|(row, person)| &rows[*row].grades[*person]);
+                let points: Option<Vec<u32>> = grades
+                    .map(|grade| Some(grade.counted.as_ref()?.points))
+                    .collect();
                 points?.into_iter().max()
             };
             let points: Option<Vec<u32>> = candidates.iter().map(points).collect();
@@ -128,7 +130,7 @@ mod tests {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
             let mut result = result(id, &["Ann"], outcome.clone());
             result.info.submitted = time.map(str::to_owned);
-            ClassRow::new(result, policy, vec![Vec::new()], 100)
+            ClassRow::new(result, policy, vec![Vec::new()], &[])
         };
         submissions.iter().map(row).collect()
     }

@@ -48,7 +48,7 @@ pub enum Command {
 pub struct ClassArguments {
     /// The platform's export (a folder or archive), or a folder with a folder or archive per
     /// student
-    #[arg(required = true)]
+    #[arg(required_unless_present = "replay")]
     pub input: Option<PathBuf>,
 
     /// Output folder; a run that was stopped is resumed from it
@@ -75,6 +75,12 @@ pub struct ClassArguments {
     /// Grade only part K of N, such as 2/8; `cargo class merge` merges the parts
     #[arg(long, value_name = "K/N", conflicts_with = "regrade")]
     pub shard: Option<Shard>,
+
+    /// Run one question of a graded submission again, such as `ann sphere.from_inside#7`, and show the
+    /// whole answer; ID is the submission's folder or anything that identifies one person
+    #[arg(long, value_names = ["ID", "ITEM[#N]"], num_args = 2, requires = "out")]
+    #[arg(conflicts_with_all = ["input", "dry_run", "estimate", "regrade", "shard", "similarity_input"])]
+    pub replay: Option<Vec<String>>,
 
     /// Number of submissions to grade at a time; default: one per core
     #[arg(long, value_name = "COUNT", value_parser = value_parser!(u16).range(1..=512))]
@@ -140,8 +146,8 @@ pub struct Lists {
     #[arg(long)]
     pub accept_unlisted: bool,
 
-    /// Points and comments by hand, with the columns student, task, delta, comment and author; they
-    /// are added before lateness is considered
+    /// Points and comments by hand, with the columns student, task, delta, comment, author and, if you
+    /// like, date; they are added before lateness is considered
     #[arg(long, value_name = "CSV")]
     pub manual_points: Option<PathBuf>,
 
@@ -149,6 +155,11 @@ pub struct Lists {
     /// expect
     #[arg(long)]
     pub hand_back: bool,
+
+    /// Write a copy of the class for graders into this folder, with pseudonyms instead of names;
+    /// anonymous-key.json in the output folder is the key
+    #[arg(long, value_name = "FOLDER")]
+    pub anonymous: Option<PathBuf>,
 
     /// Gradebook exported from Canvas; the points are written to a copy
     #[arg(long, value_name = "CSV")]

@@ -47,6 +47,9 @@ pub struct EntryInfo {
     /// such rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
+    /// The pseudonym for graders; empty if there is none.
+    #[serde(skip)]
+    pub pseudonym: String,
     /// The name of the group that the submission is named after, if its people are those whom a list
     /// has in this group.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -86,6 +89,9 @@ pub struct Person {
     /// The group in the roster.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub group: String,
+    /// The section or tutor in the roster.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub section: String,
     /// The extension in the roster: a number of days, or a time.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub extension: String,
@@ -201,6 +207,7 @@ impl Person {
             (&mut self.login, &other.login),
             (&mut self.number, &other.number),
             (&mut self.group, &other.group),
+            (&mut self.section, &other.section),
             (&mut self.extension, &other.extension),
             (&mut self.status, &other.status),
         ];

@@ -48,6 +48,9 @@ struct FinalGrade {
     graded: u32,
     manual: i32,
     late_days: u32,
+    /// The policy's differences from the exam, in items and tasks.
+    #[serde(default)]
+    changes: Vec<String>,
 }
 
 /// The final grades that changed.
@@ -165,7 +168,7 @@ impl FinalGrades {
 
 impl FinalGrade {
     fn new(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Self {
-        let counted = grade.counted;
+        let counted = grade.counted.as_ref();
         FinalGrade {
             submission: row.result.id.clone(),
             person: person.clone(),
@@ -174,6 +177,7 @@ impl FinalGrade {
             graded: row.result.score().map_or(0, |score| score.points),
             manual: counted.map_or(0, |counted| counted.manual),
             late_days: counted.map_or(0, |counted| counted.late_days),
+            changes: counted.map_or_else(Vec::new, |counted| counted.changes.clone()),
         }
     }
 
@@ -201,6 +205,8 @@ impl FinalGrade {
             if was.late_days != self.late_days {
                 why.push(format!("days late {} → {}", was.late_days, self.late_days));
             }
+            let is_new = |change: &&String| !was.changes.contains(change);
+            why.extend(self.changes.iter().filter(is_new).cloned());
         }
         if why.is_empty() {
             why = causes.iter().map(|cause| (*cause).to_owned()).collect();

@@ -12,8 +12,8 @@
 //! | grading of a class | [`grade`] |
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
-//! | grading of entries, and changes of scores | [`entry_grader`], [`regrade_diff`] |
-//! | what is made of grades; the input | [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
+//! | grading of entries, changes of scores, and questions about them | [`entry_grader`], [`regrade_diff`], [`replay`] |
+//! | what is made of grades; the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
 //! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
@@ -21,6 +21,7 @@
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
 //! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`layout_kind`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
 
+pub mod anonymous;
 pub mod archive;
 pub mod attempts;
 pub mod cli;
@@ -54,6 +55,7 @@ pub mod paths;
 pub mod progress;
 pub mod queue;
 pub mod regrade_diff;
+pub mod replay;
 pub mod report;
 pub mod roster;
 pub mod run;

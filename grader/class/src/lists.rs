@@ -56,10 +56,11 @@ pub fn complete_entries(
     }
     roster::set_submission_times(&rows, entries);
     let people: Vec<&Person> = entries.iter().flat_map(|info| &info.people).collect();
-    let manual = match &lists.manual_points {
+    let mut manual = match &lists.manual_points {
         Some(path) => ManualPointsList::read(path, handed_out)?,
         None => ManualPointsList::default(),
     };
+    manual.resolve_pseudonyms(entries);
     manual.check_students(&people)?;
     let unlisted = entries.iter().filter(|info| !is_listed(&rows, info));
     let warnings = entries.iter();

@@ -7,7 +7,8 @@ use class::cli::{Cli, Command};
 use class::error::Error;
 use class::grade::{Completion, grade_class};
 use class::merge::merge_shards;
-use grader::printing::{exit_with, print_error};
+use class::replay::replay_question;
+use grader::printing::{exit_with, print, print_error};
 use grader::sandbox;
 
 fn main() -> ExitCode {
@@ -30,6 +31,15 @@ fn run(cli: &Cli) -> Result<Completion, Error> {
         Some(Command::Merge(arguments)) => {
             merge_shards(arguments, arguments.assignment.unwrap_or_default())
         }
-        None => grade_class(&cli.class, &cli.class.grading.resolve()),
+        None => {
+            let options = cli.class.grading.resolve();
+            match (&cli.class.replay, &cli.class.out) {
+                (Some(question), Some(out)) => {
+                    print(replay_question(out, question, &options)?);
+                    Ok(Completion::Complete)
+                }
+                _ => grade_class(&cli.class, &options),
+            }
+        }
     }
 }

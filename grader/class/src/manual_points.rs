@@ -3,19 +3,20 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
+use std::mem;
 use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
 use serde::Serialize;
 
-use crate::entry::Person;
+use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::identity::person_ids;
 use crate::names::are_equal;
-use crate::outcome::EntryOutcome;
+use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
-/// The columns of the file.
+/// The columns that the file must have. A column `date` is optional.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
@@ -25,7 +26,6 @@ pub struct ManualPoints {
     /// The row in the file, as spreadsheets number it.
     pub row: usize,
     /// The student's identifier or name, as it is written in the file.
-    #[serde(skip)]
     pub student: String,
     /// The task's id.
     pub task: String,
@@ -35,6 +35,9 @@ pub struct ManualPoints {
     pub comment: String,
     /// The person who gave the points.
     pub author: String,
+    /// The date of the decision, as it is written in the file; may be empty.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub date: String,
 }
 
 /// The manual points of a class.
@@ -52,17 +55,45 @@ impl ManualPointsList {
         for (index, name) in columns.iter_mut().zip(COLUMNS) {
             *index = table.require_column(path, name, REMEDY)?;
         }
+        let date = table.column("date");
         let mut list = ManualPointsList {
             path: path.to_owned(),
             all: Vec::new(),
         };
         for (row, cells) in table.numbered_rows() {
+            let date = date.map_or("", |index| cells[index].trim());
             let cells = columns.map(|index| cells[index].trim().to_owned());
             let points = ManualPoints::parse(row, cells, handed_out);
             let points = points.map_err(|problem| list.error(row, problem))?;
-            list.all.push(points);
+            list.all.push(ManualPoints {
+                date: date.to_owned(),
+                ..points
+            });
         }
         Ok(list)
+    }
+
+    /// Replaces each row for a pseudonym by a row for each person of the submission.
+    pub fn resolve_pseudonyms(&mut self, entries: &[&mut EntryInfo]) {
+        let resolve = |points: ManualPoints| {
+            let is_meant = |info: &&&mut EntryInfo| info.pseudonym == points.student;
+            let Some(info) = entries.iter().find(is_meant) else {
+                return vec![points];
+            };
+            let names = info
+                .people
+                .iter()
+                .filter_map(|own| own.identifiers().next());
+            let of_person = |name: &str| ManualPoints {
+                student: name.to_owned(),
+                ..points.clone()
+            };
+            names.map(of_person).collect()
+        };
+        self.all = mem::take(&mut self.all)
+            .into_iter()
+            .flat_map(resolve)
+            .collect();
     }
 
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
@@ -107,30 +138,28 @@ impl ManualPointsList {
         own.cloned().collect()
     }
 
-    /// Checks that no task gets more points than it has, or fewer than 0. `tasks` has the maximum of
-    /// each task in the exam. If the grader or the machine failed, what was earned is not known yet.
+    /// Checks that no task gets more points than it has, or fewer than 0. `exam` is the tasks without
+    /// any points. If the grader or the machine failed, what was earned is not known yet.
     pub fn check_range(
         &self,
         points: &[ManualPoints],
         outcome: &EntryOutcome,
-        tasks: &BTreeMap<String, u32>,
+        exam: &[TaskScore],
     ) -> Result<(), Error> {
+        let tasks = match outcome {
+            EntryOutcome::Graded(score) => &score.tasks,
+            EntryOutcome::NothingToGrade(_) => exam,
+            EntryOutcome::Fault(_) => return Ok(()),
+        };
         for ManualPoints {
             row, task, delta, ..
         } in points
         {
-            let known = match outcome {
-                EntryOutcome::Graded(score) => {
-                    let graded = score.tasks.iter().find(|graded| graded.id == *task);
-                    graded.map(|graded| (graded.points, graded.max_points))
-                }
-                EntryOutcome::NothingToGrade(_) => tasks.get(task).map(|most| (0, *most)),
-                EntryOutcome::Fault(_) => continue,
-            };
-            let Some((earned, most)) = known else {
+            let Some(graded) = tasks.iter().find(|graded| graded.id == *task) else {
                 let problem = format!("the exam has no items of the task {task}: remove the row");
                 return Err(self.error(*row, problem));
             };
+            let (earned, most) = (graded.points, graded.max_points);
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
                 let problem = format!(
@@ -172,6 +201,7 @@ impl ManualPoints {
             delta,
             comment,
             author,
+            date: String::new(),
         })
     }
 
@@ -188,6 +218,7 @@ impl fmt::Display for ManualPoints {
             delta,
             comment,
             author,
+            date,
             ..
         } = self;
         let points = match delta.abs() {
@@ -195,137 +226,12 @@ impl fmt::Display for ManualPoints {
             _ => "points",
         };
         write!(f, "{task}: {delta:+} {points} by {author}")?;
+        if !date.is_empty() {
+            write!(f, ", {date}")?;
+        }
         match comment.as_str() {
             "" => Ok(()),
             comment => write!(f, ": {comment}"),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use grader::handed_out::RAYS;
-
-    use serde_json::json;
-
-    use super::*;
-    use crate::graded_class::tests::{graded, person, result};
-
-    /// Reads a list with these rows. The columns are in another order than in the documentation.
-    fn read(rows: &[&str]) -> Result<ManualPointsList, String> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("manual.csv");
-        let text = format!("author,student,task,comment,delta\n{}\n", rows.join("\n"));
-        std::fs::write(&path, text).unwrap();
-        ManualPointsList::read(&path, &RAYS).map_err(|error| without_folder(&error))
-    }
-
-    /// Returns the message from the name of the file on.
-    fn without_folder(error: &Error) -> String {
-        let text = error.to_string();
-        text[text.find("manual.csv").unwrap()..].to_owned()
-    }
-
-    fn ann() -> Person {
-        person(json!({ "name": "Ann Lee", "email": "ann@x.edu" }))
-    }
-
-    #[test]
-    fn a_row_is_read_with_its_number_and_belongs_to_its_student() {
-        let list = read(&["Kim,bob,bbox,,2", "Kim, ANN@x.edu ,sphere,nice, -1"]).unwrap();
-        let points = list.of(&ann());
-        assert_eq!(
-            points,
-            [ManualPoints {
-                row: 3,
-                student: "ANN@x.edu".to_owned(),
-                task: "sphere".to_owned(),
-                delta: -1,
-                comment: "nice".to_owned(),
-                author: "Kim".to_owned(),
-            }]
-        );
-        assert_eq!(points[0].to_string(), "sphere: -1 point by Kim: nice");
-        let of_bob = list.of(&Person::named("Bob"));
-        assert_eq!(of_bob[0].to_string(), "bbox: +2 points by Kim");
-        assert_eq!(list.of(&Person::named("Eve")), []);
-    }
-
-    #[test]
-    fn a_row_that_cannot_be_used_says_why() {
-        let rows = [
-            "Kim,Ann,spheres,,1",
-            "Kim,,sphere,,1",
-            ",Ann,sphere,,1",
-            "Kim,Ann,sphere,,1.5",
-        ];
-        let errors = rows.map(|row| read(&["Kim,Ann,bbox,,1", row]).unwrap_err());
-        let errors = errors
-            .join("\n")
-            .replace(&RAYS.assignment.id_list(), "TASKS");
-        insta::assert_snapshot!(errors, @r#"
-        manual.csv, row 3: there is no task "spheres"; the tasks are TASKS
-        manual.csv, row 3: the columns student and author must not be empty
-        manual.csv, row 3: the columns student and author must not be empty
-        manual.csv, row 3: delta is "1.5": it must be a whole number of points, such as 2 or -1
-        "#);
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("manual.csv");
-        std::fs::write(&path, "student,task,delta,comment\n").unwrap();
-        let error = ManualPointsList::read(&path, &RAYS).unwrap_err();
-        assert_eq!(
-            without_folder(&error),
-            "manual.csv has no column author: manual points need the columns student, task, \
-             delta, comment and author"
-        );
-    }
-
-    #[test]
-    fn each_row_belongs_to_exactly_one_person_and_task() {
-        let check = |rows: &[&str], people: &[&Person]| {
-            let checked = read(rows).unwrap().check_students(people);
-            checked.map_err(|error| without_folder(&error))
-        };
-        let (ann, other) = (ann(), Person::named("Ann Lee"));
-        let by_name = ["Kim,Ann Lee,bbox,,1"];
-        assert_eq!(check(&by_name, &[&Person::named("Bob"), &ann]), Ok(()));
-        // Two submissions of one person.
-        assert_eq!(check(&by_name, &[&ann, &ann]), Ok(()));
-        let two_tasks = ["Kim,Ann Lee,bbox,,1", "Kim,ann@x.edu,sphere,,1"];
-        assert_eq!(check(&two_tasks, &[&ann]), Ok(()));
-        let two_people = ["Kim,Ann Lee,bbox,,1", "Kim,Bob,bbox,,1"];
-        assert_eq!(check(&two_people, &[&ann, &Person::named("Bob")]), Ok(()));
-        let errors = [
-            check(&by_name, &[&Person::named("Bob")]),
-            check(&by_name, &[&ann, &other]),
-            check(&["Kim,Ann Lee,bbox,,1", "Kim,ann@x.edu,bbox,,1"], &[&ann]),
-        ];
-        let errors = errors.map(Result::unwrap_err);
-        insta::assert_snapshot!(errors.join("\n"), @r#"
-        manual.csv, row 2: nobody with the name or identifier "Ann Lee" handed something in: write the email address, the student number, the account name or the full name
-        manual.csv, row 2: "Ann Lee" could be Ann Lee or Ann Lee: write the email address or the student number
-        manual.csv, row 3: row 2 has points for the same student and task: write them in one row
-        "#);
-    }
-
-    #[test]
-    fn a_task_keeps_between_none_and_all_of_its_points() {
-        let check = |task: &str, delta: i32| {
-            let list = read(&[&format!("Kim,Ann,{task},,{delta}")]).unwrap();
-            let result = result("a", &["Ann"], graded(80));
-            let own = list.of(&result.info.people[0]);
-            let checked = list.check_range(&own, &result.outcome, &BTreeMap::new());
-            checked.map_err(|error| without_folder(&error))
-        };
-        for delta in [20, -80, 0] {
-            assert_eq!(check("sphere", delta), Ok(()), "{delta}");
-        }
-        let errors = [check("sphere", 21), check("sphere", -81), check("bbox", 1)];
-        let errors = errors.map(Result::unwrap_err);
-        insta::assert_snapshot!(errors.join("\n"), @r"
-        manual.csv, row 2: +21 points are out of range: 80 of 100 points were earned for sphere
-        manual.csv, row 2: -81 points are out of range: 80 of 100 points were earned for sphere
-        manual.csv, row 2: the exam has no items of the task bbox: remove the row
-        ");
     }
 }

@@ -1,5 +1,8 @@
 //! The results of entries, in memory and in storage.
 
+use std::collections::BTreeMap;
+
+use grader::policy::{ItemPoints, TaskPoints};
 use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
@@ -77,7 +80,7 @@ pub struct FileNotes {
 }
 
 /// The score of a task.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct TaskScore {
     /// The task's id, such as `sphere`.
     pub id: String,
@@ -91,8 +94,25 @@ pub struct TaskScore {
     pub items: Vec<ItemScore>,
 }
 
+/// Returns the tasks of an exam without any points, from the maximum of each item.
+pub fn exam_tasks(items: &BTreeMap<String, u32>) -> Vec<TaskScore> {
+    let mut tasks: BTreeMap<&str, TaskScore> = BTreeMap::new();
+    for (id, points) in items {
+        let name = id.split('.').next().unwrap_or(id);
+        let task = tasks.entry(name).or_default();
+        name.clone_into(&mut task.id);
+        task.max_points += points;
+        task.items.push(ItemScore {
+            id: id.clone(),
+            max_points: *points,
+            ..ItemScore::default()
+        });
+    }
+    tasks.into_values().collect()
+}
+
 /// The score of an item.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct ItemScore {
     /// The item's id, such as `sphere.from_inside`.
     pub id: String,
@@ -104,10 +124,32 @@ pub struct ItemScore {
     pub max_points: u32,
     /// The verdict, as in `score.json`.
     pub verdict: String,
+    /// The id of the item because of which this one was not graded, if its verdict says so.
+    #[serde(default, rename = "by")]
+    pub blocked_by: Option<String>,
     /// The explanation of the verdict, in a sentence.
     pub message: String,
     /// The known mistakes with the same answers, the most likely first.
     pub hints: Vec<Hint>,
+}
+
+impl TaskScore {
+    /// Returns the task for the policy, with the points that staff gave by hand.
+    pub fn for_policy(&self, manual: i32) -> TaskPoints<'_> {
+        let items = self.items.iter().map(|item| ItemPoints {
+            id: &item.id,
+            points: item.points,
+            max_points: item.max_points,
+            blocked_by: item.blocked_by.as_deref(),
+        });
+        TaskPoints {
+            id: &self.id,
+            points: self.points,
+            max_points: self.max_points,
+            manual,
+            items: items.collect(),
+        }
+    }
 }
 
 /// A known mistake.

@@ -1,8 +1,11 @@
 //! Writes the files of a graded class and prints the summary.
 
+use std::path::Path;
+
 use grader::policy::Policy;
 use grader::printing::{print, print_line};
 
+use crate::anonymous::Pseudonyms;
 use crate::attempts::count_points;
 use crate::cli::Lists;
 use crate::error::Error;
@@ -10,9 +13,9 @@ use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
-use crate::list_kind::ListKind;
+use crate::list_kind::{KeptLists, ListKind};
 use crate::lists::ListFindings;
-use crate::outcome::EntryResult;
+use crate::outcome::{EntryResult, exam_tasks};
 use crate::regrade_diff::{Changes, find_regrade_changes, find_resubmitted};
 use crate::report::{grades, page, text};
 use crate::run::Run;
@@ -56,7 +59,12 @@ impl ClassContext<'_> {
         let settings = &run.settings;
         let regrade = find_regrade_changes(store, run, &results)?;
         let resubmitted = find_resubmitted(store, &results)?;
-        let rows = count_points(results, self.policy, &self.findings.manual, &run.tasks)?;
+        let rows = count_points(
+            results,
+            self.policy,
+            &self.findings.manual,
+            &exam_tasks(&run.items),
+        )?;
         let class = &GradedClass {
             exam: settings.exam.clone(),
             exam_hash: settings.exam_hash.clone(),
@@ -74,8 +82,23 @@ impl ClassContext<'_> {
             removed,
             grades: history.changes(),
         };
-        write_results(class, store, &changes)?;
+        let summary = write_results(class, store, &changes)?;
+        print(text::render_summary(&summary));
+        print(
+            changes
+                .regrade
+                .iter()
+                .map(text::render_regrade)
+                .collect::<String>(),
+        );
+        print(text::render_resubmitted(&changes.resubmitted));
+        let grades = changes.grades.iter().map(text::render_grade_changes);
+        print(grades.collect::<String>());
+        print(text::render_removed(&changes.removed));
         write_for_platforms(class, store, lists)?;
+        if let Some(folder) = &lists.anonymous {
+            write_for_graders(class, store, run, folder)?;
+        }
         print_line("");
         for name in ["grades.csv", "class.html"] {
             print_path(store, name);
@@ -88,8 +111,12 @@ impl ClassContext<'_> {
     }
 }
 
-/// Writes the files about a class and prints the summary and the changes.
-fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Result<(), Error> {
+/// Writes the files about a class.
+fn write_results(
+    class: &GradedClass,
+    store: &Store,
+    changes: &Changes,
+) -> Result<ClassSummary, Error> {
     let summary = ClassSummary::new(class);
     for row in &class.rows {
         let id = &row.result.id;
@@ -101,15 +128,42 @@ fn write_results(class: &GradedClass, store: &Store, changes: &Changes) -> Resul
     store.write("class.json", json(&summary))?;
     store.write("class.html", page::render_page(class, &summary, changes))?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
-    print(text::render_summary(&summary));
     if let Some(regrade) = &changes.regrade {
         store.write("drift.json", json(&regrade.drifts))?;
-        print(text::render_regrade(regrade));
     }
-    print(text::render_resubmitted(&changes.resubmitted));
-    let grades = changes.grades.iter().map(text::render_grade_changes);
-    print(grades.collect::<String>());
-    print(text::render_removed(&changes.removed));
+    Ok(summary)
+}
+
+/// Writes a copy of the class with pseudonyms, which graders can use like the output folder.
+fn write_for_graders(
+    class: &GradedClass,
+    store: &Store,
+    run: &Run,
+    folder: &Path,
+) -> Result<(), Error> {
+    let copy = Store::new(folder);
+    let mut pseudonyms = Pseudonyms::read(store)?;
+    let hidden = pseudonyms.hide(class, store)?;
+    for row in &class.rows {
+        if row.result.score().is_some() {
+            let id = &row.result.id;
+            copy.copy_files(&pseudonyms.of(id), store, id)?;
+        }
+    }
+    for row in &hidden.rows {
+        copy.save_result(&row.result, "", run.round)?;
+    }
+    copy.write_run(&Run {
+        lists: KeptLists::new(),
+        entries: hidden
+            .rows
+            .iter()
+            .map(|row| row.result.id.clone())
+            .collect(),
+        ..run.clone()
+    })?;
+    write_results(&hidden, &copy, &Changes::default())?;
+    print_path(&copy, "class.html");
     Ok(())
 }
 

@@ -183,12 +183,10 @@ mod tests {
     fn score(items: &[(&str, u32, &str)]) -> ScoreSummary {
         let item = |(id, points, verdict): &(&str, u32, &str)| ItemScore {
             id: (*id).to_owned(),
-            title: String::new(),
             points: *points,
             max_points: 2,
             verdict: (*verdict).to_owned(),
-            message: String::new(),
-            hints: Vec::new(),
+            ..ItemScore::default()
         };
         let items: Vec<ItemScore> = items.iter().map(item).collect();
         let points = items.iter().map(|item| item.points).sum();

@@ -23,11 +23,11 @@ pub struct Run {
     /// The policy, the roster and the other lists. The folder contains copies of them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lists: KeptLists,
-    /// The maximum points of each task of the exam.
+    /// The maximum points of each item of the exam.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub tasks: BTreeMap<String, u32>,
-    /// The ids of the entries. The folder may also contain entries of students who are no longer in
-    /// the input.
+    pub items: BTreeMap<String, u32>,
+    /// The ids of the entries. The folder may have others, of students who are no longer in the
+    /// input.
     pub entries: Vec<String>,
     /// The hash of the ids of all entries of the class, including those in other shards. It
     /// prevents merging shards of different classes, which could leave somebody out.
@@ -82,7 +82,7 @@ impl Run {
             state: RoundState::Started,
             shard: None,
             lists: KeptLists::new(),
-            tasks: BTreeMap::new(),
+            items: BTreeMap::new(),
             entries: Vec::new(),
             class: String::new(),
             settings,

@@ -41,19 +41,20 @@ impl OwnWork<'_> {
     }
 }
 
-/// Checks that the folder is empty and doesn't overlap with the input or the output.
-pub fn check_folder(folder: &Path, others: &[&Path]) -> Result<(), Error> {
+/// Checks that the folder for files without names is empty, and apart from the input and the output.
+/// `option` is the option that names it.
+pub fn check_folder(folder: &Path, others: &[&Path], option: &str) -> Result<(), Error> {
     if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Error::user(format!(
-            "{} is not empty: name a new folder for --similarity-input",
+            "{} is not empty: name a new folder for {option}",
             folder.display()
         )));
     }
     for other in others {
         if contains(folder, other) || contains(other, folder) {
             return Err(Error::user(format!(
-                "{} and {} must not contain each other, or names and reports would get to the \
-                 checker: choose another folder for --similarity-input",
+                "{} and {} must not contain each other, or names would be passed on: choose another \
+                 folder for {option}",
                 folder.display(),
                 other.display()
             )));

@@ -31,8 +31,8 @@ pub trait SubmissionGrader: Sync {
     /// Returns everything that scores depend on, other than the submissions.
     fn settings(&self) -> Result<Settings, Error>;
 
-    /// Returns the maximum points of each task of the exam, by its id.
-    fn task_points(&self) -> BTreeMap<String, u32>;
+    /// Returns the maximum points of each item of the exam, by its id.
+    fn item_points(&self) -> BTreeMap<String, u32>;
 
     /// Grades a submission and writes its score and its page for staff. Calls `show_status` with
     /// the progress. Returns the score and the page that the student may see.
@@ -68,12 +68,9 @@ impl SubmissionGrader for Grader<'_> {
         })
     }
 
-    fn task_points(&self) -> BTreeMap<String, u32> {
-        let mut points = BTreeMap::new();
-        for item in &self.exam().items {
-            *points.entry(item.task.id().to_owned()).or_default() += item.points;
-        }
-        points
+    fn item_points(&self) -> BTreeMap<String, u32> {
+        let items = self.exam().items.iter();
+        items.map(|item| (item.id.clone(), item.points)).collect()
     }
 
     fn grade(

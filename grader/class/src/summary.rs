@@ -1,18 +1,19 @@
 //! The summary of a class in numbers, written to `class.json`.
 
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
 use crate::distribution::Distribution;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
+use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, ScoreSummary, id_and_names};
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
-/// The maximum number of failed items, and of mistakes, to list.
-const MAX_ENTRIES: usize = 10;
+/// The maximum number of root causes that are listed.
+const MAX_CAUSES: usize = 20;
 
 /// The contents of `class.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,12 +46,16 @@ pub struct ClassSummary {
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
-    /// The items that were failed most often, in descending order of the number of submissions.
-    pub failed_most: Vec<FailedItem>,
-    /// The most common known mistakes, in descending order of the number of submissions.
-    pub mistakes: Vec<MistakeCount>,
+    /// The number of graded submissions in each section of the roster, and in `all`.
+    pub sections: BTreeMap<String, usize>,
+    /// How often each task and each item was failed, in lecture order.
+    pub failed: Vec<FailureRate>,
+    /// The most common root causes of lost points, in descending order of the number of submissions.
+    pub causes: Vec<Cause>,
     /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
+    /// The points and comments by hand.
+    pub decisions: Vec<ManualPoints>,
 }
 
 /// The distribution of a task's points.
@@ -65,23 +70,23 @@ pub struct TaskDistribution {
     pub points: Distribution,
 }
 
-/// An item that some submissions failed, which means that they didn't get its full points.
+/// How often a task or an item was failed, which means that it did not get full points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FailedItem {
-    /// The item's id, such as `sphere.from_inside`.
-    pub item: String,
-    /// The item's title: a sentence that describes the correct behaviour.
-    pub title: String,
-    /// The number of submissions that didn't get full points for this item.
-    pub count: usize,
+pub struct FailureRate {
+    /// The id of the task, such as `sphere`, or of the item, such as `sphere.from_inside`.
+    pub id: String,
+    /// The number of submissions that failed it, in each section.
+    pub counts: BTreeMap<String, usize>,
 }
 
-/// A known mistake that was recognised in some submissions.
+/// A root cause of lost points. What only follows from another failure has none.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MistakeCount {
-    /// The text of the mistake's hint.
-    pub hint: String,
-    /// The number of submissions with this mistake.
+pub struct Cause {
+    /// The hint for the known mistake, or else what does not hold.
+    pub text: String,
+    /// The items that were failed because of it; none if all of the task were.
+    pub items: BTreeSet<String>,
+    /// The number of submissions.
     pub count: usize,
 }
 
@@ -117,6 +122,8 @@ impl ClassSummary {
             let rows = class.rows.iter();
             rows.filter(|row| is_one(row)).count()
         };
+        let grades = class.rows.iter().flat_map(|row| &row.grades);
+        let (sections, failed) = failure_rates(class);
         ClassSummary {
             schema: SCHEMA,
             exam: class.exam.clone(),
@@ -131,9 +138,11 @@ impl ClassSummary {
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
             undated: count(|row| row.grades.iter().any(|grade| grade.is_undated)),
             tasks: tasks(&scores),
-            failed_most: failed_most(&scores),
-            mistakes: mistakes(&scores),
+            sections,
+            failed,
+            causes: causes(&scores),
             outliers: outliers(class, points.as_ref()),
+            decisions: grades.flat_map(|grade| &grade.manual).cloned().collect(),
             points,
         }
     }
@@ -162,46 +171,71 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
         .collect()
 }
 
-fn failed_most(scores: &[&ScoreSummary]) -> Vec<FailedItem> {
-    // Collect the items in exam order. The stable sort below preserves it for equal counts.
-    let mut failed: Vec<FailedItem> = Vec::new();
-    for item in scores.iter().flat_map(|score| score.items()) {
-        let count = usize::from(item.points < item.max_points);
-        match failed.iter_mut().find(|failed| failed.item == item.id) {
-            Some(failed) => failed.count += count,
-            None => failed.push(FailedItem {
-                item: item.id.clone(),
-                title: item.title.clone(),
-                count,
-            }),
+/// Counts the submissions of each section, and those that failed each task and item.
+fn failure_rates(class: &GradedClass) -> (BTreeMap<String, usize>, Vec<FailureRate>) {
+    let mut sections = BTreeMap::new();
+    let mut rates: Vec<FailureRate> = Vec::new();
+    for (result, score) in class.scores() {
+        let own = result.info.people.iter().map(|person| &person.section);
+        let own = own.filter(|section| !section.is_empty()).cloned();
+        let own: BTreeSet<String> = own.chain(["all".to_owned()]).collect();
+        for section in &own {
+            *sections.entry(section.clone()).or_default() += 1;
+        }
+        let parts = score.tasks.iter().flat_map(|task| {
+            let items = task.items.iter();
+            let items = items.map(|item| (&item.id, item.points < item.max_points));
+            [(&task.id, task.points < task.max_points)]
+                .into_iter()
+                .chain(items)
+        });
+        for (id, is_failed) in parts {
+            let known = rates.iter().position(|rate| rate.id == *id);
+            let known = known.unwrap_or_else(|| {
+                let (id, counts) = (id.clone(), BTreeMap::new());
+                rates.push(FailureRate { id, counts });
+                rates.len() - 1
+            });
+            for section in &own {
+                let count = rates[known].counts.entry(section.clone());
+                *count.or_default() += usize::from(is_failed);
+            }
         }
     }
-    failed.retain(|failed| failed.count > 0);
-    failed.sort_by_key(|failed| Reverse(failed.count));
-    failed.truncate(MAX_ENTRIES);
-    failed
+    (sections, rates)
 }
 
-fn mistakes(scores: &[&ScoreSummary]) -> Vec<MistakeCount> {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
+    let mut causes: BTreeMap<String, Cause> = BTreeMap::new();
     for score in scores {
-        // Count only the most likely hint of each item, and each hint only once per submission.
-        let hints = score.items().filter_map(|item| item.hints.first());
-        let mut hints: Vec<&str> = hints.map(|hint| hint.hint.as_str()).collect();
-        hints.sort_unstable();
-        hints.dedup();
-        for hint in hints {
-            *counts.entry(hint).or_default() += 1;
+        let mut found = BTreeSet::new();
+        for item in score.items() {
+            let is_consequence = item.blocked_by.is_some() || item.message.starts_with("not run, ");
+            if item.points == item.max_points || is_consequence {
+                continue;
+            }
+            let task = item.id.split('.').next().unwrap_or_default();
+            // The most likely hint counts.
+            let (text, own) = match (item.hints.first(), item.verdict.as_str()) {
+                (Some(hint), _) => (hint.hint.clone(), Some(&item.id)),
+                (None, "not_compiled") => (format!("{task} does not compile"), None),
+                (None, "unimplemented") => (format!("{task} is not written yet"), None),
+                (None, _) => (item.title.clone(), Some(&item.id)),
+            };
+            let cause = causes.entry(text.clone()).or_insert_with(|| Cause {
+                text: text.clone(),
+                items: BTreeSet::new(),
+                count: 0,
+            });
+            cause.items.extend(own.cloned());
+            // Each cause counts once per submission.
+            cause.count += usize::from(found.insert(text));
         }
     }
-    let mistake = |(hint, count): (&str, usize)| MistakeCount {
-        hint: hint.to_owned(),
-        count,
-    };
-    let mut mistakes: Vec<MistakeCount> = counts.into_iter().map(mistake).collect();
-    mistakes.sort_by_key(|mistake| Reverse(mistake.count));
-    mistakes.truncate(MAX_ENTRIES);
-    mistakes
+    let mut causes: Vec<Cause> = causes.into_values().collect();
+    causes.sort_by_key(|cause| Reverse(cause.count));
+    causes.truncate(MAX_CAUSES);
+    causes
 }
 
 /// Returns the submissions without a score, without points, far below the others (Tukey's fence),
@@ -214,22 +248,30 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
     });
     let problem = |row: &ClassRow| {
         let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
-        Some(format!("{}: {}", row.status(grade), row.why(grade)))
+        let advice = match (&row.result.outcome, &grade.problem) {
+            (EntryOutcome::NothingToGrade(_), None) => {
+                "; ask for the files, or give points by hand"
+            }
+            (EntryOutcome::Fault(_), _) => "; run this again",
+            (_, _) => "",
+        };
+        Some(format!("{}: {}{advice}", row.status(grade), row.why(grade)))
     };
     let why = |row: &ClassRow| match row.result.score() {
         _ if row.is_superseded() => None,
         None => problem(row),
         Some(_) if row.problem().is_some() => problem(row),
         Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
-            Some("0 points: nothing compiles".to_owned())
+            Some("0 points: nothing compiles; the report has the errors".to_owned())
         }
         Some(score) if score.items().all(|item| item.verdict == "unimplemented") => {
-            Some("0 points: nothing is written yet".to_owned())
+            Some("0 points: nothing is written yet; ask for the right files".to_owned())
         }
-        Some(score) if score.points == 0 => Some("0 points".to_owned()),
-        Some(score) if f64::from(score.points) < fence => {
-            Some(format!("{} points, far below the others", score.points))
-        }
+        Some(score) if score.points == 0 => Some("0 points; read the report".to_owned()),
+        Some(score) if f64::from(score.points) < fence => Some(format!(
+            "{} points, far below the others; read the report",
+            score.points
+        )),
         Some(_) => None,
     };
     let outlier = |row: &ClassRow| {

@@ -33,7 +33,7 @@ pub fn read(bytes: &[u8]) {
         exam_hash: "any".to_owned(),
         isolation: "none".to_owned(),
         rows: ["alice", "bob"]
-            .map(|id| ClassRow::new(row(id), &policy, vec![Vec::new(); info.people.len()], 100))
+            .map(|id| ClassRow::new(row(id), &policy, vec![Vec::new(); info.people.len()], &[]))
             .into(),
         missing: Vec::new(),
     };

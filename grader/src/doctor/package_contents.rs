@@ -101,7 +101,7 @@ impl PackageContents {
 /// Returns why a policy doesn't fit the exam, or `None` if it fits.
 pub(super) fn policy_problem(policy: &[u8], exam: &Exam) -> Option<String> {
     let path = Path::new(POLICY);
-    let policy = Policy::from_text(path, &String::from_utf8_lossy(policy));
-    let checked = policy.and_then(|policy| policy.check(path, exam));
+    let items = exam.items.iter().map(|item| item.id.as_str());
+    let checked = Policy::for_exam(path, &String::from_utf8_lossy(policy), items);
     checked.err().map(|error| error.to_string())
 }

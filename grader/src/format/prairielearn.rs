@@ -30,7 +30,7 @@ fn render(view: &StudentView, context: &FormatContext) -> String {
 
 fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Value {
     let build_text = truncate(&build_report(view), 4 * max_chars);
-    let counted = view.counted;
+    let counted = &view.counted;
     if view.nothing_compiled() {
         return json!({ "gradable": false, "score": 0.0, "format_errors": [build_text] });
     }

@@ -3,7 +3,7 @@
 
 use crate::format::item_view::{ItemView, shows_everything};
 use crate::format::redact::{redact, visible_score};
-use crate::policy::{CountedPoints, Lateness, Policy, Visibility};
+use crate::policy::{CountedPoints, ItemPoints, Lateness, Policy, TaskPoints, Visibility};
 use crate::score::{ItemScore, Score, TaskScore, Timings, Verdict};
 
 /// A score without the parts that the policy hides, and without notes for staff.
@@ -40,7 +40,7 @@ impl StudentView {
         StudentView {
             visible: visible_score(score, &all_items),
             all_items,
-            counted: policy.counted_points(score.points, score.max_points, lateness),
+            counted: policy.count(&task_points(score), lateness),
         }
     }
 
@@ -89,9 +89,35 @@ impl StudentView {
     }
 }
 
-/// Returns whether students may see everything about all items of a task. Otherwise, they see
-/// everything about none of them: one process answers the whole task, so its answer to an open item
-/// could repeat another item's question.
+/// Returns the points that the policy is applied to.
+fn task_points(score: &Score) -> Vec<TaskPoints<'_>> {
+    let tasks = score.tasks.iter().map(|task| TaskPoints {
+        id: task.id.id(),
+        points: task.points,
+        max_points: task.max_points,
+        manual: 0,
+        items: task.items.iter().map(item_points).collect(),
+    });
+    tasks.collect()
+}
+
+fn item_points(item: &ItemScore) -> ItemPoints<'_> {
+    let blocked_by = if let Verdict::Blocked { by } = &item.verdict {
+        Some(by.as_str())
+    } else {
+        None
+    };
+    ItemPoints {
+        id: &item.id,
+        points: item.points,
+        max_points: item.max_points,
+        blocked_by,
+    }
+}
+
+/// Returns whether students may see everything about all items of a task. If not, they see
+/// everything about none: one process answers the whole task, so its answer to an open item can
+/// repeat the question of another one.
 fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
     let mut items = task.items.iter();
     items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)

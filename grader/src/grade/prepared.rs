@@ -63,9 +63,8 @@ pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Erro
     let Some(path) = &options.policy else {
         return Ok(Policy::default());
     };
-    let policy = Policy::read(path)?;
-    policy.check(path, exam)?;
-    Ok(policy)
+    let items = exam.items.iter().map(|item| item.id.as_str());
+    Policy::for_exam(path, &Policy::read_text(path)?, items)
 }
 
 /// Returns how late the submission is, if the options name the platform's metadata.

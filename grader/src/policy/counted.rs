@@ -6,7 +6,7 @@ use crate::machine::printing::counted;
 use crate::policy::PercentBase;
 
 /// The final points of a submission, and the facts that explain them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CountedPoints {
     /// The final points that the submission gets.
     pub points: u32,
@@ -18,6 +18,8 @@ pub struct CountedPoints {
     pub earned_of: u32,
     /// The points that staff added by hand, or took off.
     pub manual: i32,
+    /// Sentences without a full stop about items and tasks that count differently than in the exam.
+    pub changes: Vec<String>,
     /// Number of started days after the due time, including free days.
     pub late_days: u32,
     /// The consequence of being late.
@@ -68,10 +70,11 @@ impl CountedPoints {
             _ => format!(", {manual_points} taken off by hand"),
         };
         let lateness = self.lateness().map(|text| format!(", {text}"));
-        format!(
-            "{self} count towards the grade: {earned} of {earned_of} points earned{manual}{}.",
-            lateness.unwrap_or_default()
-        )
+        let lateness = lateness.unwrap_or_default();
+        let earned = format!("{earned} of {earned_of} points earned{manual}{lateness}");
+        let changes = self.changes.iter().map(|change| format!("; {change}"));
+        let changes: String = changes.collect();
+        format!("{self} count towards the grade: {earned}{changes}.")
     }
 
     /// Returns [`explanation`](Self::explanation), or `None` if the points count as they were
@@ -92,6 +95,7 @@ impl CountedPoints {
             } = self;
             rules.push(format!("{earned_of} points count as {max_points}"));
         }
+        rules.extend_from_slice(&self.changes);
         rules.extend(self.lateness());
         let is_changed = !rules.is_empty();
         is_changed.then(|| format!("Towards the grade: {}.", rules.join("; ")))
@@ -101,6 +105,7 @@ impl CountedPoints {
         (self.points, self.max_points) != (self.earned, self.earned_of)
             || self.late_days > 0
             || self.manual != 0
+            || !self.changes.is_empty()
     }
 
     /// Returns the number of late days and their consequence, or `None` if there are none.

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use crate::policy::counted::{CountedPoints, Deduction};
-use crate::policy::{Extension, LatePolicy, Lateness, PercentBase, Policy, Rounding};
+use crate::policy::{Extension, LatePolicy, Lateness, PercentBase, Policy, Rounding, TaskPoints};
 
 impl Policy {
     /// Returns the final points for `points` of `max_points`: scaled, reduced for lateness, capped
@@ -26,17 +26,30 @@ impl Policy {
         manual: i32,
         lateness: Lateness,
     ) -> CountedPoints {
-        let out_of = self.points.out_of.unwrap_or(max_points);
+        let whole_exam = TaskPoints {
+            id: "",
+            points: points.min(max_points),
+            max_points,
+            manual,
+            items: Vec::new(),
+        };
+        self.count(&[whole_exam], lateness)
+    }
+
+    /// Returns the final points for these tasks. Items are taken out and tasks reweighted first, with
+    /// points that staff gave by hand, then lateness is considered.
+    pub fn count(&self, tasks: &[TaskPoints], lateness: Lateness) -> CountedPoints {
+        let basis = self.points.basis(tasks);
+        let out_of = self.points.out_of.unwrap_or(basis.out_of);
         let late_days = self.late.late_days(lateness);
-        let points = points.min(max_points);
-        let sum = points.saturating_add_signed(manual).min(max_points);
-        let (fraction, deduction) = self.late.apply(sum, max_points, late_days);
+        let (fraction, deduction) = self.late.apply(basis.earned, basis.all, late_days);
         CountedPoints {
             points: fraction.of(out_of, self.points.rounding),
             max_points: out_of,
-            earned: points,
-            earned_of: max_points,
-            manual,
+            earned: tasks.iter().map(|task| task.points).sum(),
+            earned_of: tasks.iter().map(|task| task.max_points).sum(),
+            manual: tasks.iter().map(|task| task.manual).sum(),
+            changes: basis.changes,
             late_days,
             deduction,
         }
@@ -86,9 +99,9 @@ impl LatePolicy {
     }
 
     /// Returns the share of the final points, and the consequence of being late.
-    fn apply(&self, points: u32, max_points: u32, late_days: u32) -> (Fraction, Deduction) {
+    fn apply(&self, points: u128, max_points: u128, late_days: u32) -> (Fraction, Deduction) {
         // Points are in hundredths here, so that percentages of them are integers.
-        let (points, all) = (u64::from(points) * 100, u64::from(max_points) * 100);
+        let (points, all) = (points * 100, max_points * 100);
         let share = |numerator| Fraction {
             numerator,
             denominator: all,
@@ -109,8 +122,8 @@ impl LatePolicy {
             PercentBase::Earned => points,
             PercentBase::Possible => all,
         };
-        let part = points.saturating_sub(of / 100 * u64::from(percent));
-        let most = all / 100 * u64::from(self.most_percent);
+        let part = points.saturating_sub(of / 100 * u128::from(percent));
+        let most = all / 100 * u128::from(self.most_percent);
         if part > most {
             return (share(most), Deduction::Limit(self.most_percent));
         }
@@ -129,14 +142,14 @@ impl LatePolicy {
 /// An exact fraction.
 #[derive(Clone, Copy, Debug)]
 struct Fraction {
-    numerator: u64,
-    denominator: u64,
+    numerator: u128,
+    denominator: u128,
 }
 
 impl Fraction {
     /// Returns this share of the points, rounded.
     fn of(self, points: u32, rounding: Rounding) -> u32 {
-        let (exact, all) = (self.numerator * u64::from(points), self.denominator.max(1));
+        let (exact, all) = (self.numerator * u128::from(points), self.denominator.max(1));
         let rounded = match rounding {
             Rounding::Down => exact / all,
             Rounding::Nearest => (2 * exact + all) / (2 * all),

@@ -4,6 +4,8 @@
 //! its time, and the final points are computed from them.
 
 mod counted;
+mod exam_names;
+mod exam_points;
 mod extension;
 mod late;
 mod lateness;
@@ -19,6 +21,7 @@ use jiff::tz::TimeZone;
 use serde::Deserialize;
 
 pub use counted::{CountedPoints, Deduction};
+pub use exam_points::{ItemPoints, TaskPoints};
 pub use extension::Extension;
 pub use lateness::Lateness;
 pub use submission_time::SubmissionTime;
@@ -50,6 +53,25 @@ pub struct PointsPolicy {
     pub out_of: Option<u32>,
     /// Rounding of the final points.
     pub rounding: Rounding,
+    /// The ids of items that are taken out of the exam after it was graded.
+    pub void: Vec<String>,
+    /// The consequence for the points of these items.
+    pub void_points: VoidPoints,
+    /// Points of tasks that differ from the exam's, by the task's id. With 0, a task is left out.
+    pub tasks: BTreeMap<String, u32>,
+}
+
+/// The consequence of taking out items, for their points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VoidPoints {
+    /// The maximum is lower by them.
+    #[default]
+    Shrink,
+    /// The maximum stays, and the other items are scaled to it.
+    Scale,
+    /// Everybody gets them.
+    Give,
 }
 
 /// The rounding of fractions of a point.

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
-use judging::exam::Exam;
 use serde::de;
 use serde::{Deserialize, Deserializer};
 use toml::value::Datetime;
@@ -34,21 +33,6 @@ impl Policy {
     /// Parses a policy. `path` is used in error messages only.
     pub fn from_text(path: &Path, text: &str) -> Result<Policy, Error> {
         Policy::parse(text).map_err(|problem| problem.into_error(path, text))
-    }
-
-    /// Rejects exceptions for items that the exam does not contain. Otherwise a misspelt name would
-    /// go unnoticed.
-    pub fn check(&self, path: &Path, exam: &Exam) -> Result<(), Error> {
-        let items = exam.items.iter().map(|item| item.id.as_str());
-        match self.unmatched_exception(items) {
-            None => Ok(()),
-            Some(name) => Err(Error::User(format!(
-                "the policy {}: [visibility.items] names `{name}`, but the exam `{}` has no task or \
-                 item of that name: correct it or remove the line",
-                path.display(),
-                exam.id
-            ))),
-        }
     }
 
     fn parse(text: &str) -> Result<Policy, Problem> {
@@ -118,13 +102,13 @@ pub(super) fn time_zone<'de, D: Deserializer<'de>>(
 }
 
 /// A problem at a byte offset of the text.
-struct Problem {
-    offset: usize,
-    problem: String,
+pub(super) struct Problem {
+    pub(super) offset: usize,
+    pub(super) problem: String,
 }
 
 impl Problem {
-    fn into_error(self, path: &Path, text: &str) -> Error {
+    pub(super) fn into_error(self, path: &Path, text: &str) -> Error {
         let before = text.get(..self.offset).unwrap_or(text);
         let line = before.matches('\n').count();
         Error::User(format!(
@@ -158,7 +142,6 @@ mod tests {
     use std::path::Path;
 
     use crate::policy::{DEFAULT, Policy};
-    use crate::score::tests::small_exam::exam;
 
     #[test]
     fn documented_default_equals_the_built_in_default() {
@@ -179,6 +162,10 @@ mod tests {
         assert!(policy.late.due.is_some() && policy.late.closed_after_days.is_some());
         assert_eq!(policy.late.extensions.len(), 2);
         assert_eq!(policy.visibility.items.len(), 2);
+        assert_eq!(
+            (policy.points.void.len(), policy.points.tasks.len()),
+            (1, 2)
+        );
     }
 
     #[test]
@@ -231,20 +218,5 @@ mod tests {
         let policy = Policy::read(&path).unwrap();
         assert_eq!(policy.points.out_of, Some(50));
         assert!(policy.late.timezone.is_some() && policy.late.due.is_some());
-    }
-
-    #[test]
-    fn an_exception_for_an_item_that_the_exam_does_not_have_is_rejected() {
-        let path = Path::new("policy.toml");
-        let exam = exam(&["sphere.uv"]);
-        let check = |name: &str| {
-            let text = format!("[visibility.items]\n'{name}' = 'hidden'");
-            let policy = Policy::from_text(path, &text).unwrap();
-            policy.check(path, &exam).map_err(|error| error.to_string())
-        };
-        assert_eq!([check("sphere.uv"), check("sphere")], [Ok(()), Ok(())]);
-        let error = "the policy policy.toml: [visibility.items] names `sphere.vu`, but the exam \
-                     `small` has no task or item of that name: correct it or remove the line";
-        assert_eq!(check("sphere.vu"), Err(error.to_owned()));
     }
 }

@@ -46,20 +46,6 @@ impl Policy {
             _ => self.visibility.other_exams,
         })
     }
-
-    /// Returns an exception that matches neither a task nor an item, if there is one.
-    pub(super) fn unmatched_exception<'a>(
-        &self,
-        items: impl Iterator<Item = &'a str> + Clone,
-    ) -> Option<&str> {
-        let matches = |name: &str, item: &str| {
-            item == name || item.split('.').next().is_some_and(|task| task == name)
-        };
-        let mut names = self.visibility.items.keys();
-        names
-            .find(|name| !items.clone().any(|item| matches(name, item)))
-            .map(String::as_str)
-    }
 }
 
 #[cfg(test)]
@@ -87,15 +73,6 @@ mod tests {
         ] {
             assert_eq!(of(policy, exam, item), visibility, "{exam}, {item}");
         }
-    }
-
-    #[test]
-    fn reports_an_exception_that_matches_nothing() {
-        let policy = "[visibility.items]\nbbox = 'points'\n'bbox.flat' = 'hidden'";
-        let policy: Policy = toml::from_str(policy).unwrap();
-        let unmatched = |items: [&'static str; 2]| policy.unmatched_exception(items.into_iter());
-        assert_eq!(unmatched(["bbox.flat", "sphere.miss"]), None);
-        assert_eq!(unmatched(["bbox.x", "sphere.miss"]), Some("bbox.flat"));
     }
 
     #[test]

@@ -41,7 +41,7 @@ impl SubmissionGrader for FailingGrader {
         Ok(run().settings)
     }
 
-    fn task_points(&self) -> BTreeMap<String, u32> {
+    fn item_points(&self) -> BTreeMap<String, u32> {
         BTreeMap::new()
     }
 

@@ -10,8 +10,9 @@ use grader::printing::print;
 use grader::workspace::Workspace;
 use judging::content_hash::file_hash;
 
+use crate::anonymous::Pseudonyms;
 use crate::cli::{ClassArguments, Lists};
-use crate::entry::EntryInfo;
+use crate::entry::{Entry, EntryInfo};
 use crate::entry_grader::EntryGrader;
 use crate::error::Error;
 use crate::input::Input;
@@ -64,10 +65,15 @@ pub fn grade_class_with(
     options.policy.clone_from(&given.policy);
     let workspace = Workspace::find()?;
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
-    if let Some(folder) = &arguments.similarity_input {
-        let out = arguments.out.as_deref();
-        let others: Vec<&Path> = [path].into_iter().chain(out).collect();
-        similarity::check_folder(folder, &others)?;
+    let out = arguments.out.as_deref();
+    let others: Vec<&Path> = [path].into_iter().chain(out).collect();
+    for (option, folder) in [
+        ("--similarity-input", &arguments.similarity_input),
+        ("--anonymous", &given.anonymous),
+    ] {
+        if let Some(folder) = folder {
+            similarity::check_folder(folder, &others, option)?;
+        }
     }
     let input = Input::open_as(
         &arguments.choice,
@@ -77,6 +83,12 @@ pub fn grade_class_with(
         &roster::read_lists(given)?,
     )?;
     let mut recognised = input.class.clone();
+    if let Some(out) = out {
+        let pseudonyms = Pseudonyms::read(&Store::new(out))?;
+        for Entry { id, info, .. } in &mut recognised.entries {
+            info.pseudonym = pseudonyms.of(id);
+        }
+    }
     let entries = recognised.entries.iter_mut();
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
     let lists = resolve_lists(&input, given);
@@ -116,7 +128,7 @@ pub fn grade_class_with(
     let run = Run {
         shard: arguments.shard,
         lists: used.kept.clone(),
-        tasks: grader.task_points(),
+        items: grader.item_points(),
         entries: entries.iter().map(|entry| entry.id.clone()).collect(),
         class,
         ..run

@@ -197,7 +197,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
             }
         }
         let cell = &mut gradebook.table.rows[row_index][gradebook.target];
-        let why = match (grade.counted, &grade.problem) {
+        let why = match (&grade.counted, &grade.problem) {
             (None, Some(problem)) => format!(": {problem}"),
             (None, None) => format!(": {}", class_row.status(grade)),
             (Some(_), _) if is_locked => ": the platform does not allow changes".to_owned(),
@@ -312,7 +312,7 @@ fn cell_equals(cell: &str, points: u32) -> bool {
 /// Returns a warning if the maximum of the final points differs from the gradebook's maximum.
 fn maximum_warning(class: &GradedClass, listed: Option<&str>) -> Option<String> {
     let mut grades = class.rows.iter().flat_map(|class_row| &class_row.grades);
-    let counted = grades.find_map(|grade| grade.counted)?;
+    let counted = grades.find_map(|grade| grade.counted.as_ref())?;
     let listed = listed?.trim();
     (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(

@@ -16,7 +16,7 @@ fn class(people: &[(&str, Person)]) -> GradedClass {
     let class_row = |(id, person): &(&str, Person)| {
         let mut result = tests::result(id, &[], tests::graded(80));
         result.info.people.push(person.clone());
-        ClassRow::new(result, &Policy::default(), vec![Vec::new()], 100)
+        ClassRow::new(result, &Policy::default(), vec![Vec::new()], &[])
     };
     GradedClass {
         rows: people.iter().map(class_row).collect(),

@@ -1,6 +1,6 @@
 //! The data of a graded class. All files of the class are written from it.
 
-use grader::policy::{CountedPoints, Policy};
+use grader::policy::{CountedPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
 use crate::late::{UnclearTime, is_undated, lateness};
@@ -93,21 +93,24 @@ impl ClassRow {
         result: EntryResult,
         policy: &Policy,
         manual: Vec<Vec<ManualPoints>>,
-        max_points: u32,
+        exam: &[TaskScore],
     ) -> Self {
         let grade = |(person, manual): (&Person, Vec<ManualPoints>)| {
-            let sum = manual.iter().map(|points| points.delta).sum();
             let earned = match &result.outcome {
-                EntryOutcome::Graded(score) => Some((score.points, score.max_points)),
-                // Staff have looked at the submission, so their points are the only points.
+                EntryOutcome::Graded(score) => Some(score.tasks.as_slice()),
+                // Staff have looked at it, and their points count without any others.
                 EntryOutcome::NothingToGrade(_) if manual.iter().any(|own| own.delta != 0) => {
-                    Some((0, max_points))
+                    Some(exam)
                 }
                 EntryOutcome::NothingToGrade(_) | EntryOutcome::Fault(_) => None,
             };
-            let counted = earned.map(|(points, max_points)| {
+            let counted = earned.map(|tasks| {
                 let lateness = lateness(policy, &result.info, person)?;
-                Ok(policy.counted_points_with(points, max_points, sum, lateness))
+                let tasks = tasks.iter().map(|task| {
+                    let own = manual.iter().filter(|points| points.task == task.id);
+                    task.for_policy(own.map(|points| points.delta).sum())
+                });
+                Ok(policy.count(&tasks.collect::<Vec<TaskPoints>>(), lateness))
             });
             let (counted, problem) = match counted.transpose() {
                 Ok(counted) => (counted, None),
@@ -146,7 +149,10 @@ impl ClassRow {
             // Without either, the table's columns say it all.
             let needs_words =
                 |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
-            let counted = grade.counted.filter(needs_words);
+            let counted = grade
+                .counted
+                .as_ref()
+                .filter(|counted| needs_words(counted));
             let counted = counted.filter(|_| grade.problem.is_none());
             let counted = counted.map(|counted| counted.explanation());
             let manual = grade.manual.iter().map(ToString::to_string);
@@ -230,7 +236,7 @@ impl PersonGrade {
     /// Returns sentences that explain how the score contributes to the grade, and staff comments.
     /// Empty if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
-        let counts = match (&self.problem, self.counted) {
+        let counts = match (&self.problem, &self.counted) {
             (Some(problem), _) => Some(format!("No points count: {problem}.")),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,

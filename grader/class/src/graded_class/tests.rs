@@ -1,17 +1,12 @@
 //! Tests for the grade of each person and for its explanation.
 
-use std::collections::BTreeMap;
-
-use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
 use super::*;
-use crate::attempts::count_points;
 use crate::cli::Lists;
 use crate::entry::EntryInfo;
 use crate::late::ONLY_A_FLAG;
 use crate::list_kind::ListKind;
-use crate::manual_points::ManualPointsList;
 use crate::outcome::{FileNotes, TaskScore};
 
 /// Returns the result of these people's submission, with this outcome.
@@ -47,6 +42,15 @@ pub(crate) fn graded(points: u32) -> EntryOutcome {
     }))
 }
 
+/// Returns an exam with this many points, all of them for spheres.
+fn exam(max_points: u32) -> [TaskScore; 1] {
+    [TaskScore {
+        id: "sphere".to_owned(),
+        max_points,
+        ..TaskScore::default()
+    }]
+}
+
 pub(crate) fn nothing() -> EntryOutcome {
     EntryOutcome::NothingToGrade("the folder is empty".to_owned())
 }
@@ -79,6 +83,7 @@ fn points_by_hand(delta: i32) -> ManualPoints {
         delta,
         comment: "nice".to_owned(),
         author: "Lee".to_owned(),
+        date: String::new(),
     }
 }
 
@@ -91,7 +96,7 @@ fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> C
         result("a", &names, outcome),
         &policy(policy_text),
         manual,
-        100,
+        &exam(100),
     )
 }
 
@@ -160,7 +165,7 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
 
     let mut late = result("a", &["Ann"], graded(80));
     late.info.late = true;
-    let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], 100);
+    let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], &[]);
     let texts = [
         "80 of 100 points count towards the grade: 80 of 100 points earned, handed in 1 day late, \
          which costs nothing.",
@@ -269,13 +274,13 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
             people: result.info.people,
             ..info
         };
-        ClassRow::new(result, &policy(due), vec![Vec::new()], 100)
+        ClassRow::new(result, &policy(due), vec![Vec::new()], &[])
             .grades
             .remove(0)
     };
     let undated = grade(EntryInfo::default(), graded(80));
     assert_eq!(
-        (undated.counted.unwrap().points, undated.is_undated),
+        (undated.counted.as_ref().unwrap().points, undated.is_undated),
         (80, true)
     );
     assert!(!grade(EntryInfo::default(), nothing()).is_undated);
@@ -284,53 +289,12 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
         ..EntryInfo::default()
     };
     let late = grade(at("2026-11-21T10:00:00Z"), graded(80));
-    assert_eq!((late.counted.unwrap().points, late.is_undated), (72, false));
+    assert_eq!(
+        (late.counted.as_ref().unwrap().points, late.is_undated),
+        (72, false)
+    );
     let unclear = grade(at("yesterday"), graded(80));
-    assert_eq!((unclear.counted, unclear.is_undated), (None, false));
+    assert_eq!((&unclear.counted, unclear.is_undated), (&None, false));
     let is_unclear = |problem| matches!(problem, Some(GradeProblem::UnclearTime(_)));
     assert!(is_unclear(unclear.problem));
-}
-
-/// Returns the manual points in a file with this row.
-fn manual_list(row: &str) -> ManualPointsList {
-    let text = format!("student,task,delta,comment,author\n{row}\n");
-    let (_folder, lists) = lists(&[(ListKind::ManualPoints, &text)]);
-    ManualPointsList::read(&lists.manual_points.unwrap(), &RAYS).unwrap()
-}
-
-/// Returns the final points of each person.
-fn counted(rows: &[ClassRow]) -> Vec<Option<u32>> {
-    let grades = rows.iter().flat_map(|row| &row.grades);
-    grades.map(|grade| Some(grade.counted?.points)).collect()
-}
-
-#[test]
-fn points_by_hand_are_added_for_their_person_and_checked() {
-    let count = |delta: &str| {
-        let manual = manual_list(&format!("Bob,sphere,{delta},,Lee"));
-        let results = vec![
-            result("a", &["Ann", "Bob"], graded(80)),
-            result("b", &["Bob B."], nothing()),
-        ];
-        let tasks = BTreeMap::from([("sphere".to_owned(), 20)]);
-        count_points(results, &Policy::default(), &manual, &tasks)
-    };
-    assert_eq!(counted(&count("5").unwrap()), [Some(80), Some(85), None]);
-    let error = count("21").unwrap_err().to_string();
-    assert!(error.contains("+21 points are out of range"), "{error}");
-}
-
-/// Ann's first attempt got 10 points, so 20 cannot be deducted from it.
-#[test]
-fn points_by_hand_must_fit_the_attempt_that_counts() {
-    let manual = manual_list("Ann,sphere,-20,,Lee");
-    let results = [("a", 10), ("b", 80)];
-    let results = results.map(|(id, points)| result(id, &["Ann"], graded(points)));
-    let count = |results: &[EntryResult], text: &str| {
-        count_points(results.to_vec(), &policy(text), &manual, &BTreeMap::new())
-    };
-    let rows = count(&results, "[attempts]\ncounts = 'best'").unwrap();
-    assert_eq!(counted(&rows), [None, Some(60)]);
-    assert!(count(&results, "").is_ok(), "nobody has chosen yet");
-    assert!(count(&results[..1], "").is_err());
 }

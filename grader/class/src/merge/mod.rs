@@ -1,13 +1,14 @@
 //! `cargo class merge`: merges the parts of a class that several machines have graded.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
 use grader::policy::Policy;
 use grader::printing::print;
 use judging::sanitize::sanitize_line;
 
+use crate::anonymous::Pseudonyms;
 use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
 use crate::error::Error;
@@ -18,6 +19,7 @@ use crate::paths::contains;
 use crate::regrade_diff::find_removed;
 use crate::run::{RoundState, Run};
 use crate::shard::Shard;
+use crate::similarity::check_folder;
 use crate::store::Store;
 
 /// Copies the shards' results into one folder and writes the class's files.
@@ -26,6 +28,11 @@ pub fn merge_shards(
     handed_out: &HandedOut,
 ) -> Result<Completion, Error> {
     check_out(arguments)?;
+    if let Some(folder) = &arguments.lists.anonymous {
+        let others = arguments.shards.iter().chain([&arguments.out]);
+        let others: Vec<&Path> = others.map(PathBuf::as_path).collect();
+        check_folder(folder, &others, "--anonymous")?;
+    }
     let shards = arguments.shards.iter();
     let shards = shards.map(|path| read_finished_run(Store::new(path)));
     let shards: Vec<(Store, Run)> = shards.collect::<Result<_, Error>>()?;
@@ -54,7 +61,10 @@ pub fn merge_shards(
     let used = UsedLists::choose(given, Some(&arguments.out), &parts)?;
     let lists = &used.lists;
     let policy = match &lists.policy {
-        Some(path) => Policy::read(path)?,
+        Some(path) => {
+            let items = shards[0].1.items.keys().map(String::as_str);
+            Policy::for_exam(path, &Policy::read_text(path)?, items)?
+        }
         None => Policy::default(),
     };
     let mut sources: BTreeMap<String, &Store> = BTreeMap::new();
@@ -85,6 +95,10 @@ pub fn merge_shards(
 
     let mut rows = out.results()?;
     rows.retain(|row| sources.contains_key(&row.id));
+    let pseudonyms = Pseudonyms::read(&out)?;
+    for row in &mut rows {
+        row.info.pseudonym = pseudonyms.of(&row.id);
+    }
     let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
     if lists.roster.is_some() {
         for info in &mut infos {

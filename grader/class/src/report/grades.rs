@@ -52,7 +52,8 @@ pub fn grades_table(class: &GradedClass) -> Table {
 
 fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize) -> Vec<String> {
     let mut row = person_cells(&class_row.result.id, person, class_row.status(grade));
-    let counted = grade.counted.map(|counted| counted.points.to_string());
+    let counted = grade.counted.as_ref();
+    let counted = counted.map(|counted| counted.points.to_string());
     row.push(counted.unwrap_or_default());
     match class_row.result.score() {
         Some(score) => {
@@ -61,7 +62,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
         }
         None => row.extend(vec![String::new(); 2 + tasks]),
     }
-    let late = match (grade.counted, class_row.result.info.is_late()) {
+    let late = match (&grade.counted, class_row.result.info.is_late()) {
         (Some(counted), _) => counted.late_days.to_string(),
         (None, true) => "late".to_owned(),
         (None, false) => String::new(),
@@ -70,7 +71,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
     let id = &class_row.result.id;
     let report = class_row.result.score();
     let report = report.map(|_| format!("students/{id}/report.html"));
-    let manual = grade.counted.map_or(0, |counted| counted.manual);
+    let manual = grade.counted.as_ref().map_or(0, |counted| counted.manual);
     let comments: Vec<String> = grade.manual.iter().map(ToString::to_string).collect();
     row.extend([
         match manual {

@@ -9,7 +9,7 @@ use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
 use crate::regrade_diff::{Drift, ItemChange, RegradeChanges};
-use crate::summary::ClassSummary;
+use crate::summary::{Cause, ClassSummary};
 use grader::printing::counted;
 
 const STRONG: Style = Style::new().bold();
@@ -61,19 +61,18 @@ pub fn render_summary(summary: &ClassSummary) -> String {
     for task in &summary.tasks {
         text += &distribution_line(&one_line(&task.title), &task.points);
     }
-    let row = |count: usize, text: &str| format!("{count:>4}  {}", one_line(text));
-    let failed = summary.failed_most.iter();
-    let failed = failed.map(|f| row(f.count, &format!("{}  {}", f.item, f.title)));
-    let mistakes = summary.mistakes.iter();
-    let mistakes = mistakes.map(|mistake| row(mistake.count, &mistake.hint));
+    let causes = summary.causes.iter();
+    let causes = causes.map(|Cause { text, items, count }| {
+        let items: Vec<&str> = items.iter().map(String::as_str).collect();
+        one_line(&format!("{count:>4}  {text}  {}", items.join(", ")))
+    });
     let outliers = summary.outliers.iter().map(|outlier| {
         let why = sanitize_line(&outlier.why, MAX_WHY_CHARS);
         format!("{}: {why}", one_line(&outlier.title()))
     });
-    let lists: [(&str, Vec<String>); 3] = [
-        ("items failed most often", failed.collect()),
-        ("most common mistakes", mistakes.collect()),
+    let lists: [(&str, Vec<String>); 2] = [
         ("submissions that need attention", outliers.collect()),
+        ("root causes of lost points", causes.collect()),
     ];
     for (title, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
         text += &section(title, "", lines);

@@ -48,6 +48,7 @@ const SUBMISSION_TIME: [&str; 4] = [
     "last modified (submission)",
 ];
 const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
+const SECTION: [&str; 4] = ["section", "tutor", "tutorial", "lab"];
 const EXTENSION: [&str; 3] = ["extension", "extension_days", "extension days"];
 
 /// The name in the row of Canvas's gradebook with the maximum points.
@@ -114,6 +115,7 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
         &SID,
         &LOGIN,
         &GROUP,
+        &SECTION,
         &EXTENSION,
     ];
     let columns = columns.map(column);
@@ -135,7 +137,17 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
             let cell = column.and_then(|column| row.get(column));
             cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
         };
-        let [name, first, last, email, sid, login, group, extension] = columns.map(cell);
+        let [
+            name,
+            first,
+            last,
+            email,
+            sid,
+            login,
+            group,
+            section,
+            extension,
+        ] = columns.map(cell);
         let parts = format!("{first} {last}").trim().to_owned();
         // With blind marking, the list contains no names.
         let names = [name, parts, cell(identifier)];
@@ -147,6 +159,7 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
             login,
             number: number_at_end(&cell(number)).to_owned(),
             group,
+            section,
             extension,
             status: cell(status),
             is_named_by_file: false,

@@ -8,7 +8,7 @@ use std::path::{self, Path, PathBuf};
 use grader::files::{self, PathError};
 use grader::hand_in::archive_bytes;
 use grader::report::atomic_write;
-use grader::report::html::write_counted;
+use grader::report::html::{with_name, write_counted};
 use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
@@ -200,6 +200,17 @@ impl Store {
     /// first and written last, so that a killed merge never leaves a stamp next to another run's
     /// score.
     pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), Error> {
+        self.copy_files(id, from, id)?;
+        if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {
+            atomic_write::write(stamp, &self.entry_folder(id).join(STAMP))?;
+        }
+        Ok(())
+    }
+
+    /// Replaces an entry's files, apart from the stamp, by those of the entry `old_id` in another
+    /// store. If the id is another, pages and scores name the submission by it, and the scores of
+    /// earlier runs are left out.
+    pub fn copy_files(&self, id: &str, from: &Store, old_id: &str) -> Result<(), Error> {
         let folder = self.entry_folder(id);
         files::create_dir_all(&folder)?;
         self.remove_stamp(id)?;
@@ -207,19 +218,22 @@ impl Store {
         for file in files::read_dir(&folder)? {
             files::remove_if_exists(file)?;
         }
-        let [was, now] = [from.submission_path(id), self.submission_path(id)];
-        for source in files::read_dir(from.entry_folder(id))? {
+        let [was, now] = [from.submission_path(old_id), self.submission_path(id)];
+        let is_kept = |name: &OsStr| id == old_id || (name != PREVIOUS && name != REPLACED);
+        for source in files::read_dir(from.entry_folder(old_id))? {
             let name = source.file_name().unwrap_or_default();
             let target = folder.join(name);
-            if name == REPORT {
-                let page = files::read_to_string(&source)?;
-                atomic_write::write(with_moved_submission(&page, &was, &now), &target)?;
-            } else if name != STAMP && !is_temporary(name) {
+            if name == REPORT || name == FEEDBACK {
+                let page = with_moved_submission(&files::read_to_string(&source)?, &was, &now);
+                atomic_write::write(with_name(&page, old_id, id), &target)?;
+            } else if name == SCORE {
+                let field = |id: &str| format!("\"submission\": {}", json(&id).trim_end());
+                let score = files::read_to_string(&source)?;
+                let score = score.replacen(&field(old_id), &field(id), 1);
+                atomic_write::write(score, &target)?;
+            } else if name != STAMP && !is_temporary(name) && is_kept(name) {
                 atomic_write::write(files::read(&source)?, &target)?;
             }
-        }
-        if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {
-            atomic_write::write(stamp, &folder.join(STAMP))?;
         }
         Ok(())
     }

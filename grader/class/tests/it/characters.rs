@@ -34,6 +34,7 @@ fn hostile_text() -> String {
 
 fn info(text: &str) -> EntryInfo {
     EntryInfo {
+        pseudonym: text.to_owned(),
         people: vec![Person {
             name: text.to_owned(),
             email: text.to_owned(),
@@ -41,6 +42,7 @@ fn info(text: &str) -> EntryInfo {
             login: text.to_owned(),
             number: text.to_owned(),
             group: text.to_owned(),
+            section: text.to_owned(),
             extension: text.to_owned(),
             status: text.to_owned(),
             is_named_by_file: true,
@@ -62,6 +64,7 @@ fn info(text: &str) -> EntryInfo {
 
 fn score(text: &str) -> ScoreSummary {
     let item = ItemScore {
+        blocked_by: Some(text.to_owned()),
         id: text.to_owned(),
         title: text.to_owned(),
         points: 0,
@@ -102,9 +105,10 @@ fn class_with(text: &str) -> GradedClass {
             delta: 1,
             comment: text.to_owned(),
             author: text.to_owned(),
+            date: text.to_owned(),
         };
         let result = EntryResult { id, info, outcome };
-        ClassRow::new(result, &Policy::default(), vec![vec![manual]], 100)
+        ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])
     };
     GradedClass {
         exam: text.to_owned(),

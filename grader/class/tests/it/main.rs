@@ -1,5 +1,6 @@
 //! Tests of the `class` binary, with classes like those exported by platforms.
 
+mod anonymous;
 mod characters;
 mod every_oddity;
 mod faulty_submissions;
@@ -8,11 +9,13 @@ mod handing_back;
 mod harness;
 mod identity;
 mod layouts;
+mod manual_points;
 mod numbers;
 mod page;
 mod people;
 mod platforms;
 mod recipes;
+mod replay;
 mod resuming;
 #[cfg(unix)]
 mod runner_commands;
@@ -22,3 +25,4 @@ mod similarity;
 mod stored_class;
 mod times;
 mod ungraded_files;
+mod void_items;

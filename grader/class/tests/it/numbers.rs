@@ -211,7 +211,8 @@ impl Files {
         let names: Vec<String> = names.collect();
         let page = self.read("class.html");
         let table = page.split("id=\"students\"").nth(1).unwrap();
-        let row = row_of_page(table, &names.join(" + "));
+        let who = format!("{} {}", names.join(" + "), id(index));
+        let row = row_of_page(table, &who);
         let expected: Vec<String> = match (rules.numbers(entry), &entry.points) {
             (Some(numbers), Some(points)) => {
                 let first = [numbers.counts, numbers.earned];

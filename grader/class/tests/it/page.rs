@@ -1,4 +1,5 @@
-//! The class's page in a browser: hints, sorting, and a narrow window.
+//! The class's page: root causes, failure rates, what needs attention; and, in a browser, hints, sorting
+//! and a narrow window.
 
 use test_support::{Chromium, DESKTOP, Viewer};
 
@@ -50,9 +51,84 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
         }
         tab.eval(&format!("{who}.join('|')"))
     };
-    // Dora has no points, so she is last in either order.
-    assert_eq!(by(&[2]), format!("{long}|carl|Bob|dora"));
-    assert_eq!(by(&[2, 2]), format!("Bob|carl|{long}|dora"));
-    assert_eq!(by(&[0]), format!("Bob|carl|dora|{long}"));
+    // Without points, dora is last in either order.
+    assert_eq!(by(&[2]), format!("{long} ann|carl|Bob bob|dora"));
+    assert_eq!(by(&[2, 2]), format!("Bob bob|carl|{long} ann|dora"));
+    assert_eq!(by(&[0]), format!("Bob bob|carl|dora|{long} ann"));
     assert_eq!(tab.errors(), Vec::<String>::new());
+}
+
+/// Returns the text of a section of the page, with a line for each row, item and heading.
+fn section(page: &str, id: &str) -> String {
+    let start = page
+        .find(&format!("<section aria-labelledby=\"{id}\""))
+        .unwrap();
+    let (section, _) = page[start..].split_once("</section>").unwrap();
+    let ends = ["</tr>", "</li>", "</h2>", "</caption>", "</summary>"];
+    let lines = ends
+        .iter()
+        .fold(section.to_owned(), |text, end| text.replace(end, "\n"));
+    let cells = lines.replace("</th>", " | ").replace("</td>", " | ");
+    let mut parts = cells.split('<');
+    let first = parts.next().unwrap_or_default().to_owned();
+    let text = parts.fold(first, |text, part| {
+        text + part.split_once('>').map_or("", |(_, rest)| rest)
+    });
+    let lines = text.lines().map(|line| line.trim().trim_end_matches(" |"));
+    lines
+        .filter(|line| !line.is_empty())
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// Two mistakes, of which one hides the other in Finn's submission; a file that does not compile; a submission that cannot
+/// be graded; and two people whose names look alike.
+#[test]
+fn the_page_shows_what_needs_attention_root_causes_and_failure_rates_by_section() {
+    let mistake = |class: TestClass, who: &str| {
+        let class = class.with_reference(who);
+        let file = format!("{who}/camera.rs");
+        class.with_replaced(&file, "pixel.as_vec2() + offset", "pixel.as_vec2() + 0.5")
+    };
+    let class = TestClass::named("class")
+        .with_reference("ann")
+        .with_starter("eve");
+    let class = mistake(mistake(mistake(class, "bob"), "carl"), "finn")
+        .with_replaced(
+            "finn/sphere.rs",
+            "uv: Sphere::uv(normal)",
+            "uv: Sphere::uv(-normal)",
+        )
+        .with_replaced("carl/sphere.rs", "fn hit", "fn hit(")
+        .with_folder("dora");
+    let roster = "name,username,tutor\nAnn Lee,ann,Tess\nBob Kim,bob,Tess\n\
+        B\u{43e}b Kim,carl,Uwe\nDora D,dora,Uwe\nEve E,eve,\nFinn F,finn,Uwe\n";
+    let items = [
+        "camera.offset",
+        "camera.unit_length",
+        "sphere.radius",
+        "sphere.uv",
+    ];
+    let exam = class.small_exam(&items);
+    // What depends on a failed item is not counted again.
+    let text = std::fs::read_to_string(&exam).unwrap();
+    let mut parsed: serde_json::Value = serde_json::from_str(&text).unwrap();
+    parsed["items"][3]["needs"] = vec!["camera.offset"].into();
+    std::fs::write(&exam, parsed.to_string()).unwrap();
+    let text = class.graded_with(&exam, &[("roster", roster)], &[]);
+    let page = class.read("class.html");
+    let first = page.find("<section").unwrap();
+    assert!(
+        page[first..].starts_with("<section aria-labelledby=\"look\""),
+        "{page}"
+    );
+    assert_contains(
+        &page,
+        &["<a href=\"students/eve/report.html\">eve (Eve E)</a>"],
+    );
+    let sections = ["look", "spread", "causes", "rates", "students"];
+    let sections = sections.map(|id| section(&page, id)).join("\n\n");
+    let start = text.find("submissions that need attention").unwrap();
+    let (printed, _) = text[start..].split_once("\n\n  /").unwrap();
+    insta::assert_snapshot!(format!("{sections}\n\nprinted:\n{printed}"));
 }

@@ -120,13 +120,13 @@ pub fn write_shard(folder: &Path, class: &[StoredEntry], shard: Option<Shard>, s
     }
     let ids: Vec<String> = (0..class.len()).map(id).collect();
     let tasks = RAYS.assignment.tasks.iter();
-    let tasks = tasks.map(|task| (task.id.to_owned(), task.points));
+    let items = tasks.map(|task| (format!("{}.item", task.id), task.points));
     let run = Run {
         shard,
         state: RoundState::Finished,
         entries: own.iter().map(|(index, _)| id(*index)).collect(),
         class: file_hash(ids.join("\n").as_bytes()),
-        tasks: tasks.collect(),
+        items: items.collect(),
         ..Run::first_round(Settings {
             exam: "small".to_owned(),
             exam_hash: "0123456789abcdef".to_owned(),

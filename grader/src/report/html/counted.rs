@@ -35,7 +35,16 @@ pub fn with_counted(page: &str, texts: &[String]) -> String {
     format!("{before}{START}{}{END}{after}", paragraphs.into_string())
 }
 
-/// Inserts the sentences into a finished page at this path, if it exists.
+/// Returns a page that names the submission `to` instead of `from`.
+pub fn with_name(page: &str, from: &str, to: &str) -> String {
+    let [from, to] = [from, to].map(|name| html! { (plain_text(name)) }.into_string());
+    let ends = [", %</title>", ">%</span></h1>"];
+    ends.iter().fold(page.to_owned(), |page, end| {
+        page.replacen(&end.replace('%', &from), &end.replace('%', &to), 1)
+    })
+}
+
+/// Puts the sentences into a finished page at this path, if there is one.
 pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
     let Some(page) = files::read_if_exists(path)? else {
         return Ok(());

@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 use crate::distribution::Distribution;
 use crate::graded_class::GradedClass;
 use crate::regrade_diff::Changes;
-use crate::summary::{ClassSummary, Outlier};
+use crate::summary::{Cause, ClassSummary, Outlier};
 use grader::printing::counted;
 
 const STYLE: &str = include_str!("page.css");
@@ -48,8 +48,10 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Change
                     }
                 }
                 main {
+                    (attention(&summary.outliers))
                     (distribution(summary))
-                    (mistake_sections(summary))
+                    (causes(&summary.causes))
+                    (failure_rates(summary))
                     (times::section(class))
                     (changes::sections(changes))
                     (submissions::section(class))
@@ -90,7 +92,7 @@ fn distribution(summary: &ClassSummary) -> Markup {
         section aria-labelledby="spread" {
             h2 #spread { "Points" }
             div .wide tabindex="0" role="region" aria-labelledby="spread" { table {
-                caption { "Number of submissions by points: each column is a tenth of the maximum" }
+                caption { "Number of submissions (upwards) by points (to the right), in tenths of the maximum" }
                 thead {
                     tr {
                         th scope="col" { "Task" }
@@ -116,7 +118,7 @@ fn distribution(summary: &ClassSummary) -> Markup {
     }
 }
 
-/// Renders a distribution as ten columns, with the numbers as text for screen readers.
+/// Renders a distribution as ten columns with axes, and with the numbers as text for screen readers.
 fn bars(distribution: &Distribution) -> Markup {
     let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
     let counts: Vec<String> = distribution.bins.iter().map(ToString::to_string).collect();
@@ -127,43 +129,31 @@ fn bars(distribution: &Distribution) -> Markup {
     let columns = distribution.bins.iter().enumerate();
     let columns = columns.map(|(index, count)| (12 * index, 40.0 * *count as f64 / highest as f64));
     html! {
-        svg .bars viewBox="0 0 118 42" role="img" aria-label=(label) {
+        svg .bars viewBox="-16 -4 142 60" role="img" aria-label=(label) {
             @for (x, height) in columns {
                 rect x=(x) y=(number(41.0 - height)) width="10" height=(number(height)) {}
             }
-            path d="M0 41.5H118" {}
+            path d="M0 41.5H118M-1.5 41V0" {}
+            text x="-4" y="6" .end { (highest) }
+            text x="-4" y="42" .end { "0" }
+            text x="0" y="53" { "0" }
+            text x="118" y="53" .end { (distribution.of) }
         }
     }
 }
 
-fn mistake_sections(summary: &ClassSummary) -> Markup {
+fn attention(outliers: &[Outlier]) -> Markup {
     html! {
-        section aria-labelledby="mistakes" {
-            h2 #mistakes { "Most common mistakes" }
-            @if summary.mistakes.is_empty() { p { "No known mistake was recognised." } }
-            ul .counted {
-                @for mistake in &summary.mistakes {
-                    li { strong { (mistake.count) " × " } (prose(&mistake.hint)) }
-                }
-            }
-        }
-        section aria-labelledby="failed" {
-            h2 #failed { "Items failed most often" }
-            ul .counted {
-                @for failed in &summary.failed_most {
-                    li {
-                        strong { (failed.count) " × " }
-                        (prose(&failed.title)) " " code { (sanitized(&failed.item)) }
-                    }
-                }
-            }
-        }
-        @if !summary.outliers.is_empty() {
+        @if !outliers.is_empty() {
             section aria-labelledby="look" {
                 h2 #look { "Submissions that need attention" }
                 ul {
-                    @for outlier in &summary.outliers {
-                        li { strong { (outlier_title(outlier)) } ": " (sanitized(&outlier.why)) }
+                    @for outlier in outliers {
+                        @let link = outlier.has_report.then(|| submissions::report_link(&outlier.id));
+                        li {
+                            strong { a href=[link] { (sanitized(&outlier.title())) } }
+                            ": " (sanitized(&outlier.why))
+                        }
                     }
                 }
             }
@@ -171,14 +161,51 @@ fn mistake_sections(summary: &ClassSummary) -> Markup {
     }
 }
 
-/// Renders the title of a submission, with a link to its report if there is one.
-fn outlier_title(outlier: &Outlier) -> Markup {
-    let title = sanitized(&outlier.title());
+fn causes(causes: &[Cause]) -> Markup {
     html! {
-        @if outlier.has_report {
-            a href=(submissions::report_link(&outlier.id)) { (title) }
-        } @else {
-            (title)
+        section aria-labelledby="causes" {
+            h2 #causes { "Root causes of lost points" }
+            @if causes.is_empty() { p { "Nobody lost a point." } }
+            ul .counted {
+                @for cause in causes {
+                    li {
+                        strong { (cause.count) " × " } (prose(&cause.text))
+                        @for item in &cause.items { " " code { (sanitized(item)) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Renders how often each task and item was failed, in each section. Items are folded up.
+fn failure_rates(summary: &ClassSummary) -> Markup {
+    let table = |of_items: bool| {
+        let rates = summary.failed.iter();
+        let rates = rates.filter(|rate| rate.id.contains('.') == of_items);
+        html! {
+            div .wide tabindex="0" role="region" aria-labelledby="rates" { table {
+                thead { tr {
+                    th scope="col" { @if of_items { "Item" } @else { "Task" } }
+                    @for (section, graded) in &summary.sections {
+                        th scope="col" .number { (sanitized(section)) " (" (graded) ")" }
+                    }
+                } }
+                tbody { @for rate in rates { tr {
+                    th scope="row" { code { (sanitized(&rate.id)) } }
+                    @for (section, graded) in &summary.sections {
+                        @let count = rate.counts.get(section).copied().unwrap_or(0);
+                        td .number { (count) " (" (100 * count / graded) " %)" }
+                    }
+                } } }
+            } }
+        }
+    };
+    html! {
+        section aria-labelledby="rates" {
+            h2 #rates { "Submissions without full points, in each section" }
+            (table(false))
+            details { summary { "Each item" } (table(true)) }
         }
     }
 }

@@ -41,18 +41,22 @@ pub(super) fn section(class: &GradedClass) -> Markup {
 }
 
 fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
-    let who = sanitized(&row.result.info.display_names());
+    let names = row.result.info.display_names();
+    let is_other = names != row.result.id;
+    // Names may be equal, or look alike.
+    let id = html! { @if is_other { " " code { (sanitized(&row.result.id)) } } };
+    let who = sanitized(&names);
     html! {
         tr {
             @if let Some(score) = row.result.score() {
-                th scope="row" { a href=(report_link(&row.result.id)) { (who) } }
+                th scope="row" { a href=(report_link(&row.result.id)) { (who) } (id) }
                 td .number { strong { (counts(row)) } }
                 td .number { (score.points) }
                 @for task in &score.tasks {
                     td .number .less[task.points < task.max_points] { (task.points) }
                 }
             } @else {
-                th scope="row" { (who) }
+                th scope="row" { (who) (id) }
                 td .number { (counts(row)) }
                 td .number { "–" }
                 @for _ in 0..tasks { td {} }
@@ -64,7 +68,7 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
 
 /// Returns the final points of the people, once if they are equal.
 fn counts(row: &ClassRow) -> String {
-    let counts = row.grades.iter().map(|grade| match grade.counted {
+    let counts = row.grades.iter().map(|grade| match &grade.counted {
         Some(counted) => counted.points.to_string(),
         None => "–".to_owned(),
     });

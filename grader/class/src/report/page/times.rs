@@ -5,18 +5,28 @@ use std::collections::BTreeMap;
 use maud::{Markup, html};
 
 use super::sanitized;
-use crate::entry::Person;
-use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
+use crate::graded_class::{GradeProblem, GradedClass, PersonGrade};
+use crate::outcome::id_and_names;
 use grader::printing::counted;
 
 /// Renders the section, if anything is known about times.
 pub(super) fn section(class: &GradedClass) -> Markup {
-    let grades = || class.rows.iter().flat_map(ClassRow::people);
+    // With the id, since names may be equal, or look alike.
+    let grades = || {
+        let rows = class.rows.iter();
+        let people = rows.flat_map(|row| row.people().map(move |person| (row, person)));
+        people.map(|(row, (person, grade))| {
+            let who = id_and_names(&row.result.id, person.display_name());
+            (who, grade)
+        })
+    };
     let mut days: BTreeMap<u32, usize> = BTreeMap::new();
-    for counted in grades().filter_map(|(_, grade)| grade.counted) {
+    for counted in grades().filter_map(|(_, grade)| grade.counted.as_ref()) {
         *days.entry(counted.late_days).or_default() += 1;
     }
-    let undated = names(grades().filter(|(_, grade)| grade.is_undated));
+    let undated = grades().filter(|(_, grade)| grade.is_undated);
+    let undated: Vec<String> = undated.map(|(who, _)| who).collect();
+    let undated = undated.join(", ");
     let is_unclear =
         |grade: &PersonGrade| matches!(grade.problem, Some(GradeProblem::UnclearTime(_)));
     let unclear: Vec<_> = grades().filter(|(_, grade)| is_unclear(grade)).collect();
@@ -46,9 +56,9 @@ pub(super) fn section(class: &GradedClass) -> Markup {
             @if !unclear.is_empty() {
                 p { "Without final points until somebody has cleared up the following:" }
                 ul {
-                    @for (person, grade) in &unclear {
+                    @for (who, grade) in &unclear {
                         li {
-                            strong { (sanitized(person.display_name())) }
+                            strong { (sanitized(who)) }
                             @if let Some(problem) = &grade.problem {
                                 ": " (sanitized(&problem.to_string()))
                             }
@@ -58,11 +68,6 @@ pub(super) fn section(class: &GradedClass) -> Markup {
             }
         }
     }
-}
-
-fn names<'a>(people: impl Iterator<Item = (&'a Person, &'a PersonGrade)>) -> String {
-    let names: Vec<&str> = people.map(|(person, _)| person.display_name()).collect();
-    names.join(", ")
 }
 
 fn lateness(days: u32) -> String {

@@ -1,0 +1,68 @@
+//! Pseudonyms, with which graders see a class without names. They are random, so only the key in the
+//! output folder tells whose they are, and every later run has the same.
+
+use std::collections::BTreeMap;
+use std::hash::{BuildHasher, RandomState};
+
+use crate::entry::{EntryInfo, Person};
+use crate::error::Error;
+use crate::graded_class::{ClassRow, GradedClass};
+use crate::store::{Store, json};
+
+/// The name of the key in the output folder.
+const KEY: &str = "anonymous-key.json";
+
+/// The pseudonyms of a class, by the ids of its entries.
+pub struct Pseudonyms(BTreeMap<String, String>);
+
+impl Pseudonyms {
+    /// Reads the key; there are no pseudonyms without one.
+    pub fn read(store: &Store) -> Result<Self, Error> {
+        Ok(Pseudonyms(store.read(KEY)?.unwrap_or_default()))
+    }
+
+    /// Returns the pseudonym of an entry, or an empty text if it has none yet.
+    pub fn of(&self, id: &str) -> String {
+        self.0.get(id).cloned().unwrap_or_default()
+    }
+
+    /// Returns the graded submissions with pseudonyms, without names of people and files, and without
+    /// times. Adds the pseudonyms that are missing to the key.
+    pub fn hide(&mut self, class: &GradedClass, store: &Store) -> Result<GradedClass, Error> {
+        let mut hidden = class.clone();
+        hidden.missing.clear();
+        hidden.rows.retain(|row| row.result.score().is_some());
+        for row in &mut hidden.rows {
+            // Each state has random keys from the operating system.
+            let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
+            let pseudonym = self.0.entry(row.result.id.clone());
+            hide_row(row, pseudonym.or_insert_with(random));
+        }
+        // The order of the names would give them away.
+        let rows = &mut hidden.rows;
+        rows.sort_by(|one, other| one.result.id.cmp(&other.result.id));
+        store.write(KEY, json(&self.0))?;
+        Ok(hidden)
+    }
+}
+
+fn hide_row(row: &mut ClassRow, pseudonym: &str) {
+    let person = |number: usize| match row.grades.len() {
+        1 => Person::named(pseudonym),
+        _ => Person::named(format!("{pseudonym}, member {number}")),
+    };
+    row.result.info = EntryInfo {
+        people: (1..=row.grades.len()).map(person).collect(),
+        late: row.result.info.is_late(),
+        from: pseudonym.to_owned(),
+        ..EntryInfo::default()
+    };
+    pseudonym.clone_into(&mut row.result.id);
+    for grade in &mut row.grades {
+        // It may name other submissions.
+        grade.problem = None;
+        for points in &mut grade.manual {
+            pseudonym.clone_into(&mut points.student);
+        }
+    }
+}

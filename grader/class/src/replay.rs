@@ -1,0 +1,87 @@
+//! Runs a question of a graded submission again, for a student who asks about the grade.
+
+use std::path::Path;
+
+use grader::nearest_name::suggestion;
+use grader::options::GradeOptions;
+use grader::question_ref::QuestionRef;
+use grader::replay::replay;
+use judging::sanitize::sanitize;
+
+use crate::entry::Person;
+use crate::error::Error;
+use crate::names::are_equal;
+use crate::outcome::{EntryResult, id_and_names};
+use crate::store::Store;
+
+/// The maximum length of an item's message, in characters.
+const MAX_CHARS: usize = 1_000;
+
+/// Runs a question on the files that were graded, and returns the text for the terminal. `question`
+/// is the submission or person, and the item.
+pub fn replay_question(
+    out: &Path,
+    question: &[String],
+    options: &GradeOptions,
+) -> Result<String, Error> {
+    let [who, question] = question else {
+        return Err(Error::user("--replay needs a submission and an item"));
+    };
+    let question: QuestionRef = question.parse().map_err(|why: String| Error::user(why))?;
+    let store = Store::new(out);
+    let Some(run) = store.read_run()? else {
+        let out = out.display();
+        return Err(Error::user(format!("{out} holds no scores: grade first")));
+    };
+    if options.exam.hash(options.handed_out)? != run.settings.exam_hash {
+        return Err(Error::user(format!(
+            "{} was graded with another exam, {:?}: pass its file with --exam",
+            out.display(),
+            run.settings.exam
+        )));
+    }
+    let result = find_result(&store, who)?;
+    let title = id_and_names(&result.id, &result.info.display_names());
+    let Some(score) = result.score() else {
+        return Err(Error::user(format!("{title} has no score: see grades.csv")));
+    };
+    let options = GradeOptions {
+        submission: Some(store.submission_path(&result.id)),
+        ..options.clone()
+    };
+    let replayed = replay(&options, &question)?;
+    let mut text = format!("{title}\n");
+    if let Some(item) = score.items().find(|item| item.id == question.item) {
+        let (points, of) = (item.points, item.max_points);
+        let why = format!("{}: {}", item.verdict, item.message);
+        let why = why.trim_end_matches(": ");
+        text += &format!("graded   {points} of {of} points, {why}\n");
+    }
+    Ok(sanitize(&text, MAX_CHARS) + &replayed)
+}
+
+/// Returns the result of the submission with this id, or of the only person with this name or
+/// identifier.
+fn find_result(store: &Store, who: &str) -> Result<EntryResult, Error> {
+    let results = store.results()?;
+    if let Some(result) = results.iter().find(|result| result.id == who) {
+        return Ok(result.clone());
+    }
+    let is_theirs = |result: &&EntryResult| {
+        let mut names = result.info.people.iter().flat_map(Person::identifiers);
+        names.any(|name| are_equal(name, who))
+    };
+    let theirs: Vec<&EntryResult> = results.iter().filter(is_theirs).collect();
+    Err(Error::user(match theirs.as_slice() {
+        [result] => return Ok((*result).clone()),
+        [one, other, ..] => format!(
+            "{who:?} could be {} or {}: write the name of the submission's folder",
+            one.id, other.id
+        ),
+        [] => format!(
+            "nobody with the name or identifier {who:?} was graded{}; the folder students has the \
+             submissions",
+            suggestion(who, results.iter().map(|result| result.id.as_str()))
+        ),
+    }))
+}

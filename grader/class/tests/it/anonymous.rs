@@ -1,0 +1,116 @@
+//! Anonymous grading: a copy of the class without names, with pseudonyms that only the key explains.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use crate::harness::{
+    TestClass, assert_contains, cell, class_command, files_below, successful_stdout, table,
+};
+
+const ROSTER: &str = "name,username,email,group,datetime\n\
+    Annabel Leeward,leeward,leeward@x.edu,,2026-11-20T12:34:56Z\n\
+    Bobby Kimono,kimono,kimono@x.edu,Owls,2026-11-22T12:34:56Z\n\
+    Carla Owlet,owlet,owlet@x.edu,Owls,\n\
+    Zoe Absentia,absentia,,,\n";
+const POLICY: &str = "[late]\ndue = 2026-11-21T12:00:00Z\npercent_per_day = 10\n";
+/// Everything that must not be in the copy: names, accounts, addresses, groups and times.
+const SECRETS: [&str; 9] = [
+    "Leeward", "leeward", "Kimono", "kimono", "wlet", "Owls", "x.edu", "bsentia", "12:34",
+];
+
+fn graded() -> (TestClass, String) {
+    let class = TestClass::named("class")
+        .with_reference("leeward")
+        .with_reference("kimono")
+        .with_replaced(
+            "kimono/camera.rs",
+            "pixel.as_vec2() + offset",
+            "pixel.as_vec2() + 0.5",
+        )
+        .with("peeta/bvh_of_peeta.txt", "nothing to grade");
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    let blind = class.path_beside("blind").display().to_string();
+    let lists = [("roster", ROSTER), ("policy", POLICY)];
+    class.graded_with(&exam, &lists, &["--anonymous", &blind]);
+    (class, exam)
+}
+
+fn key(class: &TestClass) -> BTreeMap<String, String> {
+    serde_json::from_str(&class.read("anonymous-key.json")).unwrap()
+}
+
+#[test]
+fn nothing_in_the_copy_names_anybody_and_pseudonyms_stay() {
+    let (class, exam) = graded();
+    let blind = class.path_beside("blind");
+    for path in files_below(&blind) {
+        let relative = path.strip_prefix(&blind).unwrap().display().to_string();
+        let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
+        for secret in SECRETS.iter().chain(&["peeta"]) {
+            assert!(!relative.contains(secret), "{relative}");
+            assert!(
+                !text.contains(secret),
+                "{secret:?} is in {relative}: {text}"
+            );
+        }
+    }
+    let key = key(&class);
+    let ids: Vec<&str> = key.keys().map(String::as_str).collect();
+    assert_eq!(ids, ["kimono", "leeward"]);
+    // Graders see the pages, and can run a question again.
+    let bob = &key["kimono"];
+    let page = fs::read_to_string(blind.join(format!("students/{bob}/report.html"))).unwrap();
+    assert_contains(
+        &page,
+        &[&format!("<h1><span class=\"untrusted\">{bob}</span></h1>")],
+    );
+    let mut replay = class_command();
+    replay.args(["--isolation", "none", "--replay", bob, "camera.offset"]);
+    replay.args(["--exam", &exam, "--out"]).arg(&blind);
+    let replayed = successful_stdout(&replay.output().unwrap());
+    assert_contains(&replayed, &["verdict  wrong: direction"]);
+    let mut grades = fs::read_to_string(blind.join("grades.csv")).unwrap();
+    for (id, pseudonym) in &key {
+        grades = grades.replace(pseudonym, &format!("PSEUDONYM-OF-{id}"));
+    }
+    let mut lines: Vec<&str> = grades.lines().skip(1).collect();
+    lines.sort_unstable();
+    insta::assert_snapshot!(lines.join("\n"));
+
+    let pages = |class: &TestClass| class.read("grades.csv");
+    let before = (fs::read(blind.join("grades.csv")).unwrap(), pages(&class));
+    let again = class.path_beside("again");
+    class.graded(&exam, &["--anonymous", again.to_str().unwrap()]);
+    let after = (fs::read(again.join("grades.csv")).unwrap(), pages(&class));
+    assert_eq!(after, before);
+    // Another class has other pseudonyms, although it has the same names.
+    let (other, _) = graded();
+    assert!(self::key(&other)["kimono"] != *bob);
+}
+
+#[test]
+fn points_by_hand_can_name_a_pseudonym() {
+    let (class, exam) = graded();
+    let key = key(&class);
+    let rows = format!(
+        "student,task,delta,comment,author\n{},camera,1,nearly,Tess\n",
+        key["kimono"]
+    );
+    class.graded_with(&exam, &[("manual-points", &rows)], &[]);
+    for name in ["Bobby Kimono", "Carla Owlet"] {
+        assert_eq!(
+            cell(&class, "kimono", name, "manual"),
+            "1",
+            "the whole group"
+        );
+    }
+    assert_eq!(table(&class.read("grades.csv")).len(), 5);
+    let refused = |folder: &str| {
+        let folder = class.path_beside(folder).display().to_string();
+        let error = class.refused(&exam, &["--anonymous", &folder]);
+        let (_, error) = error.rsplit_once("error: ").unwrap();
+        let error = error.replace(&folder, "FOLDER");
+        error.replace(&class.out().display().to_string(), "OUT")
+    };
+    insta::assert_snapshot!([refused("out/blind"), refused("class"), refused("blind")].concat());
+}

@@ -1,0 +1,104 @@
+//! The table of points by hand: whom its rows belong to, what they are worth, and what is wrong with
+//! them.
+
+use crate::harness::{TestClass, cell};
+
+const HEADER: &str = "author,student,task,comment,delta";
+
+/// Two people are called Ann Lee, and the reference of one of them has 2 of 2 points for the camera.
+fn class() -> (TestClass, String) {
+    let class = TestClass::named("class")
+        .with_reference("ann")
+        .with_starter("ann2")
+        .with_folder("bob");
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    (class, exam)
+}
+
+const ROSTER: &str = "name,username,email\n\
+    Ann Lee,ann,ann@x.edu\nAnn Lee,ann2,ann2@x.edu\nBob Kim,bob,bob@x.edu\n";
+
+#[test]
+fn a_row_is_found_by_any_identifier_and_stays_in_the_range_of_its_task() {
+    let (class, exam) = class();
+    // The columns may be in any order, and cells may have spaces around them.
+    let rows = [
+        HEADER,
+        "Kim,ANN@x.edu ,camera,nice, -1",
+        "Kim,ann2,camera,,2",
+        "Kim,bob kim,camera,on paper,1",
+        "Kim,bob,sphere,,1",
+    ];
+    let manual = format!("{}\n", rows.join("\n"));
+    class.graded_with(
+        &exam,
+        &[("roster", ROSTER), ("manual-points", &manual)],
+        &[],
+    );
+    let row = |id: &str, name: &str| {
+        let cells = ["counts", "manual", "comments"].map(|column| cell(&class, id, name, column));
+        format!("{id}: {}", cells.join(" | "))
+    };
+    let rows = [
+        row("ann", "Ann Lee"),
+        row("ann2", "Ann Lee"),
+        row("bob", "Bob Kim"),
+    ];
+    insta::assert_snapshot!(rows.join("\n"));
+}
+
+#[test]
+fn a_row_that_cannot_be_used_is_an_error_with_its_number() {
+    let (class, exam) = class();
+    class.graded_with(&exam, &[("roster", ROSTER)], &[]);
+    let refused = |text: &str| {
+        let path = class.write_beside("manual.csv", &format!("{text}\n"));
+        let error = class.refused(&exam, &["--manual-points", &path]);
+        let (_, error) = error.rsplit_once("error: ").unwrap();
+        error.replace(&path, "manual.csv")
+    };
+    let rows = [
+        "Kim,ann,cameras,,1",
+        "Kim,,sphere,,1",
+        ",ann,sphere,,1",
+        "Kim,ann,sphere,,1.5",
+        "Kim,eve,sphere,,1",
+        "Kim,Ann Lee,sphere,,1",
+        "Kim,bob,camera,,1",
+        "Kim,ann,camera,,1",
+        "Kim,ann,camera,,-3",
+        "Kim,ann,build,,1",
+    ];
+    let errors = rows.map(|row| refused(&format!("{HEADER}\nKim,bob@x.edu,camera,,1\n{row}")));
+    let no_author = refused("student,task,delta,comment");
+    insta::assert_snapshot!(errors.concat() + &no_author);
+}
+
+/// Ann's first attempt has no points, so none can be taken off.
+#[test]
+fn a_row_must_fit_the_attempt_that_counts() {
+    let class = TestClass::named("class")
+        .with_starter("ann")
+        .with_reference("u1");
+    let exam = class.small_exam(&["camera.offset"]);
+    let roster = "name,username,sid\nAnn Lee,ann,u1\n";
+    let manual = "student,task,delta,comment,author\nann,camera,-1,,Kim\n";
+    let grade = |rule: &str| {
+        let policy = format!("[attempts]\ncounts = \"{rule}\"\n");
+        let lists = [
+            ("roster", roster),
+            ("manual-points", manual),
+            ("policy", &policy),
+        ];
+        class.graded_with(&exam, &lists, &[]);
+        ["ann", "u1"].map(|id| cell(&class, id, "Ann Lee", "counts"))
+    };
+    assert_eq!(grade("ask"), ["", ""], "nobody has chosen yet");
+    assert_eq!(grade("best"), ["", "1"]);
+    std::fs::remove_dir_all(class.input().join("u1")).unwrap();
+    let error = class.refused(&exam, &[]);
+    assert!(
+        error.contains("-1 points are out of range: 0 of"),
+        "{error}"
+    );
+}

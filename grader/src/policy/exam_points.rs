@@ -1,0 +1,280 @@
+//! The points that final points are computed from: those of the exam, without the items that the
+//! policy takes out, and with its points for tasks.
+
+use std::collections::BTreeSet;
+
+use crate::machine::printing::counted;
+use crate::policy::{PointsPolicy, VoidPoints};
+
+/// The points that a submission earned for a task.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TaskPoints<'a> {
+    /// The task's id.
+    pub id: &'a str,
+    /// The points earned.
+    pub points: u32,
+    /// The maximum number of points.
+    pub max_points: u32,
+    /// The points that staff added by hand, or took off.
+    pub manual: i32,
+    /// The items, each after those that it depends on.
+    pub items: Vec<ItemPoints<'a>>,
+}
+
+/// The points that a submission earned for an item.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ItemPoints<'a> {
+    /// The item's id.
+    pub id: &'a str,
+    /// The points earned.
+    pub points: u32,
+    /// The maximum number of points.
+    pub max_points: u32,
+    /// The id of the item because of which this one could not be graded.
+    pub blocked_by: Option<&'a str>,
+}
+
+/// The share that a submission earned, before lateness is considered.
+pub(super) struct Basis {
+    /// The numerator of the share.
+    pub earned: u128,
+    /// The denominator of the share, which is the same points for a perfect submission.
+    pub all: u128,
+    /// The maximum in the course, unless the policy has a maximum of its own.
+    pub out_of: u32,
+    /// Sentences without a full stop about the differences from the exam.
+    pub changes: Vec<String>,
+}
+
+/// A task's share of the exam: `points` · `weight` / `of`.
+struct Share {
+    points: i128,
+    weight: i128,
+    of: i128,
+    /// The maximum of the share.
+    max_points: u32,
+}
+
+impl PointsPolicy {
+    /// Takes out items and reweights tasks.
+    pub(super) fn basis(&self, tasks: &[TaskPoints]) -> Basis {
+        let out = self.items_out(tasks);
+        let shares = tasks.iter().filter_map(|task| self.share(task, &out));
+        let shares: Vec<Share> = shares.collect();
+        let denominator = shares.iter().map(|share| share.of).fold(1, lcm);
+        let earned = shares.iter();
+        let earned = earned.map(|share| denominator / share.of * share.weight * share.points);
+        let max_points = shares.iter().map(|share| u128::from(share.max_points));
+        let all = max_points.sum::<u128>() * denominator.unsigned_abs();
+        Basis {
+            earned: u128::try_from(earned.sum::<i128>()).unwrap_or(0).min(all),
+            all,
+            out_of: tasks.iter().map(|task| self.course_points(task)).sum(),
+            changes: self.changes(tasks, &out),
+        }
+    }
+
+    /// Returns the share of a task without the items in `out`; `None` if nothing of it is left.
+    fn share(&self, task: &TaskPoints, out: &BTreeSet<&str>) -> Option<Share> {
+        let items = task.items.iter().filter(|item| out.contains(item.id));
+        let sum = |points: fn(&ItemPoints) -> u32| items.clone().map(points).sum::<u32>();
+        let (lost, max_lost) = (sum(|item| item.points), sum(|item| item.max_points));
+        let rest = task.points.saturating_sub(lost);
+        let (points, max_points) = match self.void_points {
+            VoidPoints::Give => (rest + max_lost, task.max_points),
+            VoidPoints::Shrink | VoidPoints::Scale => {
+                (rest, task.max_points.saturating_sub(max_lost))
+            }
+        };
+        let points = i128::from(points) + i128::from(task.manual);
+        let (weight, of, max_points) = match self.tasks.get(task.id) {
+            Some(own) => (i128::from(*own), i128::from(max_points), *own),
+            None => (1, 1, max_points),
+        };
+        (of > 0 && max_points > 0).then_some(Share {
+            points,
+            weight,
+            of,
+            max_points,
+        })
+    }
+
+    /// Returns the ids of the items that do not count for this submission: those that the policy takes
+    /// out, and those that could not be graded because of one.
+    fn items_out<'a>(&self, tasks: &[TaskPoints<'a>]) -> BTreeSet<&'a str> {
+        let mut out = BTreeSet::new();
+        for item in tasks.iter().flat_map(|task| &task.items) {
+            if self.is_void(item.id) || item.blocked_by.is_some_and(|by| out.contains(by)) {
+                out.insert(item.id);
+            }
+        }
+        out
+    }
+
+    /// Returns whether the policy takes out this item.
+    pub fn is_void(&self, item: &str) -> bool {
+        self.void.iter().any(|void| void == item)
+    }
+
+    /// Returns the maximum of a task in the course, which is the same for everybody.
+    fn course_points(&self, task: &TaskPoints) -> u32 {
+        let void = task.items.iter().filter(|item| self.is_void(item.id));
+        let void: u32 = void.map(|item| item.max_points).sum();
+        let own = self.tasks.get(task.id).copied();
+        match self.void_points {
+            VoidPoints::Shrink if void > 0 && void >= task.max_points => 0,
+            VoidPoints::Shrink => own.unwrap_or(task.max_points.saturating_sub(void)),
+            VoidPoints::Scale | VoidPoints::Give => own.unwrap_or(task.max_points),
+        }
+    }
+
+    /// Returns sentences about what differs from the exam.
+    fn changes(&self, tasks: &[TaskPoints], out: &BTreeSet<&str>) -> Vec<String> {
+        let mut changes = Vec::new();
+        for task in tasks {
+            match self.tasks.get(task.id) {
+                Some(own) if *own == task.max_points => {}
+                Some(0) => changes.push(format!("{} does not count", task.id)),
+                Some(own) => changes.push(format!(
+                    "{} counts {own} instead of {}",
+                    task.id,
+                    counted(task.max_points as usize, "point")
+                )),
+                None => {}
+            }
+        }
+        let (result, blocked_result) = match self.void_points {
+            VoidPoints::Shrink => ("", "the other items count for it"),
+            VoidPoints::Scale => (
+                ", and the other items count for it",
+                "the other items count for it",
+            ),
+            VoidPoints::Give => (", and everybody gets its points", "its points are given"),
+        };
+        let items = tasks.iter().flat_map(|task| &task.items);
+        for item in items.filter(|item| out.contains(item.id)) {
+            let who = format!(
+                "{} ({})",
+                item.id,
+                counted(item.max_points as usize, "point")
+            );
+            changes.push(match item.blocked_by {
+                Some(by) if !self.is_void(item.id) => {
+                    format!("{who} could not be graded because of {by}, so {blocked_result}")
+                }
+                Some(_) | None => format!("{who} was taken out of the exam{result}"),
+            });
+        }
+        changes
+    }
+}
+
+/// Returns the least common multiple of two positive numbers.
+fn lcm(one: i128, other: i128) -> i128 {
+    let (mut a, mut b) = (one, other);
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    one / a * other
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ItemPoints, TaskPoints};
+    use crate::policy::{CountedPoints, Lateness, Policy};
+
+    fn item(id: &'static str, points: u32, max_points: u32) -> ItemPoints<'static> {
+        ItemPoints {
+            id,
+            points,
+            max_points,
+            blocked_by: None,
+        }
+    }
+
+    /// An exam of 30 points: 7 of 10 for building, and 4 of 20 for traversal, of which an item of 5
+    /// points is blocked by `build.town`, and one of 1 point by that one.
+    fn tasks() -> [TaskPoints<'static>; 2] {
+        let blocked = |id, max_points, by| ItemPoints {
+            blocked_by: Some(by),
+            ..item(id, 0, max_points)
+        };
+        let task = |id, manual, items: Vec<ItemPoints<'static>>| TaskPoints {
+            id,
+            points: items.iter().map(|item| item.points).sum(),
+            max_points: items.iter().map(|item| item.max_points).sum(),
+            manual,
+            items,
+        };
+        let build = vec![item("build.leaves", 7, 7), item("build.town", 0, 3)];
+        let traverse = vec![
+            item("traverse.flat", 4, 14),
+            blocked("traverse.town", 5, "build.town"),
+            blocked("traverse.far", 1, "traverse.town"),
+        ];
+        [task("build", 0, build), task("traverse", 0, traverse)]
+    }
+
+    fn count(policy: &str, tasks: &[TaskPoints]) -> CountedPoints {
+        let policy = format!("[points]\n{policy}");
+        let policy = Policy::from_text("policy.toml".as_ref(), &policy).unwrap();
+        policy.count(tasks, Lateness::NONE)
+    }
+
+    #[test]
+    fn each_rule_is_explained_with_its_result() {
+        let void = |rest: &str| format!("void = ['build.town']\n{rest}");
+        let lines = [
+            String::new(),
+            void(""),
+            void("void_points = 'scale'"),
+            void("void_points = 'give'"),
+            void("out_of = 100"),
+            void("tasks = { build = 30 }"),
+            void("tasks = { build = 30 }\nvoid_points = 'give'"),
+            "tasks = { build = 30, traverse = 0 }".to_owned(),
+            "tasks = { build = 1, traverse = 3 }\nout_of = 100".to_owned(),
+            "void = ['build.leaves', 'build.town']".to_owned(),
+        ];
+        let lines = lines.map(|policy| {
+            let explanation = count(&policy, &tasks()).explanation();
+            format!("{}\n    {explanation}", policy.replace('\n', "; "))
+        });
+        insta::assert_snapshot!(lines.join("\n"));
+    }
+
+    #[test]
+    fn a_perfect_submission_gets_the_maximum_and_an_empty_one_nothing() {
+        for policy in [
+            "void = ['build.town']",
+            "void = ['build.town']\nvoid_points = 'scale'",
+            "tasks = { build = 7, traverse = 11 }",
+            "void = ['traverse.flat', 'build.leaves']\ntasks = { build = 7 }",
+        ] {
+            let of_all = |share: u32| {
+                let mut tasks = tasks();
+                for task in &mut tasks {
+                    task.points = task.max_points * share;
+                    for item in &mut task.items {
+                        item.points = item.max_points * share;
+                        item.blocked_by = None;
+                    }
+                }
+                count(policy, &tasks)
+            };
+            let best = of_all(1);
+            assert_eq!(best.points, best.max_points, "{policy}");
+            assert_eq!(of_all(0).points, 0, "{policy}");
+        }
+    }
+
+    #[test]
+    fn points_by_hand_are_scaled_with_their_task_and_stay_within_the_maximum() {
+        let by_hand = |manual: i32| {
+            let mut tasks = tasks();
+            tasks[0].manual = manual;
+            count("tasks = { build = 20, traverse = 0 }", &tasks).points
+        };
+        assert_eq!([-99, -1, 0, 1, 99].map(by_hand), [0, 12, 14, 16, 20]);
+    }
+}

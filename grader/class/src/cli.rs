@@ -44,7 +44,7 @@ pub enum Command {
 }
 
 /// The arguments for grading a class.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct ClassArguments {
     /// The platform's export (a folder or archive), or a folder with a folder or archive per
     /// student

@@ -210,8 +210,7 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
     for score in scores {
         let mut found = BTreeSet::new();
         for item in score.items() {
-            let is_consequence = item.blocked_by.is_some() || item.message.starts_with("not run, ");
-            if item.points == item.max_points || is_consequence {
+            if item.points == item.max_points || item.blocked_by.is_some() {
                 continue;
             }
             let task = item.id.split('.').next().unwrap_or_default();
@@ -220,6 +219,10 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
                 (Some(hint), _) => (hint.hint.clone(), Some(&item.id)),
                 (None, "not_compiled") => (format!("{task} does not compile"), None),
                 (None, "unimplemented") => (format!("{task} is not written yet"), None),
+                // The rest of the task has the same verdict: it was not run.
+                (None, "timed_out") => (format!("{task} takes too long"), None),
+                (None, "crashed") => (format!("{task} ends the program"), None),
+                (None, "out_of_memory") => (format!("{task} needs too much memory"), None),
                 (None, _) => (item.title.clone(), Some(&item.id)),
             };
             let cause = causes.entry(text.clone()).or_insert_with(|| Cause {

@@ -14,7 +14,7 @@ use author::exams::{final_exam_text, load_practice};
 use author::items::shares_a_question;
 use author::package::{self, Course, Platform};
 use author::starter;
-use class::cli::{ClassArguments, GradingArguments, Lists};
+use class::cli::ClassArguments;
 use class::grade::{Completion, grade_class};
 use grader::doctor::package::problems;
 use grader::exam_source::ExamSource;
@@ -177,14 +177,8 @@ fn a_class_of_toys_is_graded() {
     let arguments = ClassArguments {
         input: Some(class),
         out: Some(out.clone()),
-        estimate: false,
-        similarity_input: None,
-        dry_run: false,
-        regrade: false,
-        shard: None,
         jobs: Some(1),
-        grading: GradingArguments::default(),
-        lists: Lists::default(),
+        ..ClassArguments::default()
     };
     let completion = grade_class(&arguments, &options()).unwrap();
     assert_eq!(completion, Completion::Complete);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use crate::harness::{
-    TestClass, assert_contains, cell, class_command, files_below, successful_stdout, table,
+    TestClass, assert_contains, cell, class_command, files_below, refusal, successful_stdout, table,
 };
 
 const ROSTER: &str = "name,username,email,group,datetime\n\
@@ -113,4 +113,48 @@ fn points_by_hand_can_name_a_pseudonym() {
         error.replace(&class.out().display().to_string(), "OUT")
     };
     insta::assert_snapshot!([refused("out/blind"), refused("class"), refused("blind")].concat());
+}
+
+/// The shards have no key: the merged class has one, and its policy is checked without the exam.
+#[test]
+fn a_merged_class_has_pseudonyms_and_a_policy_that_fits_the_exam() {
+    let class = TestClass::named("class")
+        .with_starter("leeward")
+        .with_starter("kimono");
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    class.graded(&exam, &["--shard", "1/1"]);
+    let merged = class.path_beside("merged");
+    let merge = |blind: &str, policy: &str| {
+        let policy = class.write_beside("policy.toml", policy);
+        let mut command = class_command();
+        command
+            .arg("merge")
+            .arg(class.out())
+            .arg("--out")
+            .arg(&merged);
+        command.arg("--anonymous").arg(class.path_beside(blind));
+        command.args(["--policy", &policy]).output().unwrap()
+    };
+    let rows = |folder: &str| {
+        let grades = class.path_beside(folder).join("grades.csv");
+        let rows = table(&fs::read_to_string(grades).unwrap()).into_iter();
+        rows.map(|row| (row["submission"].clone(), row["counts"].clone()))
+            .collect::<Vec<_>>()
+    };
+    successful_stdout(&merge("blind", ""));
+    let first = rows("blind");
+    assert!(
+        first
+            .iter()
+            .all(|(who, points)| who.starts_with("anon-") && points == "0")
+    );
+    successful_stdout(&merge(
+        "again",
+        "[points]\nvoid = ['camera.offset']\nvoid_points = 'give'",
+    ));
+    let given = first.into_iter().map(|(who, _)| (who, "2".to_owned()));
+    assert_eq!(rows("again"), given.collect::<Vec<_>>());
+    let error = refusal(&merge("third", "[points]\nvoid = ['camera.ofset']"));
+    let unknown = "line 2: the exam has no item `camera.ofset` (did you mean camera.offset?)";
+    assert_contains(&error, &[unknown]);
 }

@@ -70,12 +70,11 @@ impl Input {
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
         let (root, note) = match (choice.layout, listed.children()) {
-            (None, _) => layout::find_class_folder(&listed, archive),
             // A folder that is no submission of the chosen layout has the class.
             (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
                 (only, None)
             }
-            (Some(_), _) => (&listed, None),
+            _ => layout::find_class_folder(&listed, archive),
         };
         let root = root.clone();
         let metadata = root.find(METADATA).map(|node| files::read(&node.path));

@@ -71,9 +71,11 @@ struct Names<'a> {
     unmatched: Vec<UnmatchedPath>,
 }
 
-/// Returns whether a name follows one of the platform's templates.
+/// Returns whether a name in the class's folder follows one of the platform's templates.
 pub(super) fn is_name(platform: &Platform, name: &str) -> bool {
-    let mut templates = platform.files.iter().chain(platform.texts);
+    let outermost = platform.outer_folders.first().copied();
+    let templates = outermost.unwrap_or(platform.files).iter();
+    let mut templates = templates.chain(platform.texts);
     templates.any(|template| !readings(template, name).is_empty())
 }
 

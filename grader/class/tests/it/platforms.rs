@@ -252,7 +252,10 @@ fn one_of_several_assignments_in_teams_is_chosen_by_its_title() {
 #[test]
 fn a_teams_library_in_another_language_is_read_if_it_is_chosen() {
     let class = TestClass::named("Eingereichte Dateien")
-        .with_minimal_submission("Ann Lee/Path tracer/Version 1")
+        .with_minimal_submission("Ann Lee/Path tracer/Version 1");
+    let preview = class.preview_of(&class.input(), &["--layout", "teams"]);
+    assert_contains(&preview, &["1 submission in the submitted files"]);
+    let class = class
         .with_minimal_submission("Bob/Path tracer/Version 1")
         .with_minimal_submission("Bob/Path tracer/Version 2");
     let preview = class.preview_of(&class.input(), &["--layout", "teams"]);
@@ -304,6 +307,27 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
         &preview,
         &["2 submissions in folders and archives", "  mon: "],
     );
+}
+
+/// Without its receipts, nothing shows where the account begins in an only attempt.
+#[test]
+fn a_chosen_layout_enters_a_folder_that_is_no_submission() {
+    let class = TestClass::named("download").with(
+        "unpacked/Path_tracer_ann_attempt_2026-11-20-10-00-00_camera.rs",
+        "text",
+    );
+    assert_contains(&class.preview(), &["1 submission in folders and archives"]);
+    let preview = class.preview_of(&class.input(), &["--layout", "blackboard"]);
+    let expected = [
+        "1 submission in a Blackboard download",
+        "  Path_tracer_ann: 1 of 5 files",
+    ];
+    assert_contains(&preview, &expected);
+    let file = class.path_beside("cg26.zip");
+    let files = ["ann", "bob"].map(|name| (format!("cg26/{name}/camera.rs"), "text"));
+    fs::write(&file, zip(files)).unwrap();
+    let preview = class.preview_of(&file, &["--layout", "folders"]);
+    assert_contains(&preview, &["2 submissions in folders and archives"]);
 }
 
 #[test]

@@ -128,16 +128,18 @@ fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQu
 /// of a builder narrowly miss the best split, so that its tree is expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     let sides = SideRule::AllBuckets;
-    let costs = [8, 12, 16, 17, 24, 32].into_iter().flat_map(|count| {
-        [BucketExtent::Centers, BucketExtent::Bounds].map(|extent| {
-            let builder = BucketedBuilder {
-                count,
-                extent,
-                sides,
-            };
-            relative_cost(question, builder)
-        })
-    });
+    let costs = [8, 10, 12, 16, 17, 24, 25, 32]
+        .into_iter()
+        .flat_map(|count| {
+            [BucketExtent::Centers, BucketExtent::Bounds].map(|extent| {
+                let builder = BucketedBuilder {
+                    count,
+                    extent,
+                    sides,
+                };
+                relative_cost(question, builder)
+            })
+        });
     costs.fold(0.0, f64::max)
 }
 

@@ -43,9 +43,9 @@ pub struct EntryInfo {
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
-    /// The file name under which the platform accepts a page for the people, where `{who}` is
-    /// replaced by their names and `{number}` by each person's number. `None` if the platform
-    /// doesn't require a name.
+    /// The file name that the platform requires for the people's page, where `{who}` is replaced by
+    /// their names and `{number}` by each person's number. `None` if the platform doesn't require a
+    /// name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
     /// The pseudonym for graders, or empty.

@@ -1,4 +1,4 @@
-//! Checks that an exam has the items and tasks that a policy names.
+//! Checks that the items and tasks named in a policy exist in the exam.
 
 use std::path::Path;
 

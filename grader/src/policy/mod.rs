@@ -135,7 +135,7 @@ pub enum AttemptRule {
     Best,
 }
 
-/// The points to which a percentage refers.
+/// The points that a percentage refers to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PercentBase {

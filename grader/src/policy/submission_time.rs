@@ -18,7 +18,7 @@ pub struct SubmissionTime {
     submitted: Timestamp,
     /// The names and email addresses of the people who submitted.
     people: Vec<String>,
-    /// The due time, or `None` if the assignment has no due date.
+    /// The due time, or `None` if the assignment doesn't have one.
     due: Option<Timestamp>,
 }
 

@@ -38,7 +38,7 @@ pub struct EntryGrader<'a> {
 }
 
 impl EntryGrader<'_> {
-    /// Grades entries, this many at a time, and shows the progress. Returns each entry's result and
+    /// Grades entries, `slots` at a time, and shows the progress. Returns each entry's result and
     /// the time it took.
     pub fn grade_all(
         &self,

@@ -12,7 +12,7 @@ use crate::roster::Member;
 /// The maximum number of names in a message.
 const MAX_NAMES: usize = 3;
 
-/// Marks each entry that seems to belong to several people as one without files, and returns the
+/// Marks each entry that seems to belong to several people as one without files. Returns the
 /// reasons. An entry of somebody on a list is always one submission, regardless of its folders.
 pub(super) fn reject_mixtures(
     root: &Node,

@@ -59,7 +59,7 @@ pub struct Platform {
     /// The field that begins with the same text in all names, such as the assignment's title, and the
     /// separator that ends this text.
     pub prefixed: Option<(&'static str, char)>,
-    /// The name under which the platform accepts a page.
+    /// The file name that the platform requires for a page.
     pub hand_back: HandBackName,
 }
 
@@ -76,7 +76,7 @@ pub enum Record {
     FilesInFolder,
 }
 
-/// The file name under which a platform accepts a page for the people of a submission.
+/// The file name that a platform requires for the page of a submission's people.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HandBackName {
     /// Any name is accepted.

@@ -444,8 +444,8 @@ fn read_text(node: Option<&Node>) -> Result<Option<String>, Error> {
     Ok(Some(text.trim_start_matches('\u{feff}').to_owned()))
 }
 
-/// Returns the name under which Canvas shows a page: that of the last attachment, if its first two numbers
-/// are those that Canvas uses for the user and the attachment.
+/// Returns the name that Canvas shows a page under: the last attachment's, if its first two numbers are
+/// those that Canvas uses for the user and the attachment.
 fn attachment_name(canvas: &Platform, files: &[Found]) -> Option<String> {
     let archive = files.iter().rfind(|found| found.node.is_archive());
     let Found { parts, node, .. } = archive.or(files.last())?;

@@ -367,7 +367,7 @@ fn links_between_the_folders_of_a_platform_are_not_followed() {
     assert_eq!(preview.matches("all 5 files").count(), 2);
 }
 
-/// Previews a class that is refused, and returns the error.
+/// Previews a class that is refused. Returns the error.
 fn refused(input: &Path, more: &[&str]) -> String {
     let mut command = class_command();
     command.arg(input).arg("--dry-run").args(more);

@@ -517,7 +517,7 @@ const SMALLER_SIDE: Aspect<BuildCall> = Aspect {
     name: "smaller side of the best split",
     classes: &["less than a sixteenth", "more"],
     class: |call| {
-        /// The minimum number of primitives for which the sides are distinguished.
+        /// With fewer primitives than this, the sides aren't distinguished.
         const LEAST: usize = 17;
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
         if boxes.len() < LEAST || boxes.len() <= call.max_leaf_size as usize {
@@ -558,8 +558,7 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
     /// The factor by which the box must shrink without the farthest primitive for that to be an
     /// outlier.
     const OUTLIER: f64 = 5.0;
-    /// The ratio between the largest and the smallest primitive from which sizes are very
-    /// different.
+    /// The minimum ratio between the largest and the smallest of very different sizes.
     const SIZE_RATIO: f64 = 50.0;
     /// Arrangements with more coinciding centres than this are a separate class.
     const MANY: usize = 128;

@@ -10,7 +10,8 @@ use crate::seed::Rng;
 /// The largest coordinate of a scene.
 pub const FURTHEST: f64 = 1000.0;
 
-/// The largest distance at which a shape is seen, in its sizes: half of its longest side, or its radius.
+/// The largest distance between a shape and its viewer, in sizes of the shape: half of its longest side,
+/// or its radius.
 pub const FURTHEST_SIZES: f64 = 30.0;
 
 /// The relative error of one operation in single precision.

@@ -28,7 +28,7 @@ pub use balance::Balance;
 pub use placed::Placed;
 pub use tables::{Change, Drawn, Generator};
 
-/// A property in which calls differ, divided into classes.
+/// A property that differs between calls, divided into classes.
 #[derive(Debug)]
 pub struct Aspect<C: 'static> {
     /// The name of the property, such as `size`.
@@ -71,7 +71,7 @@ pub struct FunctionDomain<C: 'static> {
     pub subject_aspects: &'static [Aspect<C>],
     /// All other aspects of its calls.
     pub aspects: &'static [Aspect<C>],
-    /// The pairs of aspects for which all combinations of classes are tested.
+    /// The pairs of aspects whose classes are tested in all combinations.
     pub pairs: &'static [[&'static str; 2]],
     /// Returns the calls of a question about the function.
     pub calls: fn(&Question) -> Vec<C>,
@@ -122,13 +122,13 @@ pub trait Domain: Debug + Sync {
     /// Returns the name and the classes of each aspect.
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])>;
 
-    /// Returns the pairs of aspects for which all combinations of classes are tested.
+    /// Returns the pairs of aspects whose classes are tested in all combinations.
     fn pairs(&self) -> &'static [[&'static str; 2]];
 
     /// Returns the classes that the exam need not test.
     fn not_asked(&self) -> &'static [NotAsked];
 
-    /// Returns the class of each call of a question about the function for each aspect, if it
+    /// For each call of a question about the function, returns its class in each aspect that
     /// applies.
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
 }

@@ -90,7 +90,7 @@ impl DeclaredItem {
         &self.item
     }
 
-    /// Returns the item's questions, to which more can be added.
+    /// Returns the item's questions, so that more can be added.
     pub(super) fn questions(&mut self) -> &mut Vec<ExamQuestion> {
         &mut self.item.questions
     }

@@ -8,7 +8,7 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// Draws an item of which every question differs from this item of the practice exam.
+/// Draws an item whose questions all differ from those of this practice exam's item.
 pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
     let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), practice);

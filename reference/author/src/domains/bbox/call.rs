@@ -58,7 +58,7 @@ impl BoxCall {
         self.times == Interval::AHEAD
     }
 
-    /// Returns whether the box has no thickness along an axis.
+    /// Returns whether the thickness of the box is 0 along an axis.
     pub fn is_flat(&self) -> bool {
         self.bounds.min.cmpeq(self.bounds.max).any()
     }
@@ -111,8 +111,8 @@ impl BoxCall {
         (dir != self.ray.dir).then_some(BoxCall { ray, ..*self })
     }
 
-    /// Returns the times at which the ray's line enters and leaves the box, ignoring the times of
-    /// the call.
+    /// Returns the times when the ray's line enters and leaves the box, ignoring the times of the
+    /// call.
     pub fn crossing(&self) -> Option<(f64, f64)> {
         let whole = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
         self.bounds.span(&Ray64::from(&self.ray).within(whole))

@@ -257,7 +257,7 @@ const ZEROS_OF_START: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The distance at which the ray enters the box.
+/// The distance where the ray enters the box.
 const DISTANCE: Aspect<BoxCall> = Aspect {
     name: "distance",
     classes: DISTANCES,

@@ -11,7 +11,7 @@ use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder, SideRule};
 use crate::oracle::{scan, sweep};
 use crate::seed::Rng;
 
-/// Creates a question about a tree of which only the cost is judged.
+/// Creates a question about a tree that is only judged by its cost.
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));

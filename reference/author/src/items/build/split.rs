@@ -59,7 +59,7 @@ const CLUMPS: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 /// Clumps with a gap from just above one quarter to just below one half. A builder with four
-/// buckets has no plane in this gap.
+/// buckets doesn't have a plane in this gap.
 const GAP: Layout<'static> = Layout {
     clumps: &[
         (0.0, 0.2, 4),
@@ -72,8 +72,8 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps, the largest one first. A builder that counts the primitives of different buckets than it
-/// encloses doesn't count this clump and splits at the other gap.
+/// Clumps, the largest one first. A builder whose counts are from different buckets than its boxes
+/// misses this clump and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -308,7 +308,7 @@ fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shap
 /// The size of a primitive that is far larger than the spaces between some others.
 const LARGE: f64 = 0.4;
 
-/// Returns triangles in a row along an axis, evenly spaced in each clump, for which one partition is the
+/// Returns triangles in a row along an axis, evenly spaced in each clump, so that one partition is the
 /// best.
 fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     rng.retry(|rng| {
@@ -318,8 +318,7 @@ fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Sh
 }
 
 fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
-    /// The minimum number of primitives for which all are spheres, since these take less space in
-    /// an exam.
+    /// From this number of primitives on, all are spheres, since these take less space in an exam.
     const MANY: usize = 33;
     let start = rng.point(3.0);
     let length = rng.uniform(8.0, 12.0);

@@ -59,7 +59,7 @@ pub(super) struct Decoys<'a> {
 const DECOYS: usize = 12;
 /// The number of trees in the chain. The deepest leaf is two levels below the last of them.
 const CHAIN: usize = 58;
-/// For each class of the level of a decoy, the links of the chain that have it.
+/// The links of the chain where the decoy's level is in each class of its domain, in order.
 const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
 
 /// Creates a question about a chain of cells.
@@ -172,7 +172,7 @@ struct Plan {
     is_line: bool,
     range: usize,
     hits_nothing: bool,
-    /// Whether the ray starts in the box of the sibling of the decoy's leaf.
+    /// Whether the ray starts in the box of the leaf's sibling.
     starts_in_sibling: bool,
     /// Whether the previous ray hits something in the decoy's leaf.
     is_after_a_hit_in_its_leaf: bool,

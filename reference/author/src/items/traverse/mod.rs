@@ -2,7 +2,7 @@
 //! on a submission's `build`.
 //!
 //! Some rays have an unreferenced primitive (one that isn't in any leaf) in front of the correct hit.
-//! A linear scan over all primitives that ignores the tree wrongly returns this primitive.
+//! A linear scan over all primitives, which ignores the tree, returns this wrong primitive.
 //! [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that should have
 //! been skipped. [`cells`] distributes their kinds, leaves, levels and ranges. One item tests the
 //! position of the root. In all others, starting at the first or the last node also gives correct
@@ -180,7 +180,7 @@ fn question_without_decoys(
     with_unreferenced(rng, &mut tree, rays)
 }
 
-/// Creates a question about a tree to which unreferenced primitives are added.
+/// Adds unreferenced primitives to a tree and creates a question about it.
 fn with_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: Vec<Ray>) -> ExamQuestion {
     add_unreferenced(rng, tree, &rays);
     // A tree of a single node stays a single node.

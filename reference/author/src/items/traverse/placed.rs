@@ -97,7 +97,7 @@ fn is_far_away(ray: &Ray) -> bool {
     f64::from(ray.origin.abs().max_element()) > 0.5 * FURTHEST
 }
 
-/// Returns a question at the largest size at which all rays and shapes are in the scene, or `None` if it
+/// Returns a question at the largest size that keeps all rays and shapes in the scene, or `None` if it
 /// isn't fair there.
 pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     let starts = rays(asked)?;

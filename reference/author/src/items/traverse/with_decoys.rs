@@ -33,7 +33,7 @@ const OTHER_RAYS: [usize; 2] = [4, 4];
 /// The minimum number of decoys in a question. A question with fewer decoys is drawn again.
 const MIN_DECOYS: usize = 4;
 
-/// Creates a question in which at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
+/// Creates a question where at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
 /// accepts. Taken literally, the slides' pseudo-code gives the answer `slides` for rays with a
 /// decoy and the correct answer for all others.
 fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
@@ -49,7 +49,7 @@ fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -
     })
 }
 
-/// Returns rays for which `fits` accepts some leaf, followed by some other rays.
+/// Returns rays with a leaf that `fits` accepts, followed by some other rays.
 fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> Vec<Ray> {
     let mut chosen = unambiguous_rays(rng, tree, [RAYS_WITH_DECOYS, 0], |rng, tree| {
         rng.retry(|rng| {

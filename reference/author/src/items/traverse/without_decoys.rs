@@ -198,8 +198,8 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Returns a function that draws rays, every third of which hits something in a corner of the boxes
-/// around it.
+/// Returns a function that draws rays. If possible, every third one hits something in a corner of
+/// the boxes around it.
 fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -292,7 +292,7 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
     trees.map(question).to_vec()
 }
 
-/// Returns a tree of two leaves, one of which has more than half of the primitives that a leaf may have.
+/// Returns a tree of two leaves, one with more than half of the primitives that a leaf may contain.
 fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     let count = rng.integer(560, 640) as usize;
     let mut shapes = meshes::soup(rng, count + 20, 2.0, 0.3);
@@ -304,8 +304,8 @@ fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     tree
 }
 
-/// Returns a function that draws rays with several hits in a leaf, the closest of which belongs in
-/// turn to the first primitive, the last one, one in between, or any.
+/// Returns a function that draws rays. In turn, the closest of several hits in a leaf belongs to
+/// the first primitive, to the last one, or to any, and some rays hit nothing.
 fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {

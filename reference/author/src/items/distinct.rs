@@ -1,5 +1,5 @@
-//! Final exams share no question with the practice exam, whose answers are public. An item is drawn
-//! again as long as the practice exam's answers would earn points in it.
+//! Final exams don't share any questions with the practice exam, whose answers are public. An item
+//! is drawn again as long as the practice exam's answers would earn points in it.
 
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge, one_row_answers_all};

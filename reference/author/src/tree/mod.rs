@@ -197,7 +197,7 @@ impl Tree {
         }
     }
 
-    /// Returns the same tree with its root first, followed by a copy of the whole tree with its
+    /// Returns the same tree with its root first, followed by a copy of the entire tree with its
     /// root last. A traversal that starts at the first or the last node instead of `root` is still
     /// correct there.
     ///

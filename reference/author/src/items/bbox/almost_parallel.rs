@@ -9,7 +9,7 @@ use super::bbox_question;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// The number of rays that hit, and of those that miss.
+/// The number of rays that hit, and the number of rays that miss.
 const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// Returns rays that hit a box, followed by as many that miss it.

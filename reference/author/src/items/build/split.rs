@@ -436,7 +436,7 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
         };
         let center = start + at * along + *height * DVec3::AXES[axis];
         let (half, width) = (rng.uniform(4.5, 5.5) * along, width * across);
-        // Some have no area.
+        // Some strips have no area.
         let width = if heights.len() == 12 && index % 4 == 2 {
             DVec3::ZERO
         } else {

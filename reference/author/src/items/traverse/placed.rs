@@ -30,8 +30,8 @@ impl Mover {
         Mover { rng, count }
     }
 
-    /// Moves all questions of an item that are about lists of rays. A question that begins with the last
-    /// ray of the one before stays together with it.
+    /// Moves all questions of an item that are about lists of rays. A question that begins with the
+    /// previous question's last ray stays together with it.
     pub(super) fn move_all(&mut self, questions: &mut [ExamQuestion]) {
         let together = |a: &ExamQuestion, b: &ExamQuestion| {
             let (a, b) = (rays(a), rays(b));

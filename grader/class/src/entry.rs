@@ -231,7 +231,8 @@ impl Person {
             || self.has_number(&other.number, &other.name)
     }
 
-    /// Returns whether both records describe the same person, or have nothing but an equal name.
+    /// Returns whether both records describe the same person, or can only be compared by name and
+    /// have the same one.
     pub fn is_same(&self, other: &Person) -> bool {
         let is_bare =
             |person: &Person| person.own_identifiers() == [""; 3] && person.number.is_empty();

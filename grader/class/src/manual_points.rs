@@ -29,7 +29,7 @@ pub struct ManualPoints {
     pub student: String,
     /// The task's id.
     pub task: String,
-    /// The points to add, or negative points to deduct.
+    /// The points to add, or to deduct if negative.
     pub delta: i32,
     /// The reason, for the student.
     pub comment: String,

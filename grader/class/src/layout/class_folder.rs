@@ -36,7 +36,7 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
 }
 
 /// Returns the folder with the submissions in a Microsoft Teams library, and a note. The rest of the
-/// library is only drafts.
+/// library only contains drafts.
 fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
     let names = root.children().iter().map(|node| node.name.as_str());
     let mut others = names.filter(|name| *name != TEAMS_SUBMITTED);

@@ -36,8 +36,7 @@ pub struct Platform {
     pub files: &'static [&'static str],
     /// Whether a file or folder can be a submission or one of its files.
     pub is_submission: fn(&Node) -> bool,
-    /// Templates of the names of texts, which are submitted or are receipts that the platform
-    /// writes.
+    /// Templates of the names of texts: either submitted ones or receipts that the platform writes.
     pub texts: &'static [&'static str],
     /// The reason for not grading a submission with texts but without files.
     pub text_only: &'static str,

@@ -1,5 +1,5 @@
 //! Writes the given code of each variant, and `STEM/NAME.rs` in the output folder, which includes it
-//! and the variant's own files, and a module for each variant to `all.rs`.
+//! and the variant's own files. Also writes a module for each variant to `all.rs`.
 
 use std::collections::BTreeMap;
 use std::env;

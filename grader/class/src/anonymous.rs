@@ -1,5 +1,5 @@
-//! Pseudonyms, with which graders see a class without names. They are random, so only the key in the
-//! output folder tells whose they are, and every later run has the same.
+//! Pseudonyms, which let graders see a class without names. They are random, so only the key in the
+//! output folder reveals whose they are. Later runs reuse them.
 
 use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
@@ -16,29 +16,29 @@ const KEY: &str = "anonymous-key.json";
 pub struct Pseudonyms(BTreeMap<String, String>);
 
 impl Pseudonyms {
-    /// Reads the key; there are no pseudonyms without one.
+    /// Reads the key. Without one, no pseudonyms exist yet.
     pub fn read(store: &Store) -> Result<Self, Error> {
         Ok(Pseudonyms(store.read(KEY)?.unwrap_or_default()))
     }
 
-    /// Returns the pseudonym of an entry, or an empty text if it has none yet.
+    /// Returns the pseudonym of an entry, or an empty string if it doesn't have one yet.
     pub fn of(&self, id: &str) -> String {
         self.0.get(id).cloned().unwrap_or_default()
     }
 
-    /// Returns the graded submissions with pseudonyms, without names of people and files, and without
-    /// times. Adds the pseudonyms that are missing to the key.
+    /// Returns the graded submissions with pseudonyms, without names of people and files and without
+    /// times. Adds missing pseudonyms to the key.
     pub fn hide(&mut self, class: &GradedClass, store: &Store) -> Result<GradedClass, Error> {
         let mut hidden = class.clone();
         hidden.missing.clear();
         hidden.rows.retain(|row| row.result.score().is_some());
         for row in &mut hidden.rows {
-            // Each state has random keys from the operating system.
+            // Each `RandomState` has random keys from the operating system.
             let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
             let pseudonym = self.0.entry(row.result.id.clone());
             hide_row(row, pseudonym.or_insert_with(random));
         }
-        // The order of the names would give them away.
+        // Sorting by name would give the names away.
         let rows = &mut hidden.rows;
         rows.sort_by(|one, other| one.result.id.cmp(&other.result.id));
         store.write(KEY, json(&self.0))?;

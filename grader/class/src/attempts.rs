@@ -1,5 +1,5 @@
-//! Counts the points of all submissions, by the policy, with the points by hand. Of several submissions
-//! of one person, the policy's rule says which one counts.
+//! Computes the final points of all submissions according to the policy, including manual points. If a
+//! person has several submissions, the policy's rule decides which one is used.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,8 @@ use crate::late::submission_time;
 use crate::manual_points::{ManualPoints, ManualPointsList};
 use crate::outcome::{EntryOutcome, EntryResult, TaskScore};
 
-/// Applies the policy and the manual points to all results. `exam` is the tasks without any points.
+/// Applies the policy and the manual points to all results. `exam` contains the tasks without any
+/// points.
 pub fn count_points(
     results: Vec<EntryResult>,
     policy: &Policy,
@@ -34,7 +35,7 @@ pub fn count_points(
     Ok(rows)
 }
 
-/// Applies the policy's rule: of several attempts, only one keeps its points.
+/// Applies the policy's rule: only one of several attempts keeps its points.
 fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
     let people = rows.iter().map(|row| row.result.info.people.as_slice());
     for attempts in attempts_by_person(people) {
@@ -64,7 +65,7 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
     }
 }
 
-/// Returns the submission that counts, or `None` if a person has to choose.
+/// Returns the submission to use, or `None` if a person has to choose.
 fn choose(
     policy: &Policy,
     rows: &[ClassRow],
@@ -76,7 +77,7 @@ fn choose(
         match &rows[*row].result.outcome {
             EntryOutcome::Graded(_) => candidates.push(*row),
             EntryOutcome::NothingToGrade(_) => {}
-            // It is graded in the next run, and may then be the one that counts.
+            // It is graded in the next run and may then be the one to use.
             EntryOutcome::Fault(_) => return None,
         }
     }
@@ -96,7 +97,7 @@ fn choose(
             let dated = candidates.iter().zip(&times);
             let mut last = dated.filter(|(_, time)| *time == latest);
             let (chosen, _) = last.next()?;
-            // Of two at the same time, neither is the latest.
+            // If two were submitted at the same time, neither is the latest.
             last.next().is_none().then_some(*chosen)
         }
         AttemptRule::Best => {
@@ -125,7 +126,7 @@ mod tests {
     use crate::entry::Person;
     use crate::graded_class::tests::{fault, graded, nothing, person, policy, result};
 
-    /// Returns a row for each submission: its id, its outcome and its time.
+    /// Returns a row for each submission, given its id, its outcome and its time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
             let mut result = result(id, &["Ann"], outcome.clone());
@@ -135,7 +136,7 @@ mod tests {
         submissions.iter().map(row).collect()
     }
 
-    /// Returns the points that count for each submission of one person, or why none count.
+    /// Returns the final points of each submission of one person, or why it doesn't have any.
     fn counted(rule: &str, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<String> {
         let policy = policy(&format!("[attempts]\ncounts = {rule:?}"));
         let mut rows = rows(&policy, submissions);
@@ -173,10 +174,10 @@ mod tests {
             ("ask", &c, is_open),
             ("latest", &c, ["see b", "60", "see b"]),
             ("latest", &undated, is_open),
-            // Of two attempts at the latest time, a person chooses.
+            // If two attempts have the latest time, a person chooses.
             ("latest", &last_at_once, is_open),
             ("latest", &first_at_once, ["see b", "60", "see b"]),
-            // The first of the best counts.
+            // The first of the best is used.
             ("best", &c, ["80", "see a", "see a"]),
             // It is graded in the next run.
             ("best", &failed, is_open),
@@ -199,7 +200,7 @@ mod tests {
         let future = ("b", graded(60), Some("2062-11-20T10:00:00Z"));
         for (rule, attempts, expected) in [
             ("ask", [graded_at(None), empty.clone()], is_open),
-            // With a rule, an attempt without files does not count.
+            // With a rule, attempts without files are ignored.
             (
                 "best",
                 [empty_at(Some("2026-11-23T10:00:00Z")), undated.clone()],
@@ -211,7 +212,7 @@ mod tests {
                 ["see b", "60"],
             ),
             ("best", [empty_at(None), empty], is_open),
-            // Points whose time is unclear are not compared.
+            // Points with an unclear time aren't compared.
             ("best", [graded_at(Some("yesterday")), undated], is_open),
             // One of the years must be wrong.
             (
@@ -252,7 +253,7 @@ mod tests {
         let before = rows[0].clone();
         apply_rule(&policy, &mut rows[..1]);
         assert_eq!(rows[0], before);
-        // Another submission is named, and not the same one.
+        // The text must name a different submission.
         apply_rule(&policy, &mut rows);
         let others = |ids: &[&str]| {
             let ids = ids.iter().map(|id| (*id).to_owned());

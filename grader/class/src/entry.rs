@@ -1,4 +1,4 @@
-//! The entries of a class, in a form that does not depend on the layout.
+//! The entries of a class, in a form that doesn't depend on the layout.
 
 use std::ops::Not;
 use std::path::PathBuf;
@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::names::{are_alike, are_equal};
 
-/// The mark for the names of the people in [`EntryInfo::hand_back_as`].
+/// The placeholder for the names of the people in [`EntryInfo::hand_back_as`].
 pub const WHO: &str = "{who}";
-/// The mark for a person's own number in [`EntryInfo::hand_back_as`]: each person gets a page.
+/// The placeholder for a person's own number in [`EntryInfo::hand_back_as`]. Each person gets a
+/// page.
 pub const NUMBER: &str = "{number}";
 
 /// One submission of a class, before its files are read.
@@ -26,7 +27,7 @@ pub struct Entry {
 /// Information about a submission, which is stored with its result.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EntryInfo {
-    /// The people who get the points; at least one.
+    /// The people who get the points. There is always at least one.
     pub people: Vec<Person>,
     /// Whether the platform's export marks the submission as late.
     pub late: bool,
@@ -37,21 +38,21 @@ pub struct EntryInfo {
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
-    /// The time in a list, if the export does not say it.
+    /// The time in a list, if the export doesn't contain one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
-    /// The file name under which the platform accepts a page for the people, in which `{who}` is
-    /// replaced by their names, and `{number}` by the number of each. `None` if the platform has no
-    /// such rule.
+    /// The file name that the platform requires for the people's page, where `{who}` is replaced by
+    /// their names and `{number}` by each person's number. `None` if the platform doesn't require a
+    /// name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
-    /// The pseudonym for graders; empty if there is none.
+    /// The pseudonym for graders, or empty.
     #[serde(skip)]
     pub pseudonym: String,
-    /// The name of the group that the submission is named after, if its people are those whom a list
-    /// has in this group.
+    /// The group that the submission is named after, if its people were taken from a list of this
+    /// group.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub team: Option<String>,
 }
@@ -65,7 +66,7 @@ pub struct ListedTime {
     pub late: bool,
 }
 
-/// One student, as described by the platform: text is copied unchanged, and unknown fields are
+/// One student as described by the platform. Text is copied unchanged, and unknown fields are
 /// empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -82,8 +83,8 @@ pub struct Person {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
     /// The platform's own number for the person: the user id in Canvas, the participant number in
-    /// Moodle. In a file name of Moodle, it can also be the number of a group, which may be equal to
-    /// somebody's. So it counts only together with the name.
+    /// Moodle. In Moodle's file names, it can also be the number of a group, which may be equal to
+    /// somebody's. It is therefore only used together with the name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// The group in the roster.
@@ -92,25 +93,26 @@ pub struct Person {
     /// The section or tutor in the roster.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub section: String,
-    /// The extension in the roster: a number of days, or a time.
+    /// The extension in the roster: a number of days or a time.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub extension: String,
-    /// The status in Moodle's worksheet, which can have an extension.
+    /// The status in Moodle's worksheet, which may include an extension.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
-    /// Whether `name` comes from the name of a file or folder, so that a name in a list is better.
+    /// Whether `name` comes from the name of a file or folder, in which case a name in a list is
+    /// preferred.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
-    /// Whether the person is known to belong to the submission only from the roster's groups.
+    /// Whether only the roster's groups say that the person belongs to the submission.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
-    /// Whether a list has the person, so that `number` is not a group's.
+    /// Whether the person is on a list, so that `number` isn't a group's.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_listed: bool,
 }
 
 impl Entry {
-    /// Returns the entry of one person. `from` is the file or folder that it was read from.
+    /// Returns the entry of one person, which was read from the file or folder `from`.
     pub fn new(id: impl Into<String>, person: Person, from: &str, source: Source) -> Self {
         let info = EntryInfo {
             people: vec![person],
@@ -127,14 +129,14 @@ impl Entry {
 pub enum Source {
     /// A folder or an archive.
     Path(PathBuf),
-    /// Single files: the name under which each was handed in, and its path.
+    /// Individual files, each with the name it was handed in under and its path.
     Files(Vec<(String, PathBuf)>),
-    /// There is nothing to grade, for this reason.
+    /// Nothing can be graded, for this reason.
     Missing(String),
 }
 
 impl Person {
-    /// Returns a person of whom only the name of a file or folder is known.
+    /// Returns a person known only by the name of a file or folder.
     pub fn named_by_file(name: impl Into<String>) -> Self {
         Person {
             is_named_by_file: true,
@@ -142,25 +144,25 @@ impl Person {
         }
     }
 
-    /// Returns the identifiers that are one person's alone; those that are unknown are empty.
+    /// Returns the identifiers that are unique to one person. Unknown ones are empty.
     pub fn own_identifiers(&self) -> [&str; 3] {
         [&self.email, &self.sid, &self.login]
     }
 
-    /// Returns everything that is known to identify the person, without empty texts.
+    /// Returns everything that identifies the person, without empty strings.
     pub fn identifiers(&self) -> impl Iterator<Item = &str> + Clone {
         let all = self.own_identifiers().into_iter();
         let all = all.chain([self.own_number(), &self.name]);
         all.filter(|text| !text.is_empty())
     }
 
-    /// Returns the platform's number, or an empty text if it may be a group's.
+    /// Returns the platform's number, or an empty string if it may be a group's.
     pub fn own_number(&self) -> &str {
         if self.is_listed { &self.number } else { "" }
     }
 
-    /// Returns whether the person has this number, and a name like that of the number in a list. A
-    /// list without names has the number in its place, such as `Participant 51`.
+    /// Returns whether the person has this number and a name similar to the one that a list has for
+    /// the number. A list without names has the number instead, such as `Participant 51`.
     pub fn has_number(&self, number: &str, name: &str) -> bool {
         let numbered = || format!("{}{}", self.name, self.number);
         let is_alike = || {
@@ -173,12 +175,13 @@ impl Person {
         !number.is_empty() && self.number == number && is_alike()
     }
 
-    /// Returns whether this is the student as whom teachers see their course in Canvas.
+    /// Returns whether this is Canvas's test student, which lets teachers see their course as a
+    /// student.
     pub fn is_test_student(&self) -> bool {
         !self.name.is_empty() && are_alike(&self.name, "Test Student")
     }
 
-    /// Returns a person of whom only the name is known.
+    /// Returns a person known only by name.
     pub fn named(name: impl Into<String>) -> Self {
         Person {
             name: name.into(),
@@ -218,8 +221,9 @@ impl Person {
         }
     }
 
-    /// Returns whether both records describe the same person. Only unique identifiers are compared,
-    /// never names alone, since two people may have the same name; and never numbers alone.
+    /// Returns whether both records describe the same person. Only unique identifiers are compared.
+    /// A name on its own is never enough, since two people may have the same name, and neither is a
+    /// number.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = self.own_identifiers().into_iter();
         let mut pairs = pairs.zip(other.own_identifiers());
@@ -227,7 +231,8 @@ impl Person {
             || self.has_number(&other.number, &other.name)
     }
 
-    /// Returns whether both records describe the same person, or there is nothing but an equal name.
+    /// Returns whether both records describe the same person, or can only be compared by name and
+    /// have the same one.
     pub fn is_same(&self, other: &Person) -> bool {
         let is_bare =
             |person: &Person| person.own_identifiers() == [""; 3] && person.number.is_empty();
@@ -239,7 +244,7 @@ impl Person {
 }
 
 impl EntryInfo {
-    /// Returns the submission time, in the format of the platform or of the list that it is from.
+    /// Returns the submission time, in the format of the platform or list that it comes from.
     pub fn submitted(&self) -> Option<&str> {
         let listed = self.listed.as_ref().map(|listed| &listed.submitted);
         self.submitted.as_ref().or(listed).map(String::as_str)
@@ -250,8 +255,8 @@ impl EntryInfo {
         self.late || self.listed.as_ref().is_some_and(|listed| listed.late)
     }
 
-    /// Removes the groups and extensions, which only a roster can have said, because another roster
-    /// counts.
+    /// Removes the groups and extensions, which only come from rosters, because a different roster
+    /// is used.
     pub fn forget_groups_and_extensions(&mut self) {
         if let Some(team) = &self.team {
             self.people = vec![Person::named_by_file(team)];

@@ -1,5 +1,5 @@
-//! The final grades of the last run, and those that have changed since the one before: after
-//! lateness, points by hand and the policy.
+//! The final grades of the last run, i.e. after lateness, manual points and the policy, and the
+//! changes since the previous run.
 
 use std::collections::BTreeMap;
 
@@ -14,20 +14,20 @@ use crate::run::{Run, Settings};
 /// The name of the file with the final grades in the output folder.
 pub const FILE: &str = "final-grades.json";
 
-/// The final grades of the last run, and those that they are compared with. A run that changes
-/// nothing leaves both, so that a run that was killed and is repeated lists the same changes.
+/// The final grades of the last run, and those they are compared with. A run that changes nothing
+/// keeps both, so that repeating a run that was killed lists the same changes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GradeHistory {
-    /// The final grades to compare with; `None` in a new folder.
+    /// The final grades to compare with, or `None` in a new folder.
     before: Option<FinalGrades>,
     /// The final grades of the last run.
     now: FinalGrades,
 }
 
-/// The final grades of a run, and what they depend on.
+/// The final grades of a run and everything they depend on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FinalGrades {
-    /// The round: a regrade is compared with the grades before it.
+    /// The round. A regrade is compared with the grades before it.
     round: u32,
     settings: Settings,
     lists: BTreeMap<ListKind, String>,
@@ -42,13 +42,13 @@ struct FinalGrade {
     submission: String,
     person: Person,
     status: String,
-    /// The final points and their maximum; `None` if no points count.
+    /// The final points and their maximum, or `None` if the submission doesn't have any.
     counts: Option<[u32; 2]>,
-    /// The points that were graded.
+    /// The graded points.
     graded: u32,
     manual: i32,
     late_days: u32,
-    /// The policy's differences from the exam, in items and tasks.
+    /// The policy's differences from the exam in items and tasks.
     #[serde(default)]
     changes: Vec<String>,
 }
@@ -58,7 +58,7 @@ struct FinalGrade {
 pub struct GradeChanges {
     /// The settings and lists that changed.
     pub causes: Vec<&'static str>,
-    /// Sentences about the changes, each with its submission, its person and its cause.
+    /// Sentences about the changes, each with the submission, the person and the cause.
     pub changes: Vec<String>,
 }
 
@@ -84,7 +84,7 @@ impl GradeHistory {
         }
     }
 
-    /// Returns the changes; `None` if there is nothing to compare with.
+    /// Returns the changes, or `None` if there is nothing to compare with.
     pub fn changes(&self) -> Option<GradeChanges> {
         let before = self.before.as_ref()?;
         let mut causes = before.settings.differences(&self.now.settings);
@@ -98,8 +98,8 @@ impl GradeHistory {
     }
 }
 
-/// The lists that grades depend on. Gradebooks matter only for what they say about people, which
-/// shows in the grades.
+/// The lists that grades depend on. Gradebooks only matter for their information about people,
+/// which becomes visible in the grades.
 const LISTS: [ListKind; 3] = [ListKind::Policy, ListKind::Roster, ListKind::ManualPoints];
 
 impl FinalGrades {
@@ -131,7 +131,7 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns the change to a later grade. A new submission is none.
+    /// Returns the change to a later grade. A new submission isn't a change.
     fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
         self.of(&now.submission).next()?;
         match self.find(now) {
@@ -143,7 +143,7 @@ impl FinalGrades {
         }
     }
 
-    /// Returns the change of an earlier grade that is not among these, whose submission still is.
+    /// Returns the change of an earlier grade that is missing here although its submission isn't.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
         (was.counts.is_some() && self.find(was).is_none()).then(|| {
@@ -181,7 +181,7 @@ impl FinalGrade {
         }
     }
 
-    /// Returns the points as text, or why none count.
+    /// Returns the points as text, or why there are none.
     fn value(&self, with_maximum: bool) -> String {
         match self.counts {
             Some([points, of]) if with_maximum => format!("{points} of {of}"),
@@ -215,7 +215,7 @@ impl FinalGrade {
         self.changed(&was, &now, &why.join(", "))
     }
 
-    /// Returns a sentence about a change: the points, or why there are none, and the cause.
+    /// Returns a sentence about a change: the points or why there are none, and the cause.
     fn changed(&self, was: &str, now: &str, why: &str) -> String {
         let who = id_and_names(&self.submission, self.person.display_name());
         let why = if why.is_empty() {

@@ -70,7 +70,7 @@ impl Input {
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
         let (root, note) = match (choice.layout, listed.children()) {
-            // A folder that is no submission of the chosen layout has the class.
+            // A folder that isn't a submission in the chosen layout contains the class.
             (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
                 (only, None)
             }

@@ -15,24 +15,24 @@ use crate::identity::person_ids;
 use crate::moodle_status::MoodleStatus;
 use crate::names::{are_equal, fold};
 
-/// The reason why it is unclear how late a submission is. Nobody's points may depend on a guess, so
-/// the submission has no final points until a person corrects the time.
+/// The reason it is unclear how late a submission is. Points must not depend on a guess, so the
+/// submission doesn't get final points until a person corrects the time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{why}")]
 pub struct UnclearTime {
-    /// The reason, and what to do.
+    /// The reason and what to do.
     pub why: String,
-    /// Whether the student has not submitted the files, as Moodle says.
+    /// Whether the student hasn't submitted the files, according to Moodle.
     pub is_draft: bool,
 }
 
-/// The platform says only that the submission is late, and the person has an extension.
+/// The platform only says that the submission is late, and the person has an extension.
 pub const ONLY_A_FLAG: &str = "the platform says that it is late, but an extension can be applied only \
     if the submission time and the due time are known: add a column `datetime` to the roster, and `due` \
     to the policy";
 
 impl UnclearTime {
-    /// Returns the error of a submission that has a time, or should have one.
+    /// Returns the error for a submission that has a time or should have one.
     pub fn new(why: impl Into<String>) -> Self {
         UnclearTime {
             why: why.into(),
@@ -40,7 +40,7 @@ impl UnclearTime {
         }
     }
 
-    /// Returns the error of a submission time that decides about points, and cannot be used.
+    /// Returns the error for a submission time that points depend on but that cannot be used.
     fn submitted(text: &str, why: TimeError) -> Self {
         UnclearTime::new(format!(
             "the submission time {text:?} cannot be used: {why}"
@@ -49,7 +49,7 @@ impl UnclearTime {
 }
 
 /// Returns how late a submission is for one of its people. If its submission time is known and the
-/// policy has a due time, these two decide; otherwise, the platform's late flag does.
+/// policy sets a due time, these two decide. Otherwise, the platform's late flag does.
 pub fn lateness(
     policy: &Policy,
     info: &EntryInfo,
@@ -67,8 +67,8 @@ pub fn lateness(
     match exact {
         Some(lateness) => Ok(lateness),
         None if info.is_late() && !extensions.is_empty() => Err(UnclearTime::new(ONLY_A_FLAG)),
-        // Without both times, a submission with a late flag counts as one second past the grace
-        // period.
+        // Unless both times are known, a submission with a late flag is treated as one second past
+        // the grace period.
         None if info.is_late() => {
             let grace = u64::from(policy.late.grace_minutes) * 60;
             Ok(Lateness::of_seconds(grace + 1))
@@ -78,7 +78,7 @@ pub fn lateness(
 }
 
 /// Rejects a time that is far from the person's due time, and a time in a list that contradicts the
-/// platform's late flags. The list may be of an earlier attempt.
+/// platform's late flags, since the list may be about an earlier attempt.
 fn check_plausible(
     policy: &Policy,
     info: &EntryInfo,
@@ -92,7 +92,7 @@ fn check_plausible(
     if info.submitted.is_some() {
         return Ok(());
     }
-    // The platform need not know the extension, but it may.
+    // The platform may or may not know about the extension.
     let without_extension = policy
         .late
         .due
@@ -114,7 +114,7 @@ fn check_plausible(
     }
 }
 
-/// Returns the submission time, if it is known and the policy needs it.
+/// Returns the submission time if it is known and the policy needs it.
 pub fn submission_time(
     policy: &Policy,
     info: &EntryInfo,
@@ -129,7 +129,7 @@ pub fn submission_time(
     needed.map(read).transpose()
 }
 
-/// Returns the extensions of a person, in the policy, in the roster and in Moodle's worksheet.
+/// Returns the extensions of a person from the policy, the roster and Moodle's worksheet.
 fn extensions(
     policy: &Policy,
     info: &EntryInfo,
@@ -142,7 +142,7 @@ fn extensions(
              extension: set Moodle's language to English, and download the worksheet again"
         )));
     }
-    // A partner's draft is another submission.
+    // A partner's draft is a different submission.
     if let Some(unsubmitted) = status.unsubmitted.filter(|_| !person.is_from_group) {
         let why = format!(
             "the status in Moodle's worksheet is {unsubmitted:?}: if the files count, change it to \
@@ -177,8 +177,8 @@ fn extensions(
     Ok(extensions)
 }
 
-/// Prints a warning for each of the policy's extensions that belongs to none of these people, or to
-/// several who have the same name.
+/// Prints a warning for each of the policy's extensions that doesn't belong to any of these people,
+/// or that belongs to several with the same name.
 pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     let unmatched = unmatched_extensions(policy, people).into_iter();
     let unmatched = unmatched.map(|name| (name, "who is not in this class"));
@@ -194,7 +194,7 @@ pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     }
 }
 
-/// Returns the names in the policy's extensions that belong to none of these people.
+/// Returns the names in the policy's extensions that don't belong to any of these people.
 fn unmatched_extensions<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a str> {
     let mut names: BTreeSet<String> = BTreeSet::new();
     for person in people {
@@ -206,13 +206,13 @@ fn unmatched_extensions<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a s
     unmatched.map(String::as_str).collect()
 }
 
-/// Returns the names in the policy's extensions that several of these people have.
+/// Returns the names in the policy's extensions that several of these people share.
 fn extensions_of_namesakes<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a str> {
     let ids = person_ids(people);
     let is_shared = |key: &&String| {
         let named = people.iter().zip(&ids);
         let named = named.filter(|(person, _)| are_equal(&person.name, key));
-        // Everybody in a group is meant.
+        // A group's name applies to everybody in the group.
         let named = named.filter(|(person, _)| !are_equal(&person.group, key));
         let ids: BTreeSet<usize> = named.map(|(_, id)| *id).collect();
         ids.len() > 1
@@ -221,8 +221,8 @@ fn extensions_of_namesakes<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'
     keys.filter(is_shared).map(String::as_str).collect()
 }
 
-/// Returns whether the policy has a due time, but the submission has neither a time nor a late
-/// flag. Such a submission counts as on time.
+/// Returns whether the policy sets a due time, but the submission has neither a time nor a late
+/// flag. Such a submission is treated as on time.
 pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
     policy.late.due.is_some() && !info.is_late() && info.submitted().is_none()
 }

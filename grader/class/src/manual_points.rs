@@ -1,5 +1,5 @@
-//! Manual points: points that staff add or take off by hand, and comments, from a CSV file with a
-//! row for each student and task. They are kept separate from what was graded.
+//! Manual points: points that staff add or deduct, and comments, from a CSV file with a row for
+//! each student and task. They are kept separate from the graded points.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
@@ -16,7 +16,7 @@ use crate::names::are_equal;
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
-/// The columns that the file must have. A column `date` is optional.
+/// The required columns. A column `date` is optional.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
@@ -25,17 +25,17 @@ const REMEDY: &str = "manual points need the columns student, task, delta, comme
 pub struct ManualPoints {
     /// The row in the file, as spreadsheets number it.
     pub row: usize,
-    /// The student's identifier or name, as it is written in the file.
+    /// The student's identifier or name, as written in the file.
     pub student: String,
     /// The task's id.
     pub task: String,
-    /// The points to add; negative to take off.
+    /// The points to add, or to deduct if negative.
     pub delta: i32,
     /// The reason, for the student.
     pub comment: String,
     /// The person who gave the points.
     pub author: String,
-    /// The date of the decision, as it is written in the file; may be empty.
+    /// The date of the decision, as written in the file. May be empty.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub date: String,
 }
@@ -48,7 +48,7 @@ pub struct ManualPointsList {
 }
 
 impl ManualPointsList {
-    /// Reads a file, and checks each row by itself.
+    /// Reads a file and checks each row on its own.
     pub fn read(path: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         let table = Table::read(path)?;
         let mut columns = [0; 5];
@@ -97,8 +97,7 @@ impl ManualPointsList {
     }
 
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
-    /// the same person and task. A person who is in several submissions is in the list once for
-    /// each.
+    /// the same person and task. A person with several submissions is in the list once for each.
     pub fn check_students(&self, people: &[&Person]) -> Result<(), Error> {
         let ids = person_ids(people);
         let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
@@ -138,8 +137,9 @@ impl ManualPointsList {
         own.cloned().collect()
     }
 
-    /// Checks that no task gets more points than it has, or fewer than 0. `exam` is the tasks without
-    /// any points. If the grader or the machine failed, what was earned is not known yet.
+    /// Checks that no task gets more than its maximum or fewer than 0 points. `exam` contains the
+    /// tasks without any points. If the grader or the machine failed, the earned points aren't known
+    /// yet.
     pub fn check_range(
         &self,
         points: &[ManualPoints],

@@ -17,8 +17,8 @@ use crate::store::Store;
 /// The maximum length of an item's message, in characters.
 const MAX_CHARS: usize = 1_000;
 
-/// Runs a question on the files that were graded, and returns the text for the terminal. `question`
-/// is the submission or person, and the item.
+/// Runs a question on the graded files and returns the text for the terminal. `question` is the
+/// submission or person, and the item.
 pub fn replay_question(
     out: &Path,
     question: &[String],

@@ -40,9 +40,9 @@ pub struct ClassSummary {
     pub unclear_times: usize,
     /// The number of submissions that aren't used because another submission by the same person is.
     pub superseded: usize,
-    /// The number of submissions that the teacher has yet to choose or reject.
+    /// The number of submissions the teacher has yet to choose or reject.
     pub undecided: usize,
-    /// The distribution of the total points. `None` if there are no scores.
+    /// The distribution of the total points, or `None` without scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
@@ -54,7 +54,7 @@ pub struct ClassSummary {
     pub causes: Vec<Cause>,
     /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
-    /// The points and comments by hand.
+    /// The manual points and comments.
     pub decisions: Vec<ManualPoints>,
 }
 
@@ -70,7 +70,7 @@ pub struct TaskDistribution {
     pub points: Distribution,
 }
 
-/// How often a task or an item was failed, which means that it did not get full points.
+/// How often a task or an item was failed, i.e. didn't get full points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailureRate {
     /// The id of the task, such as `sphere`, or of the item, such as `sphere.from_inside`.
@@ -79,12 +79,12 @@ pub struct FailureRate {
     pub counts: BTreeMap<String, usize>,
 }
 
-/// A root cause of lost points. What only follows from another failure has none.
+/// A root cause of lost points. Failures that only follow from another failure are not root causes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cause {
-    /// The hint for the known mistake, or else what does not hold.
+    /// The hint for the known mistake, or else the requirement that isn't met.
     pub text: String,
-    /// The items that were failed because of it; none if all of the task were.
+    /// The items that failed because of it. Empty if the entire task failed.
     pub items: BTreeSet<String>,
     /// The number of submissions.
     pub count: usize,
@@ -171,7 +171,7 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
         .collect()
 }
 
-/// Counts the submissions of each section, and those that failed each task and item.
+/// Counts the submissions of each section and those that failed each task and item.
 fn failure_rates(class: &GradedClass) -> (BTreeMap<String, usize>, Vec<FailureRate>) {
     let mut sections = BTreeMap::new();
     let mut rates: Vec<FailureRate> = Vec::new();
@@ -214,12 +214,12 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
                 continue;
             }
             let task = item.id.split('.').next().unwrap_or_default();
-            // The most likely hint counts.
+            // Only the most likely hint is counted.
             let (text, own) = match (item.hints.first(), item.verdict.as_str()) {
                 (Some(hint), _) => (hint.hint.clone(), Some(&item.id)),
                 (None, "not_compiled") => (format!("{task} does not compile"), None),
                 (None, "unimplemented") => (format!("{task} is not written yet"), None),
-                // The rest of the task has the same verdict: it was not run.
+                // The rest of the task has the same verdict because it wasn't run.
                 (None, "timed_out") => (format!("{task} takes too long"), None),
                 (None, "crashed") => (format!("{task} ends the program"), None),
                 (None, "out_of_memory") => (format!("{task} needs too much memory"), None),
@@ -231,7 +231,7 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
                 count: 0,
             });
             cause.items.extend(own.cloned());
-            // Each cause counts once per submission.
+            // Each cause is counted once per submission.
             cause.count += usize::from(found.insert(text));
         }
     }

@@ -8,19 +8,19 @@ use crate::policy::PercentBase;
 /// The final points of a submission, and the facts that explain them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CountedPoints {
-    /// The final points that the submission gets.
+    /// The submission's final points.
     pub points: u32,
-    /// Final points of a perfect submission on time.
+    /// The final points of a perfect submission on time.
     pub max_points: u32,
     /// The points that the submission earned in the exam.
     pub earned: u32,
     /// The points of the exam.
     pub earned_of: u32,
-    /// The points that staff added by hand, or took off.
+    /// The points that staff added or deducted manually.
     pub manual: i32,
-    /// Sentences without a full stop about items and tasks that count differently than in the exam.
+    /// Sentences without a full stop about items and tasks whose points differ from the exam's.
     pub changes: Vec<String>,
-    /// Number of started days after the due time, including free days.
+    /// The number of started days after the due time, including free days.
     pub late_days: u32,
     /// The consequence of being late.
     pub deduction: Deduction,
@@ -29,22 +29,22 @@ pub struct CountedPoints {
 /// The consequence of being late.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deduction {
-    /// Being late costs nothing: the submission is on time, or the policy has no such rule.
+    /// No deduction: the submission is on time, or the policy doesn't have a rule for late ones.
     None,
     /// All late days are free.
     FreeDays,
     /// A percentage is deducted.
     Percent {
-        /// The percentage, for all charged days together.
+        /// The percentage for all charged days together.
         percent: u32,
-        /// The points to which the percentage refers.
+        /// The points that the percentage refers to.
         of: PercentBase,
         /// The number of late days that are free.
         free_days: u32,
     },
     /// The points are limited to this percentage of all points.
     Limit(u32),
-    /// Nothing counts after this many days.
+    /// The submission is too late: after this many days, no points are given.
     Closed {
         /// The number of days.
         after_days: u32,
@@ -58,7 +58,7 @@ impl fmt::Display for CountedPoints {
 }
 
 impl CountedPoints {
-    /// Returns a sentence that says how many points count, and why.
+    /// Returns a sentence that states the final points and explains them.
     pub fn explanation(&self) -> String {
         let Self {
             earned, earned_of, ..
@@ -77,14 +77,14 @@ impl CountedPoints {
         format!("{self} count towards the grade: {earned}{changes}.")
     }
 
-    /// Returns [`explanation`](Self::explanation), or `None` if the points count as they were
-    /// earned, on time.
+    /// Returns [`explanation`](Self::explanation), or `None` if the final points are those earned
+    /// and the submission is on time.
     pub fn explanation_if_changed(&self) -> Option<String> {
         self.is_changed().then(|| self.explanation())
     }
 
-    /// Returns the rules that apply to this submission, without its points, from which the points
-    /// of hidden items could be computed. `None` if the points count as they were earned, on time.
+    /// Returns the rules that apply to this submission, but not its points, from which the points
+    /// of hidden items could be computed. Returns `None` if no rule applies.
     pub fn rules(&self) -> Option<String> {
         let mut rules = Vec::new();
         if self.max_points != self.earned_of {
@@ -108,7 +108,8 @@ impl CountedPoints {
             || !self.changes.is_empty()
     }
 
-    /// Returns the number of late days and their consequence, or `None` if there are none.
+    /// Returns the number of late days and their consequence, or `None` if the submission is on
+    /// time.
     fn lateness(&self) -> Option<String> {
         if self.late_days == 0 {
             return None;
@@ -151,8 +152,8 @@ mod tests {
     use super::CountedPoints;
     use crate::policy::{Lateness, Policy};
 
-    /// Returns the points of a submission that earned this many of 100, which its staff changed by
-    /// `manual`, and which was handed in this many hours late.
+    /// Returns the points of a submission that earned this many of 100, was changed by `manual`
+    /// points, and was handed in this many hours late.
     fn counted(policy: &str, earned: u32, manual: i32, hours: u64) -> CountedPoints {
         let policy: Policy = toml::from_str(policy).unwrap();
         let late = Lateness::of_seconds(hours * 60 * 60);
@@ -186,10 +187,10 @@ mod tests {
         assert_eq!(counted("", 90, 0, 0).explanation_if_changed(), None);
         for changed in [
             counted("[points]\nout_of = 50", 90, 0, 0),
-            // Half of nothing is nothing, but the maximum differs.
+            // Half of 0 points is still 0, but the maximum differs.
             counted("[points]\nout_of = 50", 0, 0, 0),
             counted("", 90, 1, 0),
-            // More than all points cannot be had, but somebody has tried to give them.
+            // Points cannot exceed the maximum, but staff tried to give more.
             counted("", 100, 1, 0),
             counted("", 90, 0, 1),
             counted("[late]\npercent_per_day = 10", 90, 0, 1),

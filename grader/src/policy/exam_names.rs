@@ -1,4 +1,4 @@
-//! Checks that an exam has the items and tasks that a policy names.
+//! Checks that the items and tasks named in a policy exist in the exam.
 
 use std::path::Path;
 
@@ -8,8 +8,8 @@ use crate::policy::Policy;
 use crate::policy::read::Problem;
 
 impl Policy {
-    /// Parses a policy for an exam, and rejects names of items and tasks that the exam does not
-    /// contain. Otherwise a misspelt name would go unnoticed.
+    /// Parses a policy for an exam and rejects names of items and tasks that the exam doesn't
+    /// contain. Otherwise, a misspelled name would go unnoticed.
     pub fn for_exam<'a>(
         path: &Path,
         text: &str,
@@ -25,7 +25,7 @@ impl Policy {
         }
     }
 
-    /// Returns a name that does not fit these items, and the problem with it.
+    /// Returns a name that doesn't fit these items and the problem with it.
     fn name_problem(&self, items: &[&str]) -> Option<(&str, String)> {
         let mut tasks: Vec<&str> = items.iter().map(|item| task_of(item)).collect();
         tasks.dedup();
@@ -73,7 +73,7 @@ fn task_of(item: &str) -> &str {
     item.split('.').next().unwrap_or(item)
 }
 
-/// Returns the byte offset of the first use of a name, apart from comments and longer names.
+/// Returns the byte offset of the first use of a name, ignoring comments and longer names.
 fn name_offset(text: &str, name: &str) -> usize {
     let is_part = |char: char| char.is_alphanumeric() || "_-.".contains(char);
     let is_use = |(begin, _): &(usize, &str)| {

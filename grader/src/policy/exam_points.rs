@@ -1,5 +1,5 @@
-//! The points that final points are computed from: those of the exam, without the items that the
-//! policy takes out, and with its points for tasks.
+//! The points that final points are computed from: the exam's, without the items that the policy
+//! removes, and with the policy's points for tasks.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ pub struct TaskPoints<'a> {
     pub points: u32,
     /// The maximum number of points.
     pub max_points: u32,
-    /// The points that staff added by hand, or took off.
+    /// The points that staff added or deducted manually.
     pub manual: i32,
     /// The items, each after those that it depends on.
     pub items: Vec<ItemPoints<'a>>,
@@ -30,7 +30,7 @@ pub struct ItemPoints<'a> {
     pub points: u32,
     /// The maximum number of points.
     pub max_points: u32,
-    /// The id of the item because of which this one could not be graded.
+    /// The id of the item that prevented this one from being graded, if any.
     pub blocked_by: Option<&'a str>,
 }
 
@@ -38,9 +38,9 @@ pub struct ItemPoints<'a> {
 pub(super) struct Basis {
     /// The numerator of the share.
     pub earned: u128,
-    /// The denominator of the share, which is the same points for a perfect submission.
+    /// The denominator of the share: the same points for a perfect submission.
     pub all: u128,
-    /// The maximum in the course, unless the policy has a maximum of its own.
+    /// The maximum in the course, unless the policy sets its own.
     pub out_of: u32,
     /// Sentences without a full stop about the differences from the exam.
     pub changes: Vec<String>,
@@ -56,7 +56,7 @@ struct Share {
 }
 
 impl PointsPolicy {
-    /// Takes out items and reweights tasks.
+    /// Removes items and reweights tasks.
     pub(super) fn basis(&self, tasks: &[TaskPoints]) -> Basis {
         let out = self.items_out(tasks);
         let shares = tasks.iter().filter_map(|task| self.share(task, &out));
@@ -74,7 +74,7 @@ impl PointsPolicy {
         }
     }
 
-    /// Returns the share of a task without the items in `out`; `None` if nothing of it is left.
+    /// Returns the share of a task without the items in `out`, or `None` if no items are left.
     fn share(&self, task: &TaskPoints, out: &BTreeSet<&str>) -> Option<Share> {
         let items = task.items.iter().filter(|item| out.contains(item.id));
         let sum = |points: fn(&ItemPoints) -> u32| items.clone().map(points).sum::<u32>();
@@ -99,8 +99,8 @@ impl PointsPolicy {
         })
     }
 
-    /// Returns the ids of the items that do not count for this submission: those that the policy takes
-    /// out, and those that could not be graded because of one.
+    /// Returns the ids of the items that are ignored for this submission: those that the policy
+    /// removes, and those that couldn't be graded because of one of them.
     fn items_out<'a>(&self, tasks: &[TaskPoints<'a>]) -> BTreeSet<&'a str> {
         let mut out = BTreeSet::new();
         for item in tasks.iter().flat_map(|task| &task.items) {
@@ -111,7 +111,7 @@ impl PointsPolicy {
         out
     }
 
-    /// Returns whether the policy takes out this item.
+    /// Returns whether the policy removes this item.
     pub fn is_void(&self, item: &str) -> bool {
         self.void.iter().any(|void| void == item)
     }
@@ -128,7 +128,7 @@ impl PointsPolicy {
         }
     }
 
-    /// Returns sentences about what differs from the exam.
+    /// Returns sentences about the differences from the exam.
     fn changes(&self, tasks: &[TaskPoints], out: &BTreeSet<&str>) -> Vec<String> {
         let mut changes = Vec::new();
         for task in tasks {
@@ -192,8 +192,8 @@ mod tests {
         }
     }
 
-    /// An exam of 30 points: 7 of 10 for building, and 4 of 20 for traversal, of which an item of 5
-    /// points is blocked by `build.town`, and one of 1 point by that one.
+    /// An exam of 30 points: 7 of 10 for building and 4 of 20 for traversal. There, an item of 5
+    /// points is blocked by `build.town`, and that item blocks an item of 1 point.
     fn tasks() -> [TaskPoints<'static>; 2] {
         let blocked = |id, max_points, by| ItemPoints {
             blocked_by: Some(by),

@@ -1,4 +1,4 @@
-//! Extensions: later due times for single people or groups.
+//! Extensions: later due times for individual people or groups.
 
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
@@ -15,7 +15,7 @@ use crate::policy::written_time::{
 pub enum Extension {
     /// This number of days after everybody's due time.
     Days(u16),
-    /// A due time of their own.
+    /// An individual due time.
     Until(Timestamp),
 }
 
@@ -30,7 +30,7 @@ impl Extension {
     }
 
     /// Returns the due time with this extension. It is never before everybody's due time. With a time
-    /// zone, days are those of its calendar.
+    /// zone, days are calendar days in that zone.
     pub fn apply(self, due: Timestamp, zone: Option<&TimeZone>) -> Timestamp {
         match self {
             Extension::Days(days) => after_days(due, days.into(), zone),

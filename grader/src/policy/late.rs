@@ -1,4 +1,4 @@
-//! Converts points to final points in exact integer arithmetic, and rounds once at the end.
+//! Converts points to final points in exact integer arithmetic and rounds once at the end.
 
 use jiff::Timestamp;
 
@@ -17,8 +17,8 @@ impl Policy {
         self.counted_points_with(points, max_points, 0, lateness)
     }
 
-    /// Returns the final points like [`counted_points`](Self::counted_points). Before everything
-    /// else, points that staff gave by hand are added.
+    /// Returns the final points like [`counted_points`](Self::counted_points). Points that staff
+    /// gave manually are added before anything else.
     pub fn counted_points_with(
         &self,
         points: u32,
@@ -36,8 +36,8 @@ impl Policy {
         self.count(&[whole_exam], lateness)
     }
 
-    /// Returns the final points for these tasks. Items are taken out and tasks reweighted first, with
-    /// points that staff gave by hand, then lateness is considered.
+    /// Returns the final points for these tasks. First, items are removed and tasks reweighted,
+    /// including points that staff gave manually. Then lateness is considered.
     pub fn count(&self, tasks: &[TaskPoints], lateness: Lateness) -> CountedPoints {
         let basis = self.points.basis(tasks);
         let out_of = self.points.out_of.unwrap_or(basis.out_of);
@@ -55,14 +55,14 @@ impl Policy {
         }
     }
 
-    /// Returns how late a submission is that was made at `submitted`, if these extensions apply.
-    /// `None` if the policy has no due time.
+    /// Returns how late a submission from the time `submitted` is with these extensions, or `None`
+    /// if the policy doesn't set a due time.
     pub fn lateness(&self, submitted: Timestamp, extensions: &[Extension]) -> Option<Lateness> {
         let due = self.extended_due(extensions)?;
         Some(Lateness::since(due, submitted, self.late.timezone.as_ref()))
     }
 
-    /// Returns the due time with these extensions, or `None` if the policy has no due time.
+    /// Returns the due time with these extensions, or `None` if the policy doesn't set one.
     pub fn extended_due(&self, extensions: &[Extension]) -> Option<Timestamp> {
         Some(self.late.extended(self.late.due?, extensions))
     }
@@ -82,7 +82,7 @@ impl Policy {
 }
 
 impl LatePolicy {
-    /// Returns a due time with all of these extensions: the latest counts.
+    /// Returns a due time with the latest of these extensions.
     pub(super) fn extended(&self, due: Timestamp, extensions: &[Extension]) -> Timestamp {
         let extensions = extensions.iter();
         let extended = extensions.map(|extension| extension.apply(due, self.timezone.as_ref()));
@@ -100,7 +100,7 @@ impl LatePolicy {
 
     /// Returns the share of the final points, and the consequence of being late.
     fn apply(&self, points: u128, max_points: u128, late_days: u32) -> (Fraction, Deduction) {
-        // Points are in hundredths here, so that percentages of them are integers.
+        // Points are in hundredths here so that percentages of them are integers.
         let (points, all) = (points * 100, max_points * 100);
         let share = |numerator| Fraction {
             numerator,
@@ -171,7 +171,8 @@ mod tests {
         Lateness::of_seconds(hours * 60 * 60)
     }
 
-    /// Each row has a policy, points of 100, hours after the due time, and the points that count.
+    /// Each row is a policy, points out of 100, hours after the due time, and the expected final
+    /// points.
     #[test]
     fn points_are_scaled_reduced_for_lateness_and_rounded_once() {
         let out_of = |rounding: &str| format!("[points]\nout_of = 50\nrounding = '{rounding}'");
@@ -185,7 +186,7 @@ mod tests {
             (out_of("nearest"), 87, 0, 44),
             (out_of("up"), 87, 0, 44),
             (out_of("up"), 100, 0, 50),
-            // 10 % of 87 is 8.7, which leaves 78.3, and half of that is 39.15. Nothing is rounded in
+            // 10 % of 87 is 8.7, which leaves 78.3. Half of that is 39.15. Nothing is rounded in
             // between.
             (format!("{}\n{}", out_of("down"), late("")), 87, 1, 39),
             (late(""), 80, 25, 64),
@@ -218,7 +219,7 @@ mod tests {
             (90, 100, 7, 97),
             (90, 100, 30, 100),
             (5, 100, -7, 0),
-            // An exam without points counts for nothing.
+            // An exam without points is worth 0.
             (0, 0, 0, 0),
         ] {
             let counted = Policy::default().counted_points_with(points, of, manual, Lateness::NONE);

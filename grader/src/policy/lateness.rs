@@ -1,4 +1,4 @@
-//! How late a submission is, in seconds and in days of the calendar.
+//! The lateness of a submission, in seconds and in calendar days.
 
 use jiff::tz::TimeZone;
 use jiff::{Span, Timestamp};
@@ -11,7 +11,7 @@ const DAY: u64 = 24 * 60 * 60;
 pub struct Lateness {
     /// Seconds after the due time, or 0 if on time.
     pub seconds: u64,
-    /// Days since the due time, of which the last has only started.
+    /// Days since the due time, including the last one, which has only started.
     pub(super) days: u32,
 }
 
@@ -28,12 +28,12 @@ impl Lateness {
         Lateness { seconds, days }
     }
 
-    /// Returns how long after `due` a submission was made. The started second does not count. With
-    /// a time zone, days are those of its calendar, of which some have 23 or 25 hours.
+    /// Returns how long after `due` a submission was made, in full seconds. With a time zone, days
+    /// are its calendar days, some of which have 23 or 25 hours.
     pub(super) fn since(due: Timestamp, submitted: Timestamp, zone: Option<&TimeZone>) -> Self {
         let seconds = u64::try_from(submitted.duration_since(due).as_secs()).unwrap_or(0);
         let by_hours = Lateness::of_seconds(seconds);
-        // Clocks are set by less than a day, so a calendar has at most one day more or less.
+        // Clocks change by less than a day, so the number of calendar days differs by at most one.
         let is_over = |days: &u32| {
             let end = after_days(due, (*days).into(), zone);
             submitted.duration_since(end).as_secs() <= 0
@@ -44,8 +44,8 @@ impl Lateness {
     }
 }
 
-/// Returns the same time of day this number of days later. A time that clocks skip becomes a later
-/// one, and of a time that they show twice, the second is meant: both are better for a student.
+/// Returns the same time of day this number of days later. If clocks skip that time, a later one is
+/// returned. If they show it twice, the second one is returned. Both are better for students.
 pub(super) fn after_days(due: Timestamp, days: i64, zone: Option<&TimeZone>) -> Timestamp {
     if days == 0 {
         return due;
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(days(berlin, due, "2027-03-28T23:59:00+02:00"), 1);
         assert_eq!(days(berlin, due, "2027-03-28T23:59:01+02:00"), 2);
         assert_eq!(days("", due, "2027-03-28T23:59:01+02:00"), 1);
-        // Clocks skip 2:30 on this day, and show it twice on the other.
+        // Clocks skip 2:30 on this day and show it twice on the other.
         let due = "2027-03-27T02:30:00+01:00";
         assert_eq!(days(berlin, due, "2027-03-28T03:30:00+02:00"), 1);
         assert_eq!(days(berlin, due, "2027-03-28T03:30:01+02:00"), 2);

@@ -1,7 +1,7 @@
-//! A course's policy: how points count, what lateness costs, and what students see.
+//! A course's policy: how final points are computed, the cost of lateness, and what students see.
 //!
 //! A policy never changes a score. `score.json` contains the points of a submission regardless of
-//! its time, and the final points are computed from them.
+//! its time. The final points are computed from them.
 
 mod counted;
 mod exam_names;
@@ -53,22 +53,23 @@ pub struct PointsPolicy {
     pub out_of: Option<u32>,
     /// Rounding of the final points.
     pub rounding: Rounding,
-    /// The ids of items that are taken out of the exam after it was graded.
+    /// The ids of items that are removed from the exam after it was graded.
     pub void: Vec<String>,
     /// The consequence for the points of these items.
     pub void_points: VoidPoints,
-    /// Points of tasks that differ from the exam's, by the task's id. With 0, a task is left out.
+    /// Points of tasks that differ from the exam's, by the task's id. A task with 0 points is left
+    /// out.
     pub tasks: BTreeMap<String, u32>,
 }
 
-/// The consequence of taking out items, for their points.
+/// The consequence of removing items for their points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VoidPoints {
-    /// The maximum is lower by them.
+    /// The maximum is reduced by them.
     #[default]
     Shrink,
-    /// The maximum stays, and the other items are scaled to it.
+    /// The maximum stays the same, and the other items are scaled up to it.
     Scale,
     /// Everybody gets them.
     Give,
@@ -91,10 +92,10 @@ pub enum Rounding {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LatePolicy {
-    /// The due time. If there is none, the platform's due time is used.
+    /// The due time. If it isn't set, the platform's due time is used.
     #[serde(deserialize_with = "read::due_time")]
     pub due: Option<Timestamp>,
-    /// The time zone of days, and of times without an offset from UTC.
+    /// The time zone of days and of times without an offset from UTC.
     #[serde(deserialize_with = "read::time_zone")]
     pub timezone: Option<TimeZone>,
     /// Grace period after the due time, in minutes.
@@ -117,15 +118,15 @@ pub struct LatePolicy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttemptsPolicy {
-    /// The submission that counts.
+    /// The rule that chooses the submission.
     pub counts: AttemptRule,
 }
 
-/// The submission that counts, of several by one person.
+/// The rule that chooses one of several submissions by one person.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AttemptRule {
-    /// None of them, until a person has chosen.
+    /// No submission until a person has chosen one.
     #[default]
     Ask,
     /// The one that was handed in last.
@@ -134,7 +135,7 @@ pub enum AttemptRule {
     Best,
 }
 
-/// The points to which a percentage refers.
+/// The points that a percentage refers to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PercentBase {
@@ -145,16 +146,16 @@ pub enum PercentBase {
     Possible,
 }
 
-/// The visibility of an exam's items to students.
+/// The visibility of exam items to students.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct VisibilityPolicy {
-    /// Visibility of the practice exam, which students have.
+    /// Visibility of the practice exam, which is handed out to students.
     pub practice: Visibility,
     /// Visibility of all other exams.
     #[serde(rename = "final")]
     pub other_exams: Visibility,
-    /// Exceptions for single tasks or items, by id.
+    /// Exceptions for individual tasks or items, by id.
     pub items: BTreeMap<String, Visibility>,
 }
 

@@ -20,7 +20,7 @@ impl Policy {
         Policy::from_text(path, &Policy::read_text(path)?)
     }
 
-    /// Reads the text of the policy at `path`, which need not be valid.
+    /// Reads the text of the policy at `path`, which may be invalid.
     pub fn read_text(path: &Path) -> Result<String, Error> {
         files::read_to_string(path).map_err(|error| {
             let error = error.of_action("read the policy");
@@ -49,7 +49,7 @@ impl Policy {
         }
     }
 
-    /// Returns the key with an invalid value, and the problem with it.
+    /// Returns a key with an invalid value and the problem with it.
     fn problem(&self) -> Option<(&str, &'static str)> {
         let late = &self.late;
         let mut extensions = late.extensions.iter();
@@ -75,7 +75,7 @@ impl Policy {
     }
 }
 
-/// Reads a due time. TOML also has dates, and times without an offset, which are no points in time.
+/// Reads a due time. TOML also has dates and local times, but these don't identify a point in time.
 pub(super) fn due_time<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Timestamp>, D::Error> {

@@ -12,13 +12,13 @@ use crate::machine::files;
 use crate::policy::written_time::read_time;
 use crate::policy::{Extension, Lateness, Policy};
 
-/// The times at which a submission was made and due.
+/// The time of a submission and its due time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
     submitted: Timestamp,
     /// The names and email addresses of the people who submitted.
     people: Vec<String>,
-    /// The due time, or `None` if the assignment has no due date.
+    /// The due time, or `None` if the assignment doesn't have one.
     due: Option<Timestamp>,
 }
 
@@ -75,7 +75,7 @@ fn parse_time(text: &str) -> Result<Timestamp, String> {
 
 impl Policy {
     /// Returns how late a submission is, relative to the policy's due time or, if there is none, to
-    /// the platform's. Of a group, the member with the latest extension counts.
+    /// the platform's. For a group, the member with the latest extension decides.
     pub fn lateness_of(&self, submission: &SubmissionTime) -> Lateness {
         let people = submission.people.iter().map(String::as_str);
         let extensions: Vec<Extension> = self.extensions_of(people).collect();

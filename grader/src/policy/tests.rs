@@ -1,5 +1,5 @@
-//! Properties of lateness: who submits later is never better off, in every time zone, when clocks are
-//! set forward and back, and on leap days.
+//! Properties of lateness: submitting later is never better. This is tested in various time zones,
+//! when clocks are set forward and back, and on leap days.
 
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
@@ -7,8 +7,8 @@ use proptest::prelude::*;
 
 use super::{Policy, read_time};
 
-/// Time zones with different rules: whole hours, half an hour of daylight saving, a quarter of an hour
-/// from the others, and none.
+/// Time zones with different rules: whole hours, half an hour of daylight saving, an offset in quarter
+/// hours, and none.
 const ZONES: [&str; 5] = [
     "Europe/Berlin",
     "America/New_York",
@@ -16,7 +16,7 @@ const ZONES: [&str; 5] = [
     "Asia/Kathmandu",
     "UTC",
 ];
-/// Moments around which clocks are set, or days are counted differently.
+/// Moments around which clocks change or days are counted differently.
 const MOMENTS: [&str; 5] = [
     "2026-10-25T01:00:00Z",
     "2027-03-28T01:00:00Z",
@@ -95,7 +95,7 @@ proptest! {
         let read = read_time(&written, Some(&zone)).unwrap();
         let true_lateness = policy.lateness(time, &[]).unwrap();
         prop_assert!(policy.lateness(read, &[]).unwrap() <= true_lateness);
-        // Only a repeated hour is read as another time.
+        // Only a repeated hour is read as a different time.
         prop_assert!(read == time || time.duration_since(read) <= SignedDuration::from_hours(1));
     }
 

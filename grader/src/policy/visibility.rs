@@ -12,8 +12,8 @@ use crate::policy::Policy;
 pub enum Visibility {
     /// The question, the submission's answer and the expected answer.
     All,
-    /// The points, what went wrong, and hints. No questions or answers, from which students could
-    /// reconstruct the exam, and nothing that the submission's program wrote or chose.
+    /// The points, the kind of failure, and hints. No questions or answers, since students could
+    /// reconstruct the exam from them, and nothing that the submission's program wrote or chose.
     Feedback,
     /// Title and points.
     Points,
@@ -36,7 +36,7 @@ impl Visibility {
 }
 
 impl Policy {
-    /// Returns what students see of an item of this exam.
+    /// Returns how much students see of an item of this exam.
     pub fn visibility(&self, exam: &ExamName, item: &str) -> Visibility {
         let task = item.split('.').next().unwrap_or(item);
         let exceptions = &self.visibility.items;

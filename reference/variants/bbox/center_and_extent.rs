@@ -1,6 +1,6 @@
-// Uses the centre and half the size of the box: the time from entering a slab to crossing its
-// middle is as long as the time from there to leaving the slab. A ray parallel to the slab is a
-// separate case, since it never crosses the middle.
+// Uses the centre and half the size of the box: the ray takes as long from entering a slab to its
+// middle as from there to leaving it. A ray parallel to the slab is a separate case, since it never
+// crosses the middle.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

@@ -1,4 +1,4 @@
-// Has one method for the slab of an axis, which is a parameter that is known at compile time.
+// Uses one method for the slabs of all axes. The axis is a const parameter.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
@@ -7,11 +7,11 @@ impl BBox {
         self.clip_to_slab::<2>(ray, inside)
     }
 
-    /// Returns the part of `times` in which the ray is in the slab of an axis.
+    /// Returns the part of `times` where the ray is in the slab of an axis.
     fn clip_to_slab<const AXIS: usize>(&self, ray: &Ray, times: Interval) -> Option<Interval> {
         let (min, max) = (self.min[AXIS], self.max[AXIS]);
         let (origin, inverse) = (ray.origin[AXIS], ray.dir[AXIS].recip());
-        // Dividing by −0 gives −∞, so that the sign of the inverse tells which plane is first.
+        // Dividing by −0 gives −∞, so that the sign of the inverse decides which plane comes first.
         let (near, far) = if inverse.is_sign_negative() {
             (max, min)
         } else {

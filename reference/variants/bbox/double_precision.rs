@@ -1,4 +1,4 @@
-// Computes the slabs in double precision, and rounds once at the end.
+// Computes the slabs in double precision and rounds once at the end.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

@@ -1,5 +1,5 @@
-// Handles zero components of the direction in a separate branch, to avoid a division by zero, and
-// compares entry and exit only once, after the last axis.
+// Handles zero components of the direction in a separate branch to avoid dividing by zero. Compares
+// entry and exit only once, after the last axis.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

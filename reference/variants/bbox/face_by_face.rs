@@ -1,5 +1,5 @@
 // Intersects the six faces, each a rectangle. The result is the interval from the earliest to the
-// latest of these hits and of those ends of `times` at which the ray is inside the box.
+// latest of these hits, or of the ends of `times` if the ray is inside the box then.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {
@@ -27,7 +27,8 @@ impl BBox {
     }
 
     fn holds(&self, ray: &Ray, time: f32) -> bool {
-        // At an infinite time the ray is outside every box; 0 · ∞ would give NaN.
+        // At an infinite time, the ray is outside every box. Computing the point would give NaN for
+        // 0 · ∞.
         time.is_finite() && self.around(ray.at(time))
     }
 

@@ -1,6 +1,6 @@
 // Folds over the axes, with one multiplication and one addition per plane: (plane − origin) ·
-// inverse = plane · inverse − origin · inverse. The products are in double precision, to avoid
-// cancellation.
+// inverse = plane · inverse − origin · inverse. The products are computed in double precision to
+// avoid cancellation.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

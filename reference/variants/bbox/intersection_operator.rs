@@ -1,4 +1,4 @@
-// Has a type for a set of times, whose operator & is the intersection.
+// Defines a type for sets of times with the operator & for intersections.
 
 use std::ops::BitAnd;
 

@@ -1,5 +1,5 @@
-// Lets the ray leave each slab a little later, by a bound for the rounding errors, so that rounding
-// causes no misses. See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition),
+// Lets the ray leave each slab a little later, by a bound on the rounding errors, so that rounding
+// never causes a miss. See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition),
 // section 6.1.2.
 
 impl BBox {
@@ -23,7 +23,7 @@ impl BBox {
     }
 }
 
-/// Returns a bound for the relative error of a number after `n` roundings.
+/// Returns a bound on the relative error of a number after `n` roundings.
 fn gamma(n: f32) -> f32 {
     let rounding = 0.5 * f32::EPSILON;
     n * rounding / (1.0 - n * rounding)

@@ -1,4 +1,5 @@
-// Has helpers for boxes that bvh.rs uses: the union of two boxes, and their sum over an iterator.
+// Defines helpers for boxes that bvh.rs also uses: the union of two boxes and the sum over an
+// iterator.
 
 use std::iter::Sum;
 use std::ops::Add;
@@ -6,7 +7,7 @@ use std::ops::Add;
 impl Add for BBox {
     type Output = BBox;
 
-    /// Returns the box of both.
+    /// Returns the union of both boxes.
     fn add(mut self, other: BBox) -> BBox {
         self.enclose(other);
         self

@@ -1,5 +1,5 @@
-// Computes an interval of times for each slab, and intersects `times` with these intervals,
-// returning early with `?` if nothing is left.
+// Computes an interval of times for each slab and intersects `times` with them. Returns early with
+// `?` if nothing is left.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

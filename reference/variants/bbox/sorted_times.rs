@@ -1,5 +1,5 @@
-// Sorts the times at which the ray enters a slab, and those at which it leaves one, together with
-// the ends of `times`: the last entry and the first exit count.
+// Sorts the times when the ray enters the slabs and when it leaves them, each together with an end
+// of `times`. The last entry and the first exit are the result.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

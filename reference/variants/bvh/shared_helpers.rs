@@ -1,5 +1,5 @@
 // Uses helpers of this solution's own bbox.rs: boxes can be added and summed, and a function returns
-// when a ray enters a box.
+// the time when a ray enters a box.
 
 use crate::bbox::entry_or_infinity;
 
@@ -36,7 +36,7 @@ impl Bvh {
     }
 }
 
-/// Partitions the primitives in place by the cheapest split; returns the size of the left side.
+/// Partitions the primitives in place by the cheapest split. Returns the size of the left side.
 fn split(primitives: &mut [Primitive]) -> usize {
     let centers = primitives.iter().map(|primitive| primitive.bbox().center());
     let over: BBox = centers.map(BBox::from).sum();

@@ -1,4 +1,4 @@
-// Writes the formula of a coordinate once, as a macro that is expanded for x and y.
+// Writes the formula for a coordinate once, as a macro that is expanded for x and y.
 
 use framework::math::tan;
 

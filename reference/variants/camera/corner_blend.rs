@@ -1,5 +1,4 @@
-// Computes the four corners of the sensor, and a point on the sensor by bilinear interpolation
-// between them.
+// Computes the four corners of the sensor and interpolates bilinearly between them.
 
 use framework::math::tan;
 

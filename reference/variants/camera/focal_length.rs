@@ -1,6 +1,6 @@
 // Measures in pixels, as computer vision does: the focal length is the distance of the film from the
 // pinhole. See Hartley and Zisserman, "Multiple View Geometry in Computer Vision" (2nd edition),
-// section 6.1. Converts degrees with a rounded constant, and multiplies by reciprocals.
+// section 6.1. Converts degrees with a rounded constant and multiplies by reciprocals.
 
 use protocol::Interval;
 
@@ -11,7 +11,7 @@ impl Camera {
     pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let film = self.film.as_vec2();
         let focal_length = 0.5 * film.y * (0.5 * DEGREE * self.vertical_fov).tan().recip();
-        // How many times wider than high a pixel is on the sensor.
+        // The ratio of a pixel's width to its height on the sensor.
         let pixel_aspect = self.aspect_ratio * film.y * film.x.recip();
         let from_middle = pixel.as_vec2() - 0.5 * film + offset;
         let dir = Vec3::new(pixel_aspect * from_middle.x, from_middle.y, -focal_length);

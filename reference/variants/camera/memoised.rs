@@ -1,6 +1,6 @@
-// Remembers the size of the last camera's sensor, so that the tangent is computed once per picture.
-// The size is used again only for a camera with the same angle and aspect ratio, so no ray depends
-// on earlier calls.
+// Remembers the size of the last camera's sensor, so that the tangent is only computed once per
+// picture. The size is only reused for a camera with the same angle and aspect ratio, so no ray
+// depends on earlier calls.
 
 use std::cell::Cell;
 

@@ -1,4 +1,4 @@
-// Moves the sensor to z = −cos(fov/2), where half of its height is sin(fov/2): this gives the same
+// Moves the sensor to z = −cos(fov/2), where half of its height is sin(fov/2). This gives the same
 // directions without a tangent.
 
 use framework::math::sin_cos;

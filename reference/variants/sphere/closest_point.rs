@@ -1,5 +1,5 @@
-// Computes the point on the ray that is closest to the centre, in world space, and compares its
-// distance from the centre with the radius.
+// Computes the point on the ray closest to the centre in world space and compares its distance from
+// the centre with the radius.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

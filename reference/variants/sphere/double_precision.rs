@@ -1,4 +1,4 @@
-// Computes everything in double precision, and rounds once at the end.
+// Computes everything in double precision and rounds once at the end.
 
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
 // Uses fused multiply-adds everywhere. For the discriminant b² − a·c, this follows Kahan, "On the Cost
-// of Floating-Point Computation Without Extra-Precise Arithmetic", 2004: the product a·c is rounded,
-// and its rounding error, which a fused multiply-add computes exactly, is subtracted.
+// of Floating-Point Computation Without Extra-Precise Arithmetic", 2004: a fused multiply-add computes
+// the exact rounding error of the product a·c, which is then subtracted.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
@@ -26,7 +26,7 @@ impl Sphere {
     }
 }
 
-/// Returns the dot product, with only three roundings.
+/// Returns the dot product with only three roundings.
 fn dot(a: Vec3, b: Vec3) -> f32 {
     a.x.mul_add(b.x, a.y.mul_add(b.y, a.z * b.z))
 }

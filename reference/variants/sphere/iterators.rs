@@ -1,4 +1,4 @@
-// Takes the smallest of the roots in the range, with an iterator over the two signs.
+// Finds the smallest root in the range with an iterator over the two signs.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,4 +1,5 @@
-// Has a type for the quadratic polynomial, and improves each root by one step of Newton's method.
+// Defines a type for the quadratic polynomial and improves each root by one step of Newton's
+// method.
 
 /// The polynomial a·t² + 2b·t + c.
 struct Quadratic {

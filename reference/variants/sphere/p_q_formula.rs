@@ -1,5 +1,5 @@
-// Divides the equation by a, and solves t² + p·t + q = 0 with the p-q formula, which German schools
-// teach: −p/2 ± √((p/2)² − q). Adds from z to x, and multiplies by reciprocals.
+// Divides the equation by a and solves t² + p·t + q = 0 with the p-q formula, which German schools
+// teach: −p/2 ± √((p/2)² − q). Adds from z to x and multiplies by reciprocals.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
@@ -8,7 +8,7 @@ impl Sphere {
         let inverse = 1.0 / sum(ray.dir * ray.dir);
         let p = 2.0 * sum(o * ray.dir) * inverse;
         let q = (sum(o * o) - self.radius * self.radius) * inverse;
-        // If the line misses the sphere, this is NaN, which is in no range.
+        // If the line misses the sphere, this is NaN, which isn't in any range.
         let root = (p * p / 4.0 - q).sqrt();
 
         let roots = [-p / 2.0 - root, -p / 2.0 + root];

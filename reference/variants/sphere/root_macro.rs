@@ -1,4 +1,4 @@
-// Tries the roots one after the other with a macro that returns from the method.
+// Tries the roots in turn with a macro that returns from the method.
 
 /// Returns the trace at a distance from the calling method if the distance is in the ray's range.
 macro_rules! return_if_in_range {

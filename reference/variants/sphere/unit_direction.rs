@@ -1,5 +1,5 @@
-// Leaves out the coefficient a, which is 1 because directions have length one. There is no test
-// for a negative discriminant: its square root is NaN, which is in no range.
+// Leaves out the coefficient a, which is 1 because directions have length one. A negative
+// discriminant doesn't need a test: its square root is NaN, which isn't in any range.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,4 +1,5 @@
-// Has a type for barycentric coordinates, whose product with three values is their weighted sum.
+// Defines a type for barycentric coordinates. Multiplying it by three values gives their weighted
+// sum.
 
 use std::ops::{Add, Mul};
 

@@ -1,6 +1,6 @@
-// Computes the determinant as the dot product of the face normal and −d, and tests the weights
-// before the only division. This follows Ericson, "Real-Time Collision Detection", section 5.3.6,
-// but accepts hits on both sides.
+// Computes the determinant as the dot product of the face normal and −d. Tests the weights before
+// the only division. This follows Ericson, "Real-Time Collision Detection", section 5.3.6, but
+// accepts hits on both sides.
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,5 +1,5 @@
-// Applies Cramer's rule as in a textbook: computes the determinant of the matrix, and those of
-// three matrices with one column replaced.
+// Applies Cramer's rule as in a textbook: computes the determinant of the matrix and of three
+// matrices with one column replaced.
 
 use glam::Mat3;
 

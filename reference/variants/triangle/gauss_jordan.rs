@@ -16,7 +16,7 @@ impl Triangle {
     }
 }
 
-/// Solves N linear equations, or returns `None` if they have no single solution.
+/// Solves N linear equations, or returns `None` if the solution isn't unique.
 fn solve<const N: usize>(mut matrix: [[f64; N]; N], mut right: [f64; N]) -> Option<[f64; N]> {
     for column in 0..N {
         let size = |row: &usize| matrix[*row][column].abs();

@@ -14,7 +14,7 @@ impl Triangle {
     }
 }
 
-/// Solves three linear equations, or returns `None` if they have no single solution.
+/// Solves three linear equations, or returns `None` if the solution isn't unique.
 fn solve(mut rows: [[f32; 4]; 3]) -> Option<[f32; 3]> {
     for column in 0..3 {
         // The largest pivot causes the smallest rounding errors.

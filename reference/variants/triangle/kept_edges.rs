@@ -32,7 +32,7 @@ impl Triangle {
     }
 
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // Cramer's rule: the determinant of the three equations, and the determinants in which s
+        // Cramer's rule: the determinant of the three equations, and the determinants where s
         // replaces a column.
         let determinant = -self.face.dot(ray.dir);
         if determinant == 0.0 {

@@ -1,4 +1,4 @@
-// Uses the algorithm as it is printed in Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle
+// Uses the algorithm exactly as printed in Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle
 // Intersection", Journal of Graphics Tools 2(1), 1997: P = d × e2, Q = s × e1, and each test as
 // early as possible.
 

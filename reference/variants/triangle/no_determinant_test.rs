@@ -1,5 +1,5 @@
-// Does not test the determinant: if it is zero, the weights or t are infinite or NaN. They fail
-// the range tests, which are written so that NaN fails too.
+// Doesn't test the determinant. If it is zero, the weights or t are infinite or NaN and fail the
+// range tests, which are written so that NaN fails too.
 
 use glam::Vec3;
 

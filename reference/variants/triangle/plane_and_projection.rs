@@ -1,5 +1,5 @@
 // Intersects the plane first, then drops the axis along which the face normal has its largest
-// component, and computes the weights in two dimensions. See Badouel, "An Efficient Ray-Polygon
+// component and computes the weights in two dimensions. See Badouel, "An Efficient Ray-Polygon
 // Intersection", Graphics Gems, 1990.
 
 use glam::{Vec2, Vec3};

@@ -8,7 +8,7 @@ impl Triangle {
         let [a, b, c] = [self.p0, self.p1, self.p2].map(|corner| corner.position);
         let face = (b - a).cross(c - a);
         let inverse_area = 1.0 / face.length();
-        // For a triangle without area, n is NaN, and so is t.
+        // For a triangle without area, n and t are NaN.
         let n = face * inverse_area;
         let k = -n.dot(a);
         let slope = n.dot(ray.dir);

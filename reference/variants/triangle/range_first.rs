@@ -1,4 +1,4 @@
-// Tests t first, and then the weights in the order w, v, u.
+// Tests t first and then the weights in the order w, v, u.
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,4 +1,4 @@
-// Tests the range with the function that this solution's sphere.rs has for it.
+// Tests the range with a function from this solution's sphere.rs.
 
 use crate::sphere::first_in_range;
 

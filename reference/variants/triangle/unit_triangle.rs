@@ -36,7 +36,7 @@ impl Triangle {
         let origin = self.to_unit * (ray.origin - self.p0.position);
         let dir = self.to_unit * ray.dir;
 
-        // For a triangle without area the matrix contains infinities or NaN, which fail all tests.
+        // For a triangle without area, the matrix contains infinities or NaN, which fail all tests.
         let t = -origin.z / dir.z;
         let (u, v) = (origin.x + t * dir.x, origin.y + t * dir.y);
         let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;

@@ -6,8 +6,8 @@ use glam::Vec3;
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // z is the axis along which the direction has its largest component; x and y are the other
-        // two, in the order that keeps the winding.
+        // z is the axis along which the direction has its largest component. x and y are the other
+        // two axes, in the order that keeps the winding.
         let z = ray.dir.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
         if ray.dir[z] < 0.0 {
@@ -40,8 +40,8 @@ impl Triangle {
     }
 }
 
-/// Returns a number whose sign tells on which side of the edge from `a` to `b` the ray passes. The
-/// number is computed in double precision if single precision gives zero.
+/// Returns a number whose sign is the side of the edge from `a` to `b` that the ray passes. It is
+/// computed in double precision if single precision gives zero.
 fn edge(a: Vec3, b: Vec3) -> f32 {
     let side = a.x * b.y - a.y * b.x;
     if side != 0.0 {

@@ -21,8 +21,8 @@ use crate::run::Run;
 use crate::store::Store;
 use crate::submission_grader::SubmissionGrader;
 
-/// The maximum number of attempts to grade an entry. If all of them fail, the entry gets no score
-/// in this run.
+/// The maximum number of attempts to grade an entry. If all of them fail, the entry doesn't get a
+/// score in this run.
 const ATTEMPTS: usize = 3;
 /// The maximum length of a fault's message, in characters.
 const MAX_FAULT_CHARS: usize = 2_000;
@@ -38,7 +38,7 @@ pub struct EntryGrader<'a> {
 }
 
 impl EntryGrader<'_> {
-    /// Grades entries, this many at a time, and shows the progress. Returns each entry's result and
+    /// Grades entries, `slots` at a time, and shows the progress. Returns each entry's result and
     /// the time it took.
     pub fn grade_all(
         &self,
@@ -70,7 +70,8 @@ impl EntryGrader<'_> {
         })
     }
 
-    /// Returns whether an entry needs no gradingbecause it has a valid result or nothing to grade.
+    /// Returns whether an entry need not be graded, because it has a valid result or nothing to
+    /// grade.
     fn is_done(&self, entry: &Entry) -> bool {
         match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {

@@ -234,7 +234,7 @@ fn match_rows<'c>(
     let Gradebook { keys, table, .. } = gradebook;
     let name_in = |row_index: &usize| gradebook.name(&table.rows[*row_index]);
     // For each key, the indices of the rows with each text. A text that occurs in several rows
-    // identifies nobody.
+    // doesn't identify anybody.
     let index_rows = |key: &Key| {
         let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (row_index, row) in table.rows.iter().enumerate() {

@@ -39,9 +39,9 @@ pub struct PersonGrade {
     pub counted: Option<CountedPoints>,
     /// Why a score has no final points.
     pub problem: Option<GradeProblem>,
-    /// Whether the submission counts as on time because its submission time is unknown.
+    /// Whether the submission is treated as on time because its submission time is unknown.
     pub is_undated: bool,
-    /// The points that staff gave by hand.
+    /// The manual points that staff gave.
     pub manual: Vec<ManualPoints>,
 }
 
@@ -133,7 +133,7 @@ impl ClassRow {
     }
 
     /// Returns sentences that explain how the score contributes to each person's grade. A sentence
-    /// that applies to everyone names nobody.
+    /// that applies to everyone doesn't contain names.
     pub fn counted_texts(&self) -> Vec<String> {
         self.merge(PersonGrade::explanation)
     }
@@ -146,7 +146,7 @@ impl ClassRow {
                 why if why.is_empty() => None,
                 why => Some(format!("{}: {why}", self.status(grade))),
             };
-            // Without either, the table's columns say it all.
+            // Without either, the table's columns are enough.
             let needs_words =
                 |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
             let counted = grade

@@ -1,14 +1,15 @@
-//! Finds the folder that has the entries. In an archive, that is often a folder in it.
+//! Finds the folder with the entries. In an archive, that is often a folder in it.
 //!
-//! If a folder is alone, it may be the class, or the class's only submission. Its contents do not
-//! tell: a student may have written them. The name tells, if a platform or a teacher has chosen it.
+//! A single folder may be the class or the class's only submission. Its contents don't decide this,
+//! because a student may have written them. Its name does, if it was chosen by a platform or a
+//! teacher.
 
 use super::METADATA;
 use super::platforms::{SAKAI_ARCHIVE, TEAMS_DRAFTS, TEAMS_SUBMITTED};
 use crate::listing::Node;
 use crate::names::{fold, is_number};
 
-/// Returns the folder with the entries, and a note if it is not `root`, or if it could be another.
+/// Returns the folder with the entries, and a note if it isn't `root` or could be a different one.
 /// `archive` is the name of the archive that the folder was unpacked from.
 pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node, Option<String>) {
     if let Some(found) = find_teams_folder(root) {
@@ -34,8 +35,8 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
     }
 }
 
-/// Returns the folder with the submissions in a library of Microsoft Teams, and a note. Beside it, the
-/// library has only drafts.
+/// Returns the folder with the submissions in a Microsoft Teams library, and a note. The rest of the
+/// library only contains drafts.
 fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
     let names = root.children().iter().map(|node| node.name.as_str());
     let mut others = names.filter(|name| *name != TEAMS_SUBMITTED);
@@ -56,8 +57,8 @@ fn is_gradescopes(node: &Node) -> bool {
     number.is_some_and(is_number) && node.find(METADATA).is_some()
 }
 
-/// Returns whether an archive has the name of the folder in it, as if the folder was packed. Drives and
-/// browsers append a time or a number.
+/// Returns whether an archive has the name of the folder in it, as if the folder had been packed.
+/// Drives and browsers append a time or a number.
 fn is_packed(folder: &str, archive: &str) -> bool {
     let letters =
         |name: &str| -> String { fold(name).chars().filter(|c| c.is_alphanumeric()).collect() };

@@ -1,4 +1,4 @@
-//! Gradescope's `submission_metadata.yml`, whose keys are Ruby symbols, with a colon in front.
+//! Gradescope's `submission_metadata.yml`, whose keys are Ruby symbols that start with a colon.
 
 use std::collections::BTreeMap;
 
@@ -42,8 +42,8 @@ enum Scalar {
 
 /// Parses the file. Returns the record of each submission by the name of its folder.
 pub(super) fn read_metadata(metadata: &str) -> Result<BTreeMap<String, SubmissionRecord>, Error> {
-    // The exports of large classes include all earlier results, and exceed the default limits,
-    // which are meant for untrusted input.
+    // The exports of large classes include all earlier results and exceed the default limits, which
+    // are meant for untrusted input.
     let budget = serde_saphyr::budget! {
         max_reader_input_bytes: Some(256 << 20),
         max_events: 50_000_000,

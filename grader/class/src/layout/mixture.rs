@@ -1,6 +1,6 @@
-//! Finds entries of a plain class that seem to be of several people: a folder for a tutorial with a
-//! folder for each student, and the files of several people side by side, as a browser or a drive
-//! numbers them. Whose points they would be cannot be told.
+//! Finds entries of a plain class that seem to belong to several people: a folder for a tutorial
+//! with a folder for each student, or the files of several people side by side, numbered by a
+//! browser or a drive. It would be unclear who gets the points.
 
 use grader::handed_out::{HandedOut, TaskFile};
 
@@ -12,8 +12,8 @@ use crate::roster::Member;
 /// The maximum number of names in a message.
 const MAX_NAMES: usize = 3;
 
-/// Marks each entry that seems to be of several people as one without files, and returns the reasons.
-/// Somebody on a list has one submission, whatever folders it has.
+/// Marks each entry that seems to belong to several people as one without files. Returns the
+/// reasons. An entry of somebody on a list is always one submission, regardless of its folders.
 pub(super) fn reject_mixtures(
     root: &Node,
     entries: &mut [Entry],
@@ -51,8 +51,8 @@ pub(super) fn reject_mixtures(
     mixtures
 }
 
-/// Returns the reason why a folder has the files of several people: several versions of task files, or
-/// many of one, with numbers that a browser or a drive has appended.
+/// Returns the reason a folder seems to contain the files of several people: several versions of task
+/// files, or many of one, with numbers appended by a browser or a drive.
 pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     let versions = |file: &TaskFile| -> Vec<&str> {
         let names = node.children().iter().filter(|node| !node.is_folder());
@@ -76,7 +76,7 @@ pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     })
 }
 
-/// Returns whether a name is that of the file, or of a numbered copy: `bvh (1).rs` or `bvh(1).rs`.
+/// Returns whether a name is that of the file or of a numbered copy: `bvh (1).rs` or `bvh(1).rs`.
 fn is_version(name: &str, file: &str) -> bool {
     let stem = |name: &str| Some(name.to_lowercase().strip_suffix(".rs")?.to_owned());
     let (Some(name), Some(file)) = (stem(name), stem(file)) else {
@@ -91,8 +91,8 @@ fn is_version(name: &str, file: &str) -> bool {
     name == file || number().is_some_and(is_number)
 }
 
-/// Returns the names of the folders in a folder that look like submissions, if there are several and
-/// the folder itself is none. A folder that has only one other is skipped.
+/// Returns the names of the subfolders that look like submissions, if there are several and the
+/// folder itself isn't a submission. A folder that only contains one other is skipped.
 fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<&'a str>> {
     if is_submission(node, handed_out) {
         return None;
@@ -114,8 +114,8 @@ fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<
     (inside.len() > 1).then_some(inside)
 }
 
-/// Returns whether a folder has repositories, and is none. Git creates the hidden folder in each, which
-/// nobody can hand in. Without it, the task files tell.
+/// Returns whether a folder contains repositories but isn't one itself. A repository is recognised by
+/// the hidden folder that Git creates, which nobody can hand in, or by its task files.
 pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
     let is_repository = |node: &Node| node.path.join(".git").exists();
     let has_repositories = || node.children().iter().any(is_repository);

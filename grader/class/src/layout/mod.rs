@@ -1,7 +1,7 @@
-//! The layouts of the platforms' exports. A layout is recognised by its file names, and its entries
+//! The layouts of the platforms' exports. Layouts are recognised by file names, and their entries
 //! are listed without opening the submitted files.
 //!
-//! Files that do not fit the layout are reported, never silently ignored.
+//! Files that don't fit the layout are reported, never silently ignored.
 
 mod class_folder;
 mod gradescope;
@@ -38,20 +38,20 @@ pub struct RecognisedClass {
     pub layout: Layout,
     /// The entries, in the order of their ids.
     pub entries: Vec<Entry>,
-    /// The files and folders that belong to no entry.
+    /// The files and folders that don't belong to any entry.
     pub unmatched: Vec<UnmatchedPath>,
     /// Sentences about how the input was read, for a person to check.
     pub notes: Vec<String>,
-    /// For each entry that seems to be several people's and is not graded, the reason.
+    /// The reasons for not grading the entries that seem to belong to several people.
     pub mixtures: Vec<String>,
 }
 
-/// A file or folder in the input that belongs to no submission.
+/// A file or folder in the input that doesn't belong to any submission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnmatchedPath {
     /// The name of the file or folder.
     pub name: String,
-    /// The reason why the file or folder belongs to no submission.
+    /// The reason it doesn't belong to any submission.
     pub why: String,
 }
 
@@ -61,13 +61,13 @@ impl Layout {
         Platform::of(self).description
     }
 
-    /// Returns whether a file or folder has a name as in this layout.
+    /// Returns whether a file or folder is named as in this layout.
     pub fn has_name(self, name: &str) -> bool {
         is_name(Platform::of(self), name)
     }
 }
 
-/// Returns whether a file is one that a platform writes, and whose text is read.
+/// Returns whether a file is written by a platform and its text should be read.
 pub fn is_record(name: &str) -> bool {
     let receipts = Platform::of(Layout::Blackboard).texts.iter();
     let mut receipts = receipts.map(|template| template::readings(template, name));
@@ -75,9 +75,9 @@ pub fn is_record(name: &str) -> bool {
     lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
 }
 
-/// Recognises the layout of a folder and returns its entries. `metadata` is the text of
-/// Gradescope's metadata file, if there is one, and `known` are the people on lists. Only names in the
-/// folder itself count, which the platform or the teacher has chosen, and nothing in an entry.
+/// Recognises the layout of a folder and returns its entries. `metadata` is the text of Gradescope's
+/// metadata file, if any, and `known` are the people on lists. The contents of entries are ignored:
+/// only names in the folder itself are used, which the platform or the teacher has chosen.
 pub fn recognise(
     root: &Node,
     metadata: Option<&str>,
@@ -87,7 +87,7 @@ pub fn recognise(
     read_as(&LayoutChoice::default(), root, metadata, handed_out, known)
 }
 
-/// Like [`recognise`], unless the layout is chosen.
+/// Like [`recognise`], unless a layout was chosen.
 pub fn read_as(
     choice: &LayoutChoice,
     root: &Node,
@@ -107,7 +107,8 @@ pub fn read_as(
     };
     let (mut entries, unmatched) = reader(layout).read(root, metadata, choice)?;
     reject_links(root, &mut entries);
-    // Other layouts say who has handed in each entry, and so does a person who chooses this one.
+    // Other layouts specify who handed in each entry. A person who chooses this one vouches for
+    // that.
     let mixtures = match choice.layout {
         None if layout == Layout::Plain => {
             mixture::reject_mixtures(root, &mut entries, handed_out, known)
@@ -125,7 +126,7 @@ pub fn read_as(
     })
 }
 
-/// Recognises the layout of a folder. A folder that can be read in two ways is rejected.
+/// Recognises the layout of a folder. Rejects a folder that can be read in two ways.
 fn recognise_layout<'a>(
     root: &Node,
     reader: impl Fn(Layout) -> Reader<'a>,
@@ -167,7 +168,7 @@ fn is_github_classroom(root: &Node) -> bool {
     let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
     root.name.ends_with(SUBMISSIONS_SUFFIX)
         || root.find(CLASSROOM50_SCORES).is_some()
-        // A student can add this file, but not make all folders begin alike.
+        // A student can add this file but cannot make all folders begin alike.
         || (!common_prefix(&names, '-').is_empty() && has_results())
 }
 
@@ -198,8 +199,8 @@ fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
     }
 }
 
-/// Returns whether more than half of the files and folders in `root` have names of the platform, apart
-/// from those that it writes beside the submissions.
+/// Returns whether more than half of the files and folders in `root` are named as on the platform,
+/// ignoring those that it writes in addition to the submissions.
 fn is_majority(root: &Node, platform: &Platform) -> bool {
     let is_own = |node: &&Node| platform.own_files.contains(&node.name.as_str());
     let nodes = root.children().iter().filter(|node| !is_own(node));
@@ -207,8 +208,8 @@ fn is_majority(root: &Node, platform: &Platform) -> bool {
     2 * count.count() > nodes.count()
 }
 
-/// Turns ids into safe folder names, and appends numbers to those that would be equal on a file
-/// system that ignores case.
+/// Turns ids into safe folder names and appends numbers to those that would be equal on a
+/// case-insensitive file system.
 fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
@@ -224,7 +225,7 @@ fn make_ids_unique(entries: &mut [Entry]) {
     }
 }
 
-/// The entries of a layout, and the paths that belong to none.
+/// The entries of a layout, and the paths that don't belong to any.
 type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>);
 
 #[cfg(test)]

@@ -4,66 +4,68 @@ use super::Layout;
 use super::gradescope::METADATA;
 use crate::listing::Node;
 
-/// The name of the file that classroom50's tool writes beside the repositories. It has a row for each
-/// attempt of each student.
+/// The name of the file that classroom50's tool writes next to the repositories. It contains a row
+/// for each attempt of each student.
 pub const CLASSROOM50_SCORES: &str = "scores.csv";
 /// The name of a file that every repository of classroom50 contains.
 pub const CLASSROOM50_RESULT: &str = "result.json";
 /// The suffix of the folder that GitHub Classroom's tool creates.
 pub const SUBMISSIONS_SUFFIX: &str = "-submissions";
-/// The folder in a Teams library that has the submissions.
+/// The folder of a Teams library with the submissions.
 pub const TEAMS_SUBMITTED: &str = "Submitted files";
-/// The folder beside it, with drafts.
+/// The folder next to it, with drafts.
 pub const TEAMS_DRAFTS: &str = "Working files";
-/// The name of the archive in which Sakai puts the folder of the assignment.
+/// The name of the archive that Sakai puts the assignment's folder in.
 pub const SAKAI_ARCHIVE: &str = "bulk_download";
 
 const TEXT_BESIDE_FILES: &str = "text; the files handed in with it are graded";
 
-/// A platform's layout: how the names of files and folders give a submission, its people and its time.
-/// Names are described by [templates](super::template).
+/// A platform's layout: how the names of files and folders identify a submission, its people and its
+/// time. Names are described by [templates](super::template).
 #[derive(Debug)]
 pub struct Platform {
     /// The layout that this describes.
     pub layout: Layout,
     /// The name for messages.
     pub description: &'static str,
-    /// Templates of the folders between the class's folder and the submissions, for each level.
+    /// For each level of folders between the class's folder and the submissions, templates of their
+    /// names.
     pub outer_folders: &'static [&'static [&'static str]],
-    /// Templates of the names of submitted files and folders. Names that agree, apart from the file, are of
-    /// one submission. Of several templates, the first that fits counts.
+    /// Templates of the names of submitted files and folders. Names that only differ in the file belong to
+    /// the same submission. The first template that fits is used.
     pub files: &'static [&'static str],
-    /// Whether a file or folder can be a submission, or a file of one.
+    /// Whether a file or folder can be a submission or one of its files.
     pub is_submission: fn(&Node) -> bool,
-    /// Templates of the names of texts: submitted ones, or receipts that the platform writes.
+    /// Templates of the names of texts: either submitted ones or receipts that the platform writes.
     pub texts: &'static [&'static str],
-    /// The reason for not grading a submission that has texts, but no files.
+    /// The reason for not grading a submission with texts but without files.
     pub text_only: &'static str,
-    /// The reason for not grading texts beside files; `None` if every submission has a text.
+    /// The reason for not grading texts in addition to files, or `None` if every submission has a
+    /// text.
     pub text_beside_files: Option<&'static str>,
-    /// The reason for listing a name that follows no template.
+    /// The reason for listing a name that doesn't follow any template.
     pub unmatched: &'static str,
-    /// Files that the platform writes beside the submissions.
+    /// Files that the platform writes in addition to the submissions.
     pub own_files: &'static [&'static str],
     /// Templates of the submission's id.
     pub ids: &'static [&'static str],
     /// Templates of the person's name.
     pub names: &'static [&'static str],
-    /// Whether people's names come from names of files, so that those in lists are better.
+    /// Whether people's names come from file names, in which case names in lists are preferred.
     pub is_named_by_file: bool,
-    /// The source of the people and the time, if it is not the name.
+    /// The source of the people and the time, if not the name.
     pub record: Record,
     /// The field that begins with the same text in all names, such as the assignment's title, and the
-    /// separator at the end of this text.
+    /// separator that ends this text.
     pub prefixed: Option<(&'static str, char)>,
-    /// The name under which the platform accepts a page.
+    /// The file name that the platform requires for a page.
     pub hand_back: HandBackName,
 }
 
-/// A source of people and times that the platform has written.
+/// A source of people and times, written by the platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Record {
-    /// Names give everything.
+    /// Names contain everything.
     None,
     /// Gradescope's metadata file, which describes each folder.
     Metadata,
@@ -73,12 +75,13 @@ pub enum Record {
     FilesInFolder,
 }
 
-/// The file name under which a platform accepts a page for the people of a submission.
+/// The file name that a platform requires for the page of a submission's people.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HandBackName {
-    /// The platform has no such rule.
+    /// Any name is accepted.
     None,
-    /// A name with the marks [`WHO`](crate::entry::WHO) and [`NUMBER`](crate::entry::NUMBER).
+    /// A name with the placeholders [`WHO`](crate::entry::WHO) and
+    /// [`NUMBER`](crate::entry::NUMBER).
     Marks(&'static str),
     /// The name of the last attachment.
     Attachment,
@@ -92,7 +95,7 @@ impl Platform {
         platform.expect("every layout is described")
     }
 
-    /// Returns whether names have the numbers of attachments, as in Canvas.
+    /// Returns whether names contain the numbers of attachments, as in Canvas.
     pub fn has_attachments(&self) -> bool {
         self.hand_back == HandBackName::Attachment
     }
@@ -159,9 +162,9 @@ pub static PLATFORMS: [Platform; 10] = [
         ..FOLDERS
     },
     // "Download all submissions": `Jane Doe_123_assignsubmission_file_`, a folder or the beginning of a
-    // file's name. The number identifies the participant, as in the grading worksheet, or a group, if
-    // groups hand in together. Nothing in the name tells which: only a list does, by the name. People
-    // without a group have no number. With blind marking, the name is `Participant`.
+    // file's name. The number identifies the participant, as in the grading worksheet, or a group if
+    // groups hand in together. Only a list can tell which one it is, by the name. People without a
+    // group don't have a number. With blind marking, the name is `Participant`.
     Platform {
         layout: Layout::Moodle,
         description: "a Moodle download",
@@ -175,7 +178,7 @@ pub static PLATFORMS: [Platform; 10] = [
             "{name}[_{number}]_assignsubmission_{kind}[_{file}]",
         ],
         unmatched: "its name is not in Moodle's format",
-        // With the number, the id stays the same when a namesake hands something in.
+        // With the number, the id stays the same even if a namesake hands something in.
         ids: &["Participant_{participant}", "{name}[_{number}]"],
         names: &["Participant {participant}", "{name}"],
         is_named_by_file: false,
@@ -183,7 +186,7 @@ pub static PLATFORMS: [Platform; 10] = [
         ..FOLDERS
     },
     // "Assignment file download": `Path tracer_jdoe_attempt_2026-11-20-23-34-05_camera.rs`, and for each
-    // attempt a text file without a student's file name, which has the account in its first line.
+    // attempt a text file without a student's file name, with the account in its first line.
     Platform {
         layout: Layout::Blackboard,
         description: "a Blackboard download",
@@ -199,8 +202,8 @@ pub static PLATFORMS: [Platform; 10] = [
         prefixed: Some(("account", '_')),
         ..FOLDERS
     },
-    // "Download all files": `104840-170649 - Jane Doe - Nov 20, 2026 1134 PM` with the numbers of the user
-    // and the assignment, for each attempt.
+    // "Download all files": `104840-170649 - Jane Doe - Nov 20, 2026 1134 PM` for each attempt, with the
+    // numbers of the user and the assignment.
     Platform {
         layout: Layout::Brightspace,
         description: "a Brightspace download",
@@ -248,8 +251,8 @@ pub static PLATFORMS: [Platform; 10] = [
         ..FOLDERS
     },
     // Clones from GitHub Classroom or classroom50: repositories named after the assignment and the account.
-    // GitHub Classroom puts them into a folder `ASSIGNMENT-submissions`; classroom50 writes `scores.csv`
-    // beside them.
+    // GitHub Classroom puts them into a folder `ASSIGNMENT-submissions`. classroom50 writes `scores.csv`
+    // next to them.
     Platform {
         layout: Layout::GitHub,
         description: "clones from a GitHub classroom",

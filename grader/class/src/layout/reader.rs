@@ -1,5 +1,5 @@
 //! Reads a class by its [`Platform`]: finds the submissions by the names of files and folders, and their
-//! people and times by the names or by what the platform has written.
+//! people and times by these names or in files that the platform has written.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,10 +19,10 @@ use crate::listing::Node;
 use crate::names::is_number;
 use crate::roster::Member;
 
-/// The reason for not grading users with one number and different names.
+/// The reason for not grading users with the same number but different names.
 const SHARED_NUMBER: &str = "another file has the same user number with another name: rename it, or \
     put the files of each student into a folder of their own";
-/// The reason for not grading two files of one name, which Canvas never has.
+/// The reason for not grading two files with the same name, which Canvas never exports.
 const REPEATED_FILE: &str = "two of its files have the same name: remove the one that does not count, \
     or put the files of each student into a folder of their own";
 /// The reason for not grading two downloads that were unpacked into one folder.
@@ -31,14 +31,14 @@ const SEVERAL: &str = "it is in several folders of this name: keep the one that 
 const MAX_CHARS: usize = 400;
 /// The fields that differ between the files of one submission.
 const OF_FILES: [&str; 4] = ["file", "attachment", "late", "kind"];
-/// Sakai's folder for the files that a student handed in. Other folders beside it have feedback.
+/// Sakai's folder for the files that a student handed in. Folders next to it contain feedback.
 const SAKAI_ATTACHMENTS: &str = "Submission attachment(s)";
 /// Sakai's file with the submission time.
 pub const SAKAI_TIME: &str = "timestamp.txt";
 /// Sakai's file with the members of a group.
 pub const SAKAI_MEMBERS: &str = "members.txt";
 
-/// The people of a submission and its time, as the platform has recorded them. Unknown ones are empty.
+/// The people of a submission and its time, as recorded by the platform. Unknown ones are empty.
 #[derive(Debug, Default)]
 pub(super) struct SubmissionRecord {
     pub people: Vec<Person>,
@@ -80,9 +80,9 @@ pub(super) fn is_name(platform: &Platform, name: &str) -> bool {
 }
 
 impl Reader<'_> {
-    /// Returns whether the files can be a download of Canvas, and not other files whose names have two
-    /// numbers, such as a date. In these, the same number or name is where Canvas has the students', or
-    /// two files have one attachment.
+    /// Returns whether the files can be a download from Canvas, rather than other files with two
+    /// numbers in their names, such as a date. Those have the same number or name where Canvas has the
+    /// students', or two files with the same attachment.
     pub fn is_canvas_download(&self, root: &Node) -> bool {
         let nodes = root.children().iter();
         let names = nodes.map(|node| (node, first_readings(self.platform.files, &node.name)));
@@ -104,8 +104,8 @@ impl Reader<'_> {
         attachments == names.len() && !is_of_one
     }
 
-    /// Returns the entries of a class, and the paths that belong to none. `metadata` is the text of
-    /// Gradescope's file.
+    /// Returns the entries of a class, and the paths that don't belong to any. `metadata` is the
+    /// text of Gradescope's file.
     pub fn read(
         &self,
         root: &Node,
@@ -162,8 +162,8 @@ impl Reader<'_> {
         Ok((entries, unmatched))
     }
 
-    /// Reads the names in a folder. `levels` has the templates of the folders in it that are above the
-    /// submissions, `outer` the parts of those that it is in, and `above` their path.
+    /// Reads the names in a folder. `levels` are the templates of folders between it and the
+    /// submissions, `outer` the parts of the folders that it is in, and `above` their path.
     fn visit<'a>(
         &self,
         folder: &'a Node,
@@ -194,7 +194,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Adds a file or folder that is where submissions are.
+    /// Adds a file or folder at the level of the submissions.
     fn add<'a>(&self, node: &'a Node, outer: &Parts<'a>, path: String, names: &mut Names<'a>) {
         let mut ways = Vec::new();
         if (self.platform.is_submission)(node) {
@@ -222,7 +222,7 @@ impl Reader<'_> {
         };
         let mut parts = outer.join(own);
         if self.platform.layout == Layout::Plain && !node.is_folder() {
-            // A folder of the same name is another submission.
+            // A folder with the same name is a different submission.
             parts.set("whole_name", &node.name);
             parts.set("name", strip_archive_extension(&node.name));
         }
@@ -234,7 +234,7 @@ impl Reader<'_> {
         });
     }
 
-    /// Removes the text with which all names begin, such as the assignment's title.
+    /// Removes the text that all names begin with, such as the assignment's title.
     fn strip_prefix(&self, root: &Node, found: &mut [Found]) {
         let Some((field, separator)) = self.platform.prefixed else {
             return;
@@ -253,7 +253,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns whether a list has the person's number with a name like the person's.
+    /// Returns whether a list has the person's number with a similar name.
     fn is_listed(&self, parts: &Parts) -> bool {
         let person = person(self.platform, parts);
         let mut members = self.known.iter().map(|member| &member.person);
@@ -328,8 +328,8 @@ impl Reader<'_> {
         }
         let mut counting = Vec::new();
         for (index, found) in files.iter().enumerate() {
-            // Of the archives that were handed in under one name, the newest counts. Files that were
-            // handed in again come later in the list.
+            // If several archives were handed in under the same name, the newest is used. Files that
+            // were handed in again come later in the list.
             let base = without_number(&name(found));
             let mut later = files[index + 1..]
                 .iter()
@@ -340,7 +340,7 @@ impl Reader<'_> {
             if is_renamed && is_replaced {
                 continue;
             }
-            // Other names than those of task files may end in a number of their own.
+            // Names other than those of task files may end in their own numbers.
             let is_task_file = is_renamed && self.handed_out.task_file(&base).is_some();
             let own = if is_task_file { base } else { name(found) };
             counting.push((own, found.node.path.clone()));
@@ -361,7 +361,7 @@ fn unmatched(name: String, why: &str) -> UnmatchedPath {
 }
 
 impl SubmissionRecord {
-    /// Adds what is recorded to an entry.
+    /// Adds the recorded information to an entry.
     fn describe(self, mut entry: Entry) -> Entry {
         if !self.people.is_empty() {
             entry.info.people = self.people;
@@ -371,7 +371,8 @@ impl SubmissionRecord {
     }
 }
 
-/// Keeps the submissions of one assignment. Rejects a class with several, of which none is chosen.
+/// Keeps the submissions of one assignment. Rejects a class with several assignments if none was
+/// chosen.
 fn choose_title(found: &mut Vec<Found>, choice: &LayoutChoice) -> Result<(), Error> {
     let titles = found.iter().map(|found| found.parts.get("title"));
     let titles: BTreeSet<&str> = titles.filter(|title| !title.is_empty()).collect();
@@ -392,9 +393,9 @@ fn choose_title(found: &mut Vec<Found>, choice: &LayoutChoice) -> Result<(), Err
     }
 }
 
-/// Reads the first line of Blackboard's text file, `Name: Jane Doe (jdoe)`, in which the word before the
+/// Reads the first line of Blackboard's text file, `Name: Jane Doe (jdoe)`, where the word before the
 /// colon depends on the language. The assignment's title and the account may contain `_`, so only this
-/// line tells where the account begins.
+/// line shows where the account begins.
 fn read_receipt(parts: &mut Parts, texts: &[Found]) -> Result<SubmissionRecord, Error> {
     let text = read_text(texts.first().map(|text| text.node))?.unwrap_or_default();
     let line = text.lines().next().and_then(|line| line.split_once(": "));
@@ -433,7 +434,7 @@ fn read_files_in_folder(parts: &Parts, files: &[Found]) -> Result<SubmissionReco
     Ok(SubmissionRecord { people, time })
 }
 
-/// Reads a file that the platform has written, if it is one. A link may lead anywhere.
+/// Reads a file written by the platform. Links are not followed, since they may lead anywhere.
 fn read_text(node: Option<&Node>) -> Result<Option<String>, Error> {
     let Some(file) = node.filter(|node| !node.is_folder() && !node.is_link) else {
         return Ok(None);
@@ -443,8 +444,8 @@ fn read_text(node: Option<&Node>) -> Result<Option<String>, Error> {
     Ok(Some(text.trim_start_matches('\u{feff}').to_owned()))
 }
 
-/// Returns the name under which Canvas shows a page: that of the last attachment, if Canvas takes the first
-/// two numbers in it for the user's and the attachment's.
+/// Returns the name that Canvas shows a page under: the last attachment's, if its first two numbers are
+/// those that Canvas uses for the user and the attachment.
 fn attachment_name(canvas: &Platform, files: &[Found]) -> Option<String> {
     let archive = files.iter().rfind(|found| found.node.is_archive());
     let Found { parts, node, .. } = archive.or(files.last())?;
@@ -473,7 +474,7 @@ fn number<'a>(parts: &Parts<'a>) -> &'a str {
         .unwrap_or_default()
 }
 
-/// Returns the ways to read a name by the first template that it follows.
+/// Returns the possible readings of a name by the first template that it follows.
 fn first_readings<'a>(templates: &[&'static str], name: &'a str) -> Vec<Parts<'a>> {
     let ways = templates.iter().map(|template| readings(template, name));
     ways.into_iter()
@@ -499,8 +500,8 @@ fn ambiguous(ways: &[Parts], node: &Node) -> Entry {
 }
 
 /// Returns the common prefix of all names, cut off after its last separator, since the account names may
-/// begin with the same letters as well. For a single name, the prefix is empty, since nothing shows
-/// where the account name begins.
+/// begin with the same letters too. For a single name, the prefix is empty, since nothing shows where
+/// the account name begins.
 pub(super) fn common_prefix<'a>(names: &[&'a str], separator: char) -> &'a str {
     let [first, others @ ..] = names else {
         return "";

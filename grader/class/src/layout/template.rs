@@ -1,13 +1,13 @@
 //! Templates for the names that platforms give to files and folders, such as
-//! `{name}[_{number}]_assignsubmission_file[_{file}]`: text, fields in braces, and parts in brackets that
-//! a name may lack. A field is as short as possible; which texts can be in it depends on its name.
+//! `{name}[_{number}]_assignsubmission_file[_{file}]`: text, fields in braces, and optional parts in
+//! brackets. A field is as short as possible. Its name determines which texts it accepts.
 
 use std::collections::BTreeMap;
 
 use super::times::written_time;
 use crate::names::is_number;
 
-/// The template for one of the people in a name or file of Sakai.
+/// The template for one of the people in a name or file from Sakai.
 const MEMBER: &str = "{last},[ {first}]({eid})";
 
 /// The texts in the fields of a template.
@@ -15,7 +15,7 @@ const MEMBER: &str = "{last},[ {first}]({eid})";
 pub struct Parts<'a>(BTreeMap<&'static str, &'a str>);
 
 impl<'a> Parts<'a> {
-    /// Returns the text in a field, which is empty if the name lacks it.
+    /// Returns the text in a field, or an empty string if the name doesn't have it.
     pub fn get(&self, field: &str) -> &'a str {
         self.0.get(field).copied().unwrap_or_default()
     }
@@ -42,8 +42,8 @@ impl<'a> Parts<'a> {
         Parts(both.map(|(field, text)| (*field, *text)).collect())
     }
 
-    /// Fills in the first template whose fields all have a text, or returns an empty text. Parts in
-    /// brackets are left out if a field in them is empty.
+    /// Fills in the first template whose fields all have a text, or returns an empty string. Parts
+    /// in brackets are left out if a field in them is empty.
     pub fn fill_first(&self, templates: &[&'static str]) -> String {
         let mut filled = templates.iter().filter_map(|template| self.fill(template));
         filled.next().unwrap_or_default()
@@ -65,15 +65,15 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// Returns every way in which a name follows a template; the first is the one that is usually meant.
+/// Returns all readings of a name that follow a template, the most common one first.
 pub fn readings<'a>(template: &'static str, name: &'a str) -> Vec<Parts<'a>> {
     let mut found = Vec::new();
     find_readings(vec![template], name, &Parts::default(), &mut found);
     found
 }
 
-/// Returns the people in a text such as `Lee, Ann(ann); Kim, Bob(bob)`, or `None` if it has another
-/// form.
+/// Returns the people in a text such as `Lee, Ann(ann); Kim, Bob(bob)`, or `None` if it has a
+/// different form.
 pub fn read_members(text: &str) -> Option<Vec<Parts<'_>>> {
     let members = text
         .split("; ")
@@ -88,7 +88,7 @@ enum Item {
     Optional(&'static str),
 }
 
-/// Splits off the first item of a template; returns `None` at its end.
+/// Splits off the first item of a template. Returns `None` at its end.
 fn next_item(template: &'static str) -> Option<(Item, &'static str)> {
     if let Some(rest) = template.strip_prefix('{') {
         let (field, rest) = rest.split_once('}')?;
@@ -103,7 +103,8 @@ fn next_item(template: &'static str) -> Option<(Item, &'static str)> {
     }
 }
 
-/// Adds the ways in which a text follows the templates in `pending`, the last of which comes first.
+/// Adds the readings of a text that follow the templates in `pending`, the last of which comes
+/// first.
 fn find_readings<'a>(
     mut pending: Vec<&'static str>,
     text: &'a str,
@@ -133,7 +134,8 @@ fn find_readings<'a>(
                     let ends = text.char_indices().map(|(end, _)| end);
                     for end in ends.chain([text.len()]) {
                         let (own, after) = text.split_at(end);
-                        // Most ends are ruled out by the text that comes next, which is compared fast.
+                        // Most ends are ruled out by comparing the text that comes next, which is
+                        // fast.
                         if may_follow(&pending, after) && fits(field, own) {
                             let mut parts = parts.clone();
                             parts.set(field, own);
@@ -146,7 +148,7 @@ fn find_readings<'a>(
     }
 }
 
-/// Returns whether a text can follow templates, judged by their first item.
+/// Returns whether a text could follow templates, judging by their first item.
 fn may_follow(pending: &[&'static str], text: &str) -> bool {
     let mut items = pending
         .iter()
@@ -177,8 +179,8 @@ fn fits(field: &str, text: &str) -> bool {
     }
 }
 
-/// Returns whether Canvas can have written a name: it has a letter, unlike a date, and no number in
-/// its midst, where Canvas removes it. `LATE` after the name is not part of it.
+/// Returns whether Canvas can have written a name. It must contain a letter, unlike a date, and no
+/// number in the middle, where Canvas removes them. `LATE` after the name is not part of it.
 fn is_canvas_name(name: &str) -> bool {
     let parts: Vec<&str> = name.split('_').collect();
     let inner = parts.get(1..parts.len() - 1).unwrap_or_default();
@@ -191,7 +193,7 @@ fn is_canvas_name(name: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Returns the readings of a name, each filled into another template.
+    /// Returns the readings of a name, each filled into the template `shown`.
     fn read(template: &'static str, shown: &'static str, name: &str) -> Vec<String> {
         let ways = readings(template, name).into_iter();
         ways.map(|parts| parts.fill_first(&[shown])).collect()

@@ -27,8 +27,8 @@ fn layout(root: &Node) -> Layout {
     recognise(root, None, &RAYS, &[]).unwrap().layout
 }
 
-/// A student can write everything in a folder, and sometimes its name. The archive's name is the
-/// teacher's.
+/// A student can choose everything in a folder and sometimes its name. The archive's name is chosen
+/// by the teacher.
 #[test]
 fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
     let alone = |name: &str| {
@@ -59,7 +59,8 @@ fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
     assert_eq!(find_class_folder(&several, None), (&several, None));
 }
 
-/// Returns the folder's entries that are not graded because they seem to be of several people.
+/// Returns the number of the folder's entries that aren't graded because they seem to belong to
+/// several people.
 fn mixtures(root: &Node) -> usize {
     recognise(root, None, &RAYS, &[]).unwrap().mixtures.len()
 }
@@ -83,7 +84,7 @@ fn folders_of_several_people_are_recognised() {
         1
     );
     assert_eq!(mixtures(&flat(&["bvh.rs", "bvh (1).rs", "bvh (2).rs"])), 1);
-    // One person's copy, and one person's whole project.
+    // One person's copy, and one person's entire project.
     assert_eq!(mixtures(&flat(&["bvh.rs", "bvh (1).rs", "camera.rs"])), 0);
     let mut project = student("eve", "bvh.rs");
     let given = folder("framework", vec![file("camera.rs")]);
@@ -101,7 +102,7 @@ fn the_majority_of_names_decides_the_layout() {
     let canvas = files(&["doe_1_2_a.zip", "lee_3_4_b.zip", "readme.txt"]);
     assert_eq!(layout(&canvas), Layout::Canvas);
     for plain in [
-        // In these, the same user, name or attachment is everywhere.
+        // All of these have the same user, name or attachment.
         ["hw_1_20_jdoe.zip", "hw_1_21_mkim.zip"],
         ["hw_1_20_jdoe.zip", "hw_2_21_mkim.zip"],
         ["CS_148_3_jdoe.rs", "CS_148_3_mkim.rs"],

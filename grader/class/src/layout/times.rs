@@ -1,18 +1,18 @@
-//! The times in the names and files of exports, in forms that policies can read.
+//! Converts the times in the names and files of exports to forms that policies can read.
 
 use crate::names::is_number;
 
-/// Returns a time of a platform in a form with the usual signs, or `None` for other texts. Times without
-/// a zone are local times.
+/// Returns a platform's time with the usual punctuation, or `None` for other texts. Times without a zone
+/// are local times.
 pub fn written_time(text: &str) -> Option<String> {
-    // Blackboard's local time, and the one of older versions of Sakai, which ends in milliseconds.
+    // The local times of Blackboard and of older versions of Sakai, which end in milliseconds.
     with_signs(text, "0000-00-00-00-00-00", "0000-00-00 00:00:00")
         .or_else(|| with_signs(text, "00000000000000000", "0000-00-00 00:00:00 UTC"))
         .or_else(|| with_month(text))
 }
 
-/// Writes the digits of a time between the signs of `written`, if its form is `form`, in which `0` stands
-/// for a digit.
+/// Writes the digits of a time between the punctuation of `written`, if it has the form `form`, where `0`
+/// stands for a digit.
 fn with_signs(text: &str, form: &str, written: &str) -> Option<String> {
     let as_form = |sign: char| if sign.is_ascii_digit() { '0' } else { sign };
     let mut digits = text.chars().filter(char::is_ascii_digit);
@@ -27,7 +27,7 @@ fn with_signs(text: &str, form: &str, written: &str) -> Option<String> {
     signs.collect::<Option<String>>().filter(|_| is_of_form)
 }
 
-/// Brightspace's `Nov 20, 2026 1134 PM`. The colon is left out in names of files.
+/// Brightspace's `Nov 20, 2026 1134 PM`. The colon is omitted in file names.
 fn with_month(text: &str) -> Option<String> {
     let (time, half) = match text.rsplit_once(' ')? {
         (time, half @ ("AM" | "PM")) => (time, format!(" {half}")),

@@ -1,4 +1,4 @@
-//! Writes `grades.csv`, which has a row for each student.
+//! Writes `grades.csv`, with a row for each student.
 
 use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
@@ -30,8 +30,8 @@ const COLUMNS_AFTER_TASKS: [&str; 9] = [
 /// The mark of a submission that the platform marks as late.
 pub const LATE: &str = "LATE";
 
-/// Returns the table of the class. If a submission has no score, its points are left empty: the
-/// teacher decides how many it gets.
+/// Returns the table of the class. If a submission doesn't have a score, its points are left empty:
+/// the teacher decides how many it gets.
 pub fn grades_table(class: &GradedClass) -> Table {
     let tasks = class.tasks().iter();
     let tasks: Vec<&str> = tasks.map(|task| task.id.as_str()).collect();

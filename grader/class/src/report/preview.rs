@@ -14,7 +14,7 @@ use grader::printing::counted;
 /// The maximum length of a name or reason, in characters.
 const MAX_CHARS: usize = 1_000;
 
-/// Renders the entries with the files that each would be graded from.
+/// Renders the entries, each with the files that would be graded.
 pub fn render_preview(
     class: &RecognisedClass,
     missing: &[Person],
@@ -45,8 +45,8 @@ pub fn render_preview(
     )
 }
 
-/// Renders the problems that the teacher has to resolve. They are part of the preview, and are also
-/// printed after grading, since the grades do not include them.
+/// Renders the problems that the teacher has to resolve. They are part of the preview and are also
+/// printed after grading, since the grades don't include them.
 pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
     for note in &class.notes {
@@ -91,7 +91,7 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
     Ok(text)
 }
 
-/// Returns the ids of the entries that belong to the same person, for each person with several.
+/// For each person with several entries, returns their ids.
 fn several_of_one_person(entries: &[Entry]) -> BTreeSet<Vec<&str>> {
     let people = entries.iter().map(|entry| entry.info.people.as_slice());
     let of_one = attempts_by_person(people).into_iter().map(|attempts| {

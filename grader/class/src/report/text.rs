@@ -16,7 +16,7 @@ const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
 /// The characters for the columns of a bar chart, from the lowest to the highest.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// The maximum length of the reasons why a submission needs attention, which may name many files.
+/// The maximum length of the reasons a submission needs attention, which may name many files.
 const MAX_WHY_CHARS: usize = 1_000;
 /// The maximum number of changes to list for a gradebook or a regrade.
 const MAX_LINES: usize = 40;
@@ -80,7 +80,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
     text + "\n"
 }
 
-/// Renders lines below a heading, which may have words that are not strong.
+/// Renders lines below a heading whose first words, `strong`, are emphasised.
 fn section(strong: &str, rest: &str, lines: impl IntoIterator<Item = String>) -> String {
     let lines = lines.into_iter().map(|line| format!("  {line}\n"));
     format!("\n{STRONG}  {strong}{STRONG:#}{rest}\n") + &lines.collect::<String>()
@@ -106,7 +106,7 @@ fn distribution_line(title: &str, distribution: &Distribution) -> String {
     )
 }
 
-/// Renders the changes in the copy of a gradebook.
+/// Renders the changes to the copy of a gradebook.
 pub fn render_gradebook(filled: &FilledGradebook) -> String {
     let changes = filled.changes.iter();
     let widths = changes.clone().map(|change| change.who.chars().count());
@@ -157,7 +157,7 @@ pub fn render_regrade(regrade: &RegradeChanges) -> String {
     section(&title, &format!(" ({causes})"), lines)
 }
 
-/// Renders the scores that changed because their submission did.
+/// Renders the scores that changed because their submission changed.
 pub fn render_resubmitted(drifts: &[Drift]) -> String {
     let drifts = with_changed_points(drifts);
     if drifts.is_empty() {
@@ -180,7 +180,7 @@ pub fn render_grade_changes(grades: &GradeChanges) -> String {
         "{} changed",
         count_or_no(grades.changes.len(), "final grade")
     );
-    // A grade that changes unnoticed is found weeks later, so all of them are listed.
+    // All grades are listed, because a change that goes unnoticed is only found weeks later.
     let changes = grades.changes.iter().map(|change| one_line(change));
     section(&title, &causes, changes)
 }
@@ -215,7 +215,7 @@ pub fn points_of_item(change: &ItemChange) -> [String; 2] {
 }
 
 /// Returns lines about the first scores that changed, and the number of others. `location` says where
-/// those are.
+/// those can be found.
 fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
     let mut lines = Vec::new();
     for drift in drifts.iter().take(MAX_LINES) {
@@ -230,7 +230,7 @@ fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String
     lines.into_iter().chain(more(drifts.len(), location))
 }
 
-/// Returns a line about changes that are not listed, if there are any.
+/// Returns a line about changes that aren't listed, if any.
 fn more(all: usize, location: &str) -> Option<String> {
     match all.saturating_sub(MAX_LINES) {
         0 => None,

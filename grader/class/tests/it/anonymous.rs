@@ -1,4 +1,5 @@
-//! Anonymous grading: a copy of the class without names, with pseudonyms that only the key explains.
+//! Anonymous grading: a copy of the class with pseudonyms instead of names, which only the key
+//! resolves.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -57,7 +58,7 @@ fn nothing_in_the_copy_names_anybody_and_pseudonyms_stay() {
     let key = key(&class);
     let ids: Vec<&str> = key.keys().map(String::as_str).collect();
     assert_eq!(ids, ["kimono", "leeward"]);
-    // Graders see the pages, and can run a question again.
+    // Graders can read the pages and run a question again.
     let bob = &key["kimono"];
     let page = fs::read_to_string(blind.join(format!("students/{bob}/report.html"))).unwrap();
     assert_contains(
@@ -83,7 +84,7 @@ fn nothing_in_the_copy_names_anybody_and_pseudonyms_stay() {
     class.graded(&exam, &["--anonymous", again.to_str().unwrap()]);
     let after = (fs::read(again.join("grades.csv")).unwrap(), pages(&class));
     assert_eq!(after, before);
-    // Another class has other pseudonyms, although it has the same names.
+    // A different class with the same names gets different pseudonyms.
     let (other, _) = graded();
     assert!(self::key(&other)["kimono"] != *bob);
 }
@@ -115,7 +116,7 @@ fn points_by_hand_can_name_a_pseudonym() {
     insta::assert_snapshot!([refused("out/blind"), refused("class"), refused("blind")].concat());
 }
 
-/// The shards have no key: the merged class has one, and its policy is checked without the exam.
+/// Only the merged class has a key, not the shards, and its policy is checked without the exam.
 #[test]
 fn a_merged_class_has_pseudonyms_and_a_policy_that_fits_the_exam() {
     let class = TestClass::named("class")

@@ -1,11 +1,11 @@
-//! The table of points by hand: whom its rows belong to, what they are worth, and what is wrong with
-//! them.
+//! The table of manual points: who its rows belong to, their effect, and problems in them.
 
 use crate::harness::{TestClass, cell};
 
 const HEADER: &str = "author,student,task,comment,delta";
 
-/// Two people are called Ann Lee, and the reference of one of them has 2 of 2 points for the camera.
+/// Creates a class where two people are called Ann Lee. One of them handed in the reference, with 2
+/// of 2 points for the camera.
 fn class() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")
@@ -74,7 +74,7 @@ fn a_row_that_cannot_be_used_is_an_error_with_its_number() {
     insta::assert_snapshot!(errors.concat() + &no_author);
 }
 
-/// Ann's first attempt has no points, so none can be taken off.
+/// Ann's first attempt has 0 points, so none can be deducted.
 #[test]
 fn a_row_must_fit_the_attempt_that_counts() {
     let class = TestClass::named("class")

@@ -1,5 +1,5 @@
-//! Exports of platforms that record several attempts, and clones of groups. The names are those in the
-//! platforms' sources and in tools that read their exports.
+//! Exports of platforms that record several attempts, and clones of groups. The names come from the
+//! platforms' sources and from tools that read their exports.
 
 use std::fs;
 use std::path::Path;
@@ -48,7 +48,7 @@ fn blackboard() -> TestClass {
             &format!("{zoe}_my work.zip"),
             zip([("src/camera.rs", "text")]),
         )
-        // Her file is named like the receipt of somebody else.
+        // Her file is named like somebody else's receipt.
         .with(
             &format!("{zoe}_x_bob_attempt_2026-11-20-12-00-00.txt"),
             receipt("Bob (bob)"),
@@ -161,7 +161,7 @@ fn reads_sakai_folders_with_times_and_groups() {
         (name.to_owned(), fs::read(&path).unwrap())
     });
     fs::write(&file, zip(files)).unwrap();
-    // Archives have no entry for the empty folder.
+    // Archives don't have an entry for the empty folder.
     let packed = class.preview_of(&file, &[]);
     assert_contains(
         &packed,
@@ -268,7 +268,7 @@ fn a_teams_library_in_another_language_is_read_if_it_is_chosen() {
     );
 }
 
-/// Adds a repository as `git clone` makes it.
+/// Adds a repository as created by `git clone`.
 fn with_clone(class: TestClass, path: &str) -> TestClass {
     class
         .with(&format!("{path}/.git/HEAD"), "ref: refs/heads/main")
@@ -283,7 +283,7 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
         class.preview_of(&class.input(), &["--layout", "gitlab"])
     };
     let flat = preview(&["cg26-ann", "cg26-bob"]);
-    // There is only one student in the second.
+    // The second tutorial has only one student.
     let tutorials = preview(&["mon/cg26-ann", "mon/cg26-bob", "tue/cg26-eve"]);
     assert_snapshot!(format!("{flat}\n\n{tutorials}"));
 }
@@ -309,7 +309,7 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
     );
 }
 
-/// Without its receipts, nothing shows where the account begins in an only attempt.
+/// Without receipts, nothing shows where the account begins in a single attempt.
 #[test]
 fn a_chosen_layout_enters_a_folder_that_is_no_submission() {
     let class = TestClass::named("download").with(
@@ -367,14 +367,14 @@ fn links_between_the_folders_of_a_platform_are_not_followed() {
     assert_eq!(preview.matches("all 5 files").count(), 2);
 }
 
-/// Previews a class that is refused, and returns the error.
+/// Previews a class that is refused. Returns the error.
 fn refused(input: &Path, more: &[&str]) -> String {
     let mut command = class_command();
     command.arg(input).arg("--dry-run").args(more);
     refusal(&command.output().unwrap())
 }
 
-/// A part of a name, as platforms and students write it.
+/// Returns parts of names, as written by platforms and students.
 fn name_part() -> impl Strategy<Value = String> {
     let usual = [
         "ann",
@@ -409,7 +409,7 @@ fn name_part() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// Students choose the names of their files, and people their own.
+    /// Students choose the names of their files, and people their own names.
     #[test]
     fn whatever_names_an_export_has_each_is_graded_or_listed(
         names in proptest::collection::btree_map(
@@ -437,7 +437,7 @@ proptest! {
                         Source::Missing(_) => true,
                     })
             };
-            // Canvas's archives can be replaced by newer ones, and a receipt is no submission.
+            // Canvas's archives can be replaced by newer ones, and receipts aren't submissions.
             let is_other = *layout == Layout::Canvas || *layout == Layout::Blackboard;
             for node in root.children().iter().filter(|node| node.name != "grades.csv") {
                 prop_assert!(is_other || is_known(&node.name), "{layout:?}: {}", node.name);

@@ -1,5 +1,5 @@
-//! A question about a grade: the question is run again on the files that were graded, and the decision
-//! stays visible.
+//! Questions about a grade: a question is run again on the graded files, and the decision stays
+//! visible.
 
 use std::fs;
 
@@ -12,7 +12,8 @@ const MANUAL: &str = "student,task,delta,comment,author,date\n\
     ann,camera,0,asked about the offset,Tess,\n";
 const ROSTER: &str = "name,username,email\nBob Lee,bob,bob@x.edu\nBob Lee,bo,bo@x.edu\n";
 
-/// Bob has a mistake in `camera.offset`, and there is another person with his name.
+/// Returns a graded class. Bob has a mistake in `camera.offset`, and another person has the same
+/// name.
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")
@@ -31,7 +32,7 @@ fn graded() -> (TestClass, String) {
 #[test]
 fn a_question_is_run_again_as_the_report_quotes_it() {
     let (class, exam) = graded();
-    // Only the files that were graded count.
+    // Only the graded files are used.
     fs::remove_dir_all(class.input()).unwrap();
     let command = |words: &[&str]| {
         let mut command = class_command();

@@ -1,5 +1,5 @@
-//! Items and tasks that the policy takes out or reweights after the class was graded: each final grade
-//! that changes is listed with its cause, pages say what counts, and nothing is graded again.
+//! Items and tasks that the policy removes or reweights after the class was graded. Each final grade
+//! that changes is listed with its cause, pages explain the final points, and nothing is graded again.
 
 use std::fs;
 
@@ -8,10 +8,11 @@ use serde_json::Value;
 use crate::harness::{TestClass, cell};
 
 const ITEMS: [&str; 3] = ["camera.offset", "camera.unit_length", "sphere.radius"];
-/// Points by hand for the submission that cannot be graded.
+/// Manual points for the submission that cannot be graded.
 const MANUAL: &str = "student,task,delta,comment,author\ncarl,sphere,1,drawn on paper,Tess\n";
 
-/// Ann has all points, and Bob has none for `camera.offset`, which blocks his wrong `sphere.radius`.
+/// Returns a graded class. Ann has all points. Bob has none for `camera.offset`, which blocks his
+/// wrong `sphere.radius`.
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")

@@ -5,8 +5,8 @@ use jiff::fmt::strtime::BrokenDownTime;
 use jiff::tz::{Offset, TimeZone};
 use jiff::{SignedDuration, Timestamp};
 
-/// Dates with the name of a month: those of RFC 2822, Moodle's worksheets, Canvas's pages and
-/// spreadsheets. The year is last in all of them.
+/// Dates with the name of a month, as in RFC 2822, Moodle's worksheets, Canvas's pages and
+/// spreadsheets. The year comes last in all of them.
 const NAMED_DATES: [&str; 9] = [
     "%A, %d %B %Y",
     "%a, %d %b %Y",
@@ -21,16 +21,16 @@ const NAMED_DATES: [&str; 9] = [
 const TIMES_OF_DAY: [&str; 4] = ["%H:%M:%S%.f", "%H:%M", "%I:%M:%S %p", "%I:%M %p"];
 const OFFSETS: [&str; 2] = ["%z", "%:z"];
 
-/// The reason why a text is no point in time.
+/// The reason a text cannot be read as a point in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TimeError {
-    /// The text has no known form.
+    /// The text isn't in a known format.
     #[error("it is not a date and time in a known form, such as 2026-11-20 23:59:59 +0100")]
     UnknownForm,
-    /// The day, the month and the year cannot be told apart.
+    /// The day, the month and the year cannot be distinguished.
     #[error("it could be two different dates: write it as 2026-11-20 23:59:59 +0100")]
     AmbiguousDate,
-    /// The year is not one in which a course takes place.
+    /// No course takes place in this year.
     #[error("its year is not between 2000 and 2099: correct it")]
     ImplausibleYear,
     /// The time is so far from the due time that one of them must be wrong.
@@ -39,14 +39,14 @@ pub enum TimeError {
          policy"
     )]
     FarFromDue,
-    /// There is no offset from UTC, and no time zone is known.
+    /// The offset from UTC is missing, and no time zone is known.
     #[error("it has no time zone: set `timezone` under [late] in the policy")]
     NoTimeZone,
 }
 
-/// Reads a time as a platform writes it. A time without an offset from UTC is a local time in
-/// `zone`; if clocks show it twice because they are set back, the first of the two is meant, which is
-/// better for a student.
+/// Reads a time as a platform writes it. A time without an offset from UTC is a local time in `zone`.
+/// If clocks show it twice because they are set back, the first of the two is used, which is better
+/// for students.
 pub fn read_time(text: &str, zone: Option<&TimeZone>) -> Result<Timestamp, TimeError> {
     let text = normalise(text);
     let (date, rest) = named_date(&text).map_or_else(|| numeric_date(&text), Ok)?;
@@ -65,14 +65,14 @@ pub fn read_time(text: &str, zone: Option<&TimeZone>) -> Result<Timestamp, TimeE
     }
 }
 
-/// Returns whether a course can take place in the year of this time. Years such as 26, 1926 and 3026
-/// are mistakes.
+/// Returns whether a course could take place in the year of this time. Years such as 26, 1926 and
+/// 3026 are mistakes.
 pub(super) fn has_plausible_year(time: Timestamp) -> bool {
     (2000..2100).contains(&Offset::UTC.to_datetime(time).year())
 }
 
 /// The greatest plausible distance in days between a time and its due time. Beyond it, a time is
-/// nearer to the same date of another year, which is a frequent mistake.
+/// nearer to the same date in another year, and a wrong year is a frequent mistake.
 pub(super) const MOST_DAYS: i64 = 183;
 
 /// Returns whether two times are so far apart that they cannot belong to the same assignment.
@@ -80,11 +80,11 @@ pub fn are_far_apart(one: Timestamp, other: Timestamp) -> bool {
     one.duration_since(other).abs() > SignedDuration::from_hours(24 * MOST_DAYS)
 }
 
-/// Writes white space and the names of UTC in one way.
+/// Normalises whitespace and the names of UTC.
 fn normalise(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let text = words.join(" ");
-    // The name of a time zone, as in RFC 9557, says no more than the offset before it.
+    // The name of a time zone, as in RFC 9557, doesn't add anything to the offset before it.
     let text = match text.split_once('[') {
         Some((before, _)) if text.ends_with(']') => before,
         Some(_) | None => &text,
@@ -94,7 +94,7 @@ fn normalise(text: &str) -> String {
     before.map_or_else(|| text.to_owned(), |before| format!("{before} +0000"))
 }
 
-/// Reads a date with the name of a month. Returns it with the rest of the text.
+/// Reads a date with the name of a month. Returns it and the rest of the text.
 fn named_date(text: &str) -> Option<(Date, &str)> {
     NAMED_DATES.iter().find_map(|form| {
         let (mut parsed, end) = BrokenDownTime::parse_prefix(form, text).ok()?;
@@ -105,7 +105,7 @@ fn named_date(text: &str) -> Option<(Date, &str)> {
     })
 }
 
-/// Returns a year of four digits, or one of two, which spreadsheets write for the years from 2000.
+/// Returns a year of four digits or of two, which spreadsheets write for the years from 2000.
 fn full_year(digits: &str) -> Option<i16> {
     let year: i16 = digits.parse().ok()?;
     match digits.len() {
@@ -115,7 +115,7 @@ fn full_year(digits: &str) -> Option<i16> {
     }
 }
 
-/// Reads a date of three numbers. Returns it with the rest of the text.
+/// Reads a date of three numbers. Returns it and the rest of the text.
 fn numeric_date(text: &str) -> Result<(Date, &str), TimeError> {
     let end = text.find([' ', ',', 'T']).ok_or(TimeError::UnknownForm)?;
     let (date, rest) = text.split_at(end);
@@ -127,7 +127,7 @@ fn numeric_date(text: &str) -> Result<(Date, &str), TimeError> {
         return Err(TimeError::UnknownForm);
     };
     let [year_last, year_first] = [(third, first), (first, third)].map(|(year, day)| {
-        // Elsewhere, a number of more than two digits is no day.
+        // In other positions, a number of more than two digits isn't a day.
         let year = full_year(year).filter(|_| day.len() <= 2);
         move |month: &str, day: &str| Date::new(year?, month.parse().ok()?, day.parse().ok()?).ok()
     });
@@ -146,7 +146,7 @@ fn numeric_date(text: &str) -> Result<(Date, &str), TimeError> {
     }
 }
 
-/// Reads the time of day after a date, and the offset from UTC, if there is one.
+/// Reads the time of day after a date, and the offset from UTC, if any.
 fn time_and_offset(text: &str) -> Option<(Time, Option<Offset>)> {
     let text = text.strip_prefix(['T', ',', ' '])?.trim_start();
     let text = text.strip_prefix("at ").unwrap_or(text);

@@ -61,7 +61,7 @@ fn a_year_of_two_digits_is_one_from_2000() {
     ] {
         assert_eq!(read(text).as_deref(), Ok("2026-11-25T09:00:00Z"), "{text}");
     }
-    // The first number could be the year, too.
+    // The first number could also be the year.
     for text in ["25/10/26 10:00", "26-10-25 10:00", "26-10-25T10:00:00Z"] {
         assert_eq!(read(text), Err(TimeError::AmbiguousDate), "{text}");
     }
@@ -95,7 +95,7 @@ fn what_is_ambiguous_or_unknown_is_no_time() {
         "2026-11-25 0:30 AM",
         // It was a Wednesday.
         "Friday, 25 November 2026, 10:00 AM",
-        // The name of a time zone ends.
+        // The name of the time zone isn't closed.
         "2026-11-25 10:00[Europe/Berlin",
     ] {
         assert_eq!(read(text), Err(TimeError::UnknownForm), "{text}");
@@ -124,7 +124,7 @@ proptest! {
         let zone = berlin();
         let time = Timestamp::from_second(seconds / 60 * 60).unwrap();
         let zoned = time.to_zoned(zone.clone());
-        // In a repeated hour, the first of the two is meant.
+        // In a repeated hour, the first of the two is used.
         let earlier = zone.to_ambiguous_timestamp(zoned.datetime()).earlier().unwrap();
         let dates = NAMED_DATES.iter().chain(&["%Y-%m-%d", "%Y/%m/%d", "%d.%m.%Y", "%d.%m.%y"]);
         for (date, hour) in dates.flat_map(|date| TIMES_OF_DAY.map(|hour| (date, hour))) {

@@ -1,13 +1,13 @@
-//! Draws calls so that each class occurs about equally often, and those that are seldom drawn a little more.
+//! Draws calls so that all classes occur about equally often, the rarely drawn ones a little more.
 
 use std::collections::BTreeMap;
 
 use super::Aspect;
 use crate::seed::Rng;
 
-/// How many suitable calls are compared.
+/// The number of suitable calls that are compared.
 const CANDIDATES: usize = 48;
-/// How many calls are drawn at most to find them.
+/// The maximum number of calls drawn to find them.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.
@@ -23,7 +23,7 @@ pub struct Balance<C: 'static> {
 }
 
 impl<C> Balance<C> {
-    /// Creates a balance in which nothing has been chosen yet.
+    /// Creates a balance with all counts at 0.
     pub fn new(aspects: &'static [Aspect<C>]) -> Self {
         Balance {
             aspects,
@@ -33,12 +33,12 @@ impl<C> Balance<C> {
         }
     }
 
-    /// Says to which group the next calls belong. Each class shall occur in each group, too.
+    /// Starts a group for the next calls. Each class should also occur in each group.
     pub fn begin(&mut self, group: usize) {
         self.group = group;
     }
 
-    /// Draws some calls, and chooses the one whose classes have been chosen least often. Returns `None`
+    /// Draws some calls and chooses the one whose classes have been chosen least often. Returns `None`
     /// if `draw` never returns a call.
     pub fn choose(
         &mut self,
@@ -49,7 +49,7 @@ impl<C> Balance<C> {
         let mut of_group = group.or_insert_with(|| zeros(self.aspects)).clone();
         let drawn = (0..ATTEMPTS).filter_map(|_| draw(rng));
         let drawn: Vec<C> = drawn.take(CANDIDATES).collect();
-        // A class that is seldom drawn is chosen when it is, as it may not be drawn the next time.
+        // A rarely drawn class is chosen as soon as it comes up, since it may not be drawn again.
         let mut times = zeros(self.aspects);
         for (aspect, class) in drawn.iter().flat_map(|call| self.classes(call)) {
             times[aspect][class] += 1;

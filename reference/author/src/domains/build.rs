@@ -304,7 +304,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
     ],
 };
 
-/// The aspects that draws look at: those that need no tree.
+/// The aspects that are balanced when calls are drawn: those that can be computed without a tree.
 pub const DRAWN: &[Aspect<BuildCall>] = &[
     COUNT,
     LEAF_SIZE,
@@ -316,7 +316,7 @@ pub const DRAWN: &[Aspect<BuildCall>] = &[
     ARRANGEMENT,
 ];
 
-/// The number of primitives: each from 0 to 10, and then powers of two and what is near them.
+/// The number of primitives: each from 0 to 10, then powers of two and numbers close to them.
 const COUNT: Aspect<BuildCall> = Aspect {
     name: "primitives",
     classes: &[
@@ -367,7 +367,7 @@ const LEAF_SIZE: Aspect<BuildCall> = Aspect {
     },
 };
 
-/// The number of primitives, in leaves.
+/// The number of primitives relative to the leaf size.
 const LEAVES: Aspect<BuildCall> = Aspect {
     name: "primitives in leaves",
     classes: &[
@@ -435,7 +435,8 @@ const ARRANGEMENT: Aspect<BuildCall> = Aspect {
     class: arrangement,
 };
 
-/// The arrangement again, whatever its axis is. Each property of a tree is asked of each.
+/// The arrangement again, but regardless of its axis. Each property of a tree is tested with each
+/// arrangement.
 const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
     name: "arrangement along any axis",
     classes: &[
@@ -516,7 +517,7 @@ const SMALLER_SIDE: Aspect<BuildCall> = Aspect {
     name: "smaller side of the best split",
     classes: &["less than a sixteenth", "more"],
     class: |call| {
-        /// The number of primitives from which on the sides are told apart.
+        /// With fewer primitives than this, the sides aren't distinguished.
         const LEAST: usize = 17;
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
         if boxes.len() < LEAST || boxes.len() <= call.max_leaf_size as usize {
@@ -543,7 +544,7 @@ const SHAPE_OF_TREE: Aspect<BuildCall> = Aspect {
     },
 };
 
-/// The area of the root's box times the number of primitives, to which costs are proportional.
+/// The area of the root's box times the number of primitives. Costs are proportional to it.
 const WORK: Aspect<BuildCall> = Aspect {
     name: "area times primitives",
     classes: &["above 1e10"],
@@ -554,11 +555,12 @@ const WORK: Aspect<BuildCall> = Aspect {
 };
 
 fn arrangement(call: &BuildCall) -> Option<usize> {
-    /// How much smaller the box around all but the farthest primitive is if that one is far away.
+    /// The factor by which the box must shrink without the farthest primitive for that to be an
+    /// outlier.
     const OUTLIER: f64 = 5.0;
-    /// The ratio between the largest and the smallest of primitives of very different sizes.
+    /// The minimum ratio between the largest and the smallest of very different sizes.
     const SIZE_RATIO: f64 = 50.0;
-    /// The number of centres above which it is a class of its own that all coincide.
+    /// Arrangements with more coinciding centres than this are a separate class.
     const MANY: usize = 128;
 
     let centers = call.centers();
@@ -607,7 +609,7 @@ fn is_without_area(shape: &Shape) -> bool {
     a == b || b == c || c == a
 }
 
-/// Returns whether two shapes are equal but for their numbers.
+/// Returns whether two shapes are equal except for their numbers.
 fn has_equal(shapes: &[Shape]) -> bool {
     let text = |shape: &Shape| match shape {
         Shape::Triangle { vertices, .. } => format!("{vertices:?}"),
@@ -623,7 +625,7 @@ fn has_equal_boxes(shapes: &[Shape]) -> bool {
     !without_repetition(shapes.iter().map(text))
 }
 
-/// Returns half of the largest side of the box around all but the farthest of some points.
+/// Returns half of the longest side of the box around all points except the farthest.
 fn extent_without_farthest(points: &[DVec3]) -> f64 {
     let middle = points.iter().sum::<DVec3>() / points.len() as f64;
     let mut sorted = points.to_vec();

@@ -81,7 +81,7 @@ pub struct CameraCall {
     sample: Sample,
 }
 
-/// Parts of the vertical fields of view that the contract allows, in degrees.
+/// Intervals of the vertical fields of view that the contract allows, in degrees.
 pub const FIELDS_OF_VIEW: [(f64, f64); 8] = [
     (1.0, 1.0),
     (1.0, 10.0),
@@ -101,7 +101,7 @@ const FIELD_OF_VIEW: Aspect<CameraCall> = Aspect {
     class: |call| part(&FIELDS_OF_VIEW, call.camera.vertical_fov.into()),
 };
 
-/// Parts of the aspect ratios that the contract allows.
+/// Intervals of the aspect ratios that the contract allows.
 pub const ASPECT_RATIOS: [(f64, f64); 7] = [
     (0.1, 0.1),
     (0.1, 0.3),
@@ -118,7 +118,7 @@ const ASPECT_RATIO: Aspect<CameraCall> = Aspect {
     class: |call| part(&ASPECT_RATIOS, call.camera.aspect_ratio.into()),
 };
 
-/// The classes of the sides of a film.
+/// The classes of the film's width and height.
 const SIDES: &[&str] = &["1", "2 to 10", "11 to 255", "256 to 4095", "4096"];
 
 const COLUMNS: Aspect<CameraCall> = Aspect {
@@ -170,14 +170,14 @@ const OFFSET_Y: Aspect<CameraCall> = Aspect {
     class: |call| Some(offset_class(call.sample.offset.y)),
 };
 
-/// Pixels of a large film that are so wide that the offset shows.
+/// Pixels of a large film that are so wide that the offset matters.
 const LARGE_PIXEL_X: Aspect<CameraCall> = Aspect {
     name: "wide pixel",
     classes: &["of a large film"],
     class: |call| call.has_large_pixel(0).then_some(0),
 };
 
-/// Pixels of a large film that are so high that the offset shows.
+/// Pixels of a large film that are so high that the offset matters.
 const LARGE_PIXEL_Y: Aspect<CameraCall> = Aspect {
     name: "high pixel",
     classes: &["of a large film"],
@@ -185,11 +185,12 @@ const LARGE_PIXEL_Y: Aspect<CameraCall> = Aspect {
 };
 
 impl CameraCall {
-    /// Returns whether the film has many pixels along an axis, and yet the offset in this one shows.
+    /// Returns whether the film has many pixels along an axis but the offset in this one still
+    /// matters.
     fn has_large_pixel(&self, axis: usize) -> bool {
-        /// The least number of pixels.
+        /// The minimum number of pixels.
         const MANY: u32 = 2048;
-        /// The least angle that shows.
+        /// The minimum angle that matters, in radians.
         const LEAST: f64 = 2e-3;
         let mut in_the_middle = self.sample;
         in_the_middle.offset[axis] = 0.5;
@@ -211,21 +212,21 @@ const ANGLE: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Parts of the vertical fields of view for each class of [`ANGLE`].
+/// Intervals of the vertical fields of view for each class of [`ANGLE`].
 const ANGLES: [[(f64, f64); 3]; 3] = [
     [(1.0, 1.0), (1.0, 5.0), (5.0, 15.0)],
     [(16.0, 30.0), (30.0, 60.0), (60.0, 120.0)],
     [(175.0, 175.0), (165.0, 175.0), (121.0, 150.0)],
 ];
 
-/// Parts of the aspect ratios for each class of [`SENSOR`].
+/// Intervals of the aspect ratios for each class of [`SENSOR`].
 const SENSORS: [&[(f64, f64)]; 3] = [
     &[(0.1, 0.1), (0.1, 0.3), (0.3, 0.89)],
     &[(0.9, 1.1)],
     &[(1.11, 3.0), (3.0, 10.0), (10.0, 10.0)],
 ];
 
-/// The form of the sensor.
+/// The aspect ratio of the sensor.
 const SENSOR: Aspect<CameraCall> = Aspect {
     name: "sensor",
     classes: &["upright", "about square", "wide"],
@@ -253,7 +254,7 @@ const ROUND_ANGLE: Aspect<CameraCall> = Aspect {
 /// The largest relative difference between ratios that are almost the same.
 const ALMOST: f64 = 0.01;
 
-/// Returns 0 if a ratio is 1 but for rounding, and 1 if it is almost 1.
+/// Returns 0 if a ratio is 1 up to rounding, and 1 if it is almost 1.
 fn almost_one(ratio: f64) -> Option<usize> {
     match (ratio - 1.0).abs() {
         ..1e-6 => Some(0),
@@ -277,7 +278,7 @@ const WIDE: f64 = 16.0 / 9.0;
 /// The aspect ratio of old films.
 const OLD: f64 = 4.0 / 3.0;
 
-/// The form of the pixels on the sensor.
+/// The aspect ratio of the pixels on the sensor.
 const PIXELS: Aspect<CameraCall> = Aspect {
     name: "pixels",
     classes: &["square", "almost square", "not square"],
@@ -317,7 +318,7 @@ const VIEW: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Returns the first part that contains a number, but for rounding.
+/// Returns the index of the first interval that contains a number, up to rounding.
 fn part(parts: &[(f64, f64)], number: f64) -> Option<usize> {
     let fits = |(from, to): (f64, f64)| {
         let rounding = 1e-6 * number;
@@ -361,7 +362,7 @@ fn calls(question: &Question) -> Vec<CameraCall> {
     calls.collect()
 }
 
-/// Draws a number from a part of a domain.
+/// Draws a number from an interval of a domain.
 pub fn drawn((from, to): (f64, f64), rng: &mut Rng) -> f64 {
     if from < to {
         rng.log_uniform(from, to)
@@ -381,7 +382,7 @@ pub fn offset(rng: &mut Rng) -> f32 {
     offset as f32
 }
 
-/// Draws the side of a film from one of the classes.
+/// Draws the width or height of a film from one of the classes.
 pub fn side(rng: &mut Rng, class: usize) -> u32 {
     match class % SIDES.len() {
         0 => 1,
@@ -392,8 +393,9 @@ pub fn side(rng: &mut Rng, class: usize) -> u32 {
     }
 }
 
-/// Draws cameras with all angles of view, sensors and films. Most differ from the one before in one field
-/// only and are asked for the same samples, so that a method that keeps something fails.
+/// Draws cameras with all angles of view, sensors and films. Most differ from the previous one in a
+/// single field and are asked for the same samples, so that a method that keeps state between calls
+/// fails.
 pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let (classes, forms) = (
         rng.shuffled((0..SIDES.len()).collect()),
@@ -403,7 +405,7 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let mut cameras = Vec::new();
     for (pair, classes) in classes.chunks(2).enumerate() {
         let [first, second, third] = [0, 1, 2].map(|it| forms[(pair + it) % forms.len()]);
-        // The first form comes at both ends, so that only the film changes when it is turned.
+        // The first sensor is at both ends, so that only the film changes when it is rotated.
         let ends = [first, second, second, third, third, first];
         let film = uvec2(side(rng, classes[0]), side(rng, classes[classes.len() - 1]));
         let mut camera = PinholeCamera {
@@ -436,8 +438,8 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     cameras
 }
 
-/// Draws cameras that each differ from the one before in one field only, most by less than a hundredth.
-/// They are asked for the same samples.
+/// Draws cameras that each differ from the previous one in a single field, most by less than 1%. They
+/// are asked for the same samples.
 pub fn almost_equal_cameras(
     rng: &mut Rng,
     first: PinholeCamera,
@@ -506,8 +508,8 @@ pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     all
 }
 
-/// Draws samples of a film. Those at both ends are in the turned film as well. Some follow one with x
-/// and y exchanged.
+/// Draws samples of a film. The first and the last also exist in the rotated film. Some follow a
+/// sample with x and y swapped.
 fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     let square = UVec2::splat(film.min_element());
     let films = [square, square, film, film, film, film, square, square];
@@ -521,7 +523,7 @@ fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     samples
 }
 
-/// Draws a pixel of a film, often one at an edge, and a position in it.
+/// Draws a pixel of a film, often at an edge, and a position in it.
 pub fn sample(rng: &mut Rng, film: UVec2) -> Sample {
     let mut position = |count: u32| match rng.index(5) {
         0 => 0,

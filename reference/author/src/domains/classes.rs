@@ -1,4 +1,4 @@
-//! How often the classes of a function's domain are asked.
+//! How often the classes of a function's domain are tested.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use judging::exam::{Item, Key, TreeCheck};
 
 use super::Domain;
 
-/// The fewest answers of a class, so that no mistake passes by luck.
+/// The minimum number of answers per class, so that no mistake passes by luck.
 pub const FEWEST: usize = 2;
 
 /// The column of calls whose answer is not `None`.
@@ -14,13 +14,13 @@ const PRESENT: &str = "some";
 /// The column of calls whose answer is `None`.
 const ABSENT: &str = "`None`";
 
-/// How often each class of each aspect is asked, for hits, misses, and each quantity of a hit.
+/// How often each class of each aspect is tested, for hits, misses and each quantity of a hit.
 #[derive(Debug)]
 pub struct Classes {
     /// The columns that occur.
     pub columns: Vec<String>,
     counts: BTreeMap<(usize, usize, String), usize>,
-    /// How often each pair of classes is asked.
+    /// How often each pair of classes is tested.
     pairs: BTreeMap<[(usize, usize); 2], usize>,
 }
 
@@ -87,7 +87,8 @@ impl Classes {
         }
     }
 
-    /// Returns how often each class is asked: class by class, with the columns in their order.
+    /// Returns how often each class is tested: class by class, each with the columns in their
+    /// order.
     pub fn cells(&self, domain: &dyn Domain) -> Vec<Cell> {
         let mut cells = Vec::new();
         for (aspect, (name, classes)) in domain.aspects().into_iter().enumerate() {
@@ -107,9 +108,10 @@ impl Classes {
         cells
     }
 
-    /// Returns how often each pair of classes is asked that shall be asked together.
+    /// Returns how often each pair of classes is tested, for all pairs that should be tested
+    /// together.
     pub fn pairs(&self, domain: &dyn Domain) -> Vec<Pair> {
-        /// The column of pairs in a domain's reasons.
+        /// The name that a domain's reasons use for the column of pairs.
         const COLUMN: &str = "pairs";
         let aspects = domain.aspects();
         let mut pairs = Vec::new();
@@ -131,7 +133,7 @@ impl Classes {
     }
 }
 
-/// How often a class is asked for what a column counts.
+/// How often a class is tested in a column.
 #[derive(Debug)]
 pub struct Cell {
     /// The aspect.
@@ -147,13 +149,13 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Returns whether it should be asked more often.
+    /// Returns whether it should be tested more often.
     pub fn is_missing(&self) -> bool {
         self.count < FEWEST && self.reason.is_none()
     }
 }
 
-/// How often the classes of two aspects are asked together.
+/// How often the classes of two aspects are tested together.
 #[derive(Debug)]
 pub struct Pair {
     /// The aspects, each with its class.
@@ -165,14 +167,14 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Returns whether it should be asked.
+    /// Returns whether it should be tested.
     pub fn is_missing(&self) -> bool {
         self.count == 0 && self.reason.is_none()
     }
 }
 
-/// Returns the places of the aspects in each pair of a domain. Panics if a pair has an aspect that the domain
-/// does not have.
+/// Returns the indices of the aspects in each pair of a domain. Panics if the domain doesn't contain an
+/// aspect of a pair.
 fn pairs_of_aspects(domain: &dyn Domain) -> Vec<[usize; 2]> {
     let aspects = domain.aspects();
     let place = |name: &str| {
@@ -183,14 +185,14 @@ fn pairs_of_aspects(domain: &dyn Domain) -> Vec<[usize; 2]> {
     pairs.map(|names| names.map(place)).collect()
 }
 
-/// Returns why an exam does not ask a class for what a column counts, if it has a reason.
+/// Returns why an exam need not test a class in a column, if the domain states a reason.
 fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Option<&'static str> {
     let mut reasons = domain.not_asked().iter();
     let found = reasons.find(|reason| reason.is_about(aspect, class, column));
     found.map(|reason| reason.why)
 }
 
-/// Returns the names of what is judged about a tree.
+/// Returns the names of the judged properties of a tree.
 fn judged_of_tree(key: &Key) -> Vec<&'static str> {
     let Key::Tree {
         checks, sweep_cost, ..

@@ -10,7 +10,8 @@ use crate::seed::Rng;
 /// The largest coordinate of a scene.
 pub const FURTHEST: f64 = 1000.0;
 
-/// The distance from which a thing is seen at most, in its sizes: half of its longest side, or its radius.
+/// The largest distance between a shape and its viewer, in sizes of the shape: half of its longest side,
+/// or its radius.
 pub const FURTHEST_SIZES: f64 = 30.0;
 
 /// The relative error of one operation in single precision.
@@ -31,11 +32,11 @@ pub const SIZES: &[&str] = &[
 
 /// All classes of lengths. Lengths of about one come first, since a report shows the first wrong answer.
 pub const EVERY_SIZE: &[usize] = &[5, 4, 6, 3, 7, 2, 8, 1, 0];
-/// The classes of most lengths. Others are asked where an absolute number could decide.
+/// The classes of most lengths. Others are tested where an absolute threshold could matter.
 pub const USUAL: &[usize] = &[5, 4, 6, 7, 8];
 /// The classes of lengths below one tenth.
 pub const SMALL: &[usize] = &[3, 2, 1, 0];
-/// The classes of lengths that are so small that an absolute number could decide about them.
+/// The classes of lengths so small that an absolute threshold could matter.
 pub const TINY: &[usize] = &[0, 1, 2];
 
 /// Returns the class of a length: its decade.
@@ -43,7 +44,7 @@ pub fn size_class(size: f64) -> usize {
     if size >= 500.0 {
         return SIZES.len() - 1;
     }
-    // A power of ten can be rounded down.
+    // Rounding can make a power of ten slightly smaller.
     let decade = ((1.0 + 1e-6) * size).log10().floor() as i32 + 5;
     decade.clamp(0, SIZES.len() as i32 - 2) as usize
 }
@@ -85,7 +86,8 @@ pub fn round_class(size: f64) -> usize {
     }
 }
 
-/// Returns the class of a number, where each class but the last goes up to one of these limits.
+/// Returns the class of a number. Each class but the last includes numbers up to one of these
+/// limits.
 pub fn class_up_to(limits: &[usize], number: usize) -> usize {
     limits.iter().take_while(|&&limit| number > limit).count()
 }
@@ -104,7 +106,7 @@ pub fn distance_class(distance: f64) -> usize {
     }
 }
 
-/// The classes of positions, by the largest coordinate in sizes of the thing that is there.
+/// The classes of positions, by the largest coordinate in sizes of the shape there.
 pub const PLACES: &[&str] = &[
     "around the origin",
     "1 size away",
@@ -124,8 +126,8 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
     }
 }
 
-/// Draws a position for a thing of this size, which ends within the largest coordinate of a scene. It is
-/// at most 5,000 sizes away.
+/// Draws a position for a shape of this size that is entirely within a scene's largest coordinate and at
+/// most 5,000 sizes away.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     let furthest = (FURTHEST - size).min(5000.0 * size);
     let position = match rng.index(PLACES.len()) {
@@ -195,7 +197,8 @@ pub fn direction_class(dir: Vec3) -> Option<usize> {
     }
 }
 
-/// Draws a direction: along an axis, in a plane of two axes, almost so, or any. Zeros have either sign.
+/// Draws a direction: along an axis, in a plane of two axes, close to one of these, or any other. Zeros
+/// can have either sign.
 pub fn direction(rng: &mut Rng) -> DVec3 {
     let dir = rng.retry(|rng| {
         let dir = rng.direction();
@@ -249,8 +252,8 @@ pub fn diagonal(rng: &mut Rng) -> DVec3 {
     (signs * dir).normalize()
 }
 
-/// Returns the start and the direction of a ray toward a target that is so far ahead. Some rays start far
-/// away or at the origin instead. Returns `None` if the ray would start outside of the scene.
+/// Returns the start and the direction of a ray toward a target at this distance. Some rays start far
+/// away or at the origin instead. Returns `None` if the ray would start outside the scene.
 pub fn ray_toward(
     rng: &mut Rng,
     target: DVec3,
@@ -273,12 +276,12 @@ fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     (start.distance(target) < 29.0 * size).then_some(start)
 }
 
-/// Returns whether two rays differ in their ranges only.
+/// Returns whether two rays differ only in their ranges.
 pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.dir == b.dir
 }
 
-/// Returns whether two rays differ, but in no number by more than a five thousandth of it.
+/// Returns whether two rays differ, but no number by more than a five-thousandth of its value.
 pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
     const MOST: f32 = 2e-4;
     let is_near = |a: Vec3, b: Vec3| (a - b).abs().cmple(MOST * a.abs()).all();
@@ -288,8 +291,8 @@ pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
         && is_near(a.dir, b.dir)
 }
 
-/// Returns a ray of which one coordinate of the start or one component of the direction differs, by at most a
-/// ten thousandth of it.
+/// Returns the ray with one coordinate of the start or one component of the direction changed by at most a
+/// ten-thousandth of its value.
 pub fn almost_the_same_ray(rng: &mut Rng, ray: &Ray) -> Ray {
     const MOST: f64 = 1e-4;
     let (axis, nudge) = (rng.index(3), 1.0 + rng.uniform(-MOST, MOST));
@@ -306,7 +309,7 @@ pub fn almost_the_same_ray(rng: &mut Rng, ray: &Ray) -> Ray {
     }
 }
 
-/// Returns the class of the call before: none, one with another ray, or one with the same ray.
+/// Returns the class of the previous call: none, a different ray, or the same ray.
 pub fn history_class(before: Option<&Ray>, ray: &Ray) -> usize {
     before.map_or(0, |before| 1 + usize::from(is_same_line(before, ray)))
 }
@@ -321,7 +324,7 @@ pub const RANGES: &[&str] = &[
     "from later to a far end",
 ];
 
-/// The end of a range beyond which nothing in a scene is.
+/// The end of a range that reaches beyond everything in a scene.
 const FAR: f32 = 1e4;
 
 /// Returns the class of a range.
@@ -389,18 +392,18 @@ pub fn weights_inside(rng: &mut Rng, least: f64) -> [f64; 3] {
     parts.map(|part| least + (1.0 - 3.0 * least) * part)
 }
 
-/// Returns the exponent of the power of two that is nearest to a count, which is not 0.
+/// Returns the exponent of the power of two nearest to a count, which must not be 0.
 pub fn powers_of_two(count: usize) -> usize {
     (count as f64).log2().round() as usize
 }
 
-/// Returns whether no value occurs twice.
+/// Returns whether all values are distinct.
 pub fn without_repetition<T: Ord>(values: impl IntoIterator<Item = T>) -> bool {
     let mut known = BTreeSet::new();
     values.into_iter().all(|value| known.insert(value))
 }
 
-/// Draws different numbers of shapes.
+/// Draws distinct numbers of shapes.
 pub fn numbers(rng: &mut Rng, count: usize) -> Vec<u32> {
     let mut known = BTreeSet::new();
     let mut fresh = || {

@@ -1,9 +1,9 @@
 //! Domains: what the contract allows for the subject and the arguments of each function, divided into
-//! classes. Items draw what varies beside their idea from a domain, and the coverage of the contract is
-//! counted in classes.
+//! classes. Items draw everything that is not part of their idea from a domain, and the coverage of the
+//! contract is counted in classes.
 //!
-//! A correct method treats all classes alike. A wrong one often fails in one class only: for small
-//! shapes, along an axis, from inside.
+//! A correct method treats all classes alike. A wrong one often fails for a single class: small
+//! shapes, rays along an axis, or rays from inside.
 
 mod balance;
 pub mod bbox;
@@ -28,10 +28,10 @@ pub use balance::Balance;
 pub use placed::Placed;
 pub use tables::{Change, Drawn, Generator};
 
-/// One way in which calls differ, divided into classes.
+/// A property that differs between calls, divided into classes.
 #[derive(Debug)]
 pub struct Aspect<C: 'static> {
-    /// The property that differs, such as `size`.
+    /// The name of the property, such as `size`.
     pub name: &'static str,
     /// The names of the classes.
     pub classes: &'static [&'static str],
@@ -46,7 +46,7 @@ pub trait Call: Copy + 'static {
     /// The arguments.
     type Input: Copy;
 
-    /// Creates a call that no other precedes.
+    /// Creates a call without a previous call.
     fn new(subject: Self::Subject, input: Self::Input) -> Self;
 
     /// Returns the value that the function is called on.
@@ -58,7 +58,7 @@ pub trait Call: Copy + 'static {
     /// Returns whether the correct answer is not `None`.
     fn is_hit(&self) -> bool;
 
-    /// Returns a hit with another range of distances, which may be a miss.
+    /// Returns a hit with a different range of distances, which may turn it into a miss.
     fn with_other_range(&self, rng: &mut Rng) -> Option<Self>;
 }
 
@@ -67,19 +67,19 @@ pub trait Call: Copy + 'static {
 pub struct FunctionDomain<C: 'static> {
     /// The name of the function, as in [`protocol::AnyTable::name`].
     pub function: &'static str,
-    /// How the values that it is called on differ.
+    /// The aspects of the values that it is called on.
     pub subject_aspects: &'static [Aspect<C>],
-    /// How its calls differ otherwise.
+    /// All other aspects of its calls.
     pub aspects: &'static [Aspect<C>],
-    /// The pairs of aspects whose classes are all asked together.
+    /// The pairs of aspects whose classes are tested in all combinations.
     pub pairs: &'static [[&'static str; 2]],
     /// Returns the calls of a question about the function.
     pub calls: fn(&Question) -> Vec<C>,
-    /// The classes that the exam does not ask.
+    /// The classes that the exam need not test.
     pub not_asked: &'static [NotAsked],
 }
 
-/// Classes that the exam does not ask, with the reason.
+/// Classes that the exam need not test, with the reason.
 #[derive(Debug)]
 pub struct NotAsked {
     aspect: &'static str,
@@ -89,7 +89,7 @@ pub struct NotAsked {
     pub why: &'static str,
 }
 
-/// Says why an exam does not ask classes of an aspect for what columns of the coverage count. An empty
+/// States why an exam need not test classes of an aspect in some columns of the coverage. An empty
 /// name or list stands for all.
 pub const fn not_asked(
     aspect: &'static str,
@@ -106,7 +106,7 @@ pub const fn not_asked(
 }
 
 impl NotAsked {
-    /// Returns whether this is about a class of an aspect for what a column counts.
+    /// Returns whether this applies to a class of an aspect in a column.
     pub fn is_about(&self, aspect: &str, class: &str, column: &str) -> bool {
         let has = |list: &[&str], name: &str| list.is_empty() || list.contains(&name);
         let is_aspect = self.aspect.is_empty() || self.aspect == aspect;
@@ -119,16 +119,16 @@ pub trait Domain: Debug + Sync {
     /// The name of the function.
     fn function(&self) -> &'static str;
 
-    /// Returns the names of the aspects, each with its classes.
+    /// Returns the name and the classes of each aspect.
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])>;
 
-    /// Returns the pairs of aspects whose classes are all asked together.
+    /// Returns the pairs of aspects whose classes are tested in all combinations.
     fn pairs(&self) -> &'static [[&'static str; 2]];
 
-    /// Returns the classes that the exam does not ask.
+    /// Returns the classes that the exam need not test.
     fn not_asked(&self) -> &'static [NotAsked];
 
-    /// Returns the classes of each call of a question about the function, one for each aspect that
+    /// For each call of a question about the function, returns its class in each aspect that
     /// applies.
     fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
 }

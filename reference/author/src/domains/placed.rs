@@ -1,4 +1,4 @@
-//! Aspects of calls about anything that has a size and a position.
+//! Aspects of calls about anything with a size and a position.
 
 use super::Aspect;
 use super::fields::{OCTANTS, PLACES, ROUND, SIZES, octant, place_class, round_class, size_class};
@@ -42,7 +42,7 @@ impl<C: Placed> Aspect<C> {
         class: |call| octant(call.bounds()?.center()),
     };
 
-    /// The octant of the box, if it is in one.
+    /// The octant that contains the entire box, if any.
     pub const OCTANT_OF_ALL: Self = Aspect {
         class: |call| {
             let Bounds { min, max } = call.bounds()?;

@@ -1,4 +1,4 @@
-//! Draws the rows of a table: calls of one subject, every other one a hit.
+//! Draws the rows of a table: calls of one subject. Every other call is a hit.
 
 use glam::DVec3;
 
@@ -11,14 +11,15 @@ pub type Drawn<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
 type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C as Call>::Input>;
 
-/// Returns the call of a subject that differs from another one in a single property. The vector has
-/// random components from −1 to 1, which are the same for all calls of a table.
+/// Returns the call of a subject that differs from the given one in a single property. The vector
+/// has random components from −1 to 1, which are the same for all calls of a table.
 pub type Change<C> = fn(&C, DVec3) -> C;
 
-/// Returns calls that follow another one and are almost the same. Returns `None` if there are none.
+/// Returns calls that are almost the same as the given one, to follow it. Returns `None` if no such
+/// calls exist.
 pub type Follow<C> = fn(&mut Rng, &C) -> Option<Vec<C>>;
 
-/// How the calls of a function are drawn.
+/// A generator for calls of a function.
 pub struct Generator<'a, C: Call> {
     /// The domain of the function.
     pub domain: &'static FunctionDomain<C>,
@@ -26,30 +27,29 @@ pub struct Generator<'a, C: Call> {
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
     pub input: DrawInput<'a, C>,
-    /// How a subject can differ from the one before, which shows whether anything is kept from a call.
+    /// The ways a subject can differ from the previous one, to detect state kept between calls.
     pub changes: &'a [Change<C>],
-    /// How many of these changes an item asks.
+    /// The maximum number of these changes in an item.
     pub most_changes: usize,
-    /// How a call can follow another one of the same subject.
+    /// The ways a call can follow another call of the same subject.
     pub follow: &'a [Follow<C>],
-    /// Returns whether a call belongs to the idea of an item, and all correct formulas agree about it.
+    /// Returns whether a call fits the item's idea and all correct formulas agree on its answer.
     pub fits: &'a dyn Fn(&C) -> bool,
-    /// Returns whether the answers to two calls differ in what the item judges.
+    /// Returns whether the answers to two calls differ in a quantity that the item judges.
     pub differ: &'a dyn Fn(&C, &C) -> bool,
 }
 
 /// The number of pairs of a hit and a miss in a table.
 const PAIRS: usize = 10;
 
-/// The largest number of hits, and of misses, of a subject that differs from the one before.
+/// The maximum number of hits, and of misses, for a subject that differs from the previous one.
 const AGAIN: usize = 5;
 
 impl<C: Call> Generator<'_, C> {
-    /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class
-    /// of each aspect occurs. Some pairs differ in nothing but the range, if the range decides, and some
-    /// are followed by a call that is almost the same.
-    /// The last tables have calls before them again, each with a subject that differs from the one before
-    /// in a single property.
+    /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class of
+    /// each aspect occurs. Some pairs only differ in the range, if the range decides, and some are
+    /// followed by a call that is almost the same. The last tables repeat earlier calls, each with a
+    /// subject that differs from the previous one in a single property.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
         let FunctionDomain {
             subject_aspects,
@@ -66,7 +66,8 @@ impl<C: Call> Generator<'_, C> {
         let Some(last) = tables.pop() else {
             return tables;
         };
-        // The last call hits, so that an answer that is kept shows in the first call of the next table.
+        // The last call hits, so that an answer kept from it becomes visible in the first call of the
+        // next table.
         let ends_with = |row: usize| {
             let (subject, mut inputs) = last.clone();
             let end = inputs.remove(row);
@@ -83,13 +84,13 @@ impl<C: Call> Generator<'_, C> {
         tables
     }
 
-    /// Returns tables whose subjects each differ from the one before in a single property.
+    /// Returns tables whose subjects each differ from the previous one in a single property.
     fn changed_tables(&self, rng: &mut Rng, (subject, inputs): &Drawn<C>) -> Vec<Drawn<C>> {
         let calls = inputs.iter().map(|&input| C::new(*subject, input));
         let mut calls: Vec<C> = calls.collect();
         let mut tables = Vec::new();
         let mut changes = rng.shuffled(self.changes.to_vec());
-        // A change that is not possible yet may be so after another one.
+        // A change that isn't possible yet may become possible after another change.
         for _ in 0..2 {
             changes.retain(|&change| {
                 if tables.len() == self.most_changes {
@@ -106,8 +107,9 @@ impl<C: Call> Generator<'_, C> {
         tables
     }
 
-    /// Returns the calls of a subject that differs from the one before: a few that are asked, and all of
-    /// them. The first is the last call before again, whose answer is another one now. The last is a hit.
+    /// Returns the calls of a subject that differs from the previous one: the few calls for the table,
+    /// and all of them. The first repeats the previous table's last call, which now has a different
+    /// answer. The last is a hit.
     fn changed(&self, rng: &mut Rng, before: &[C], change: Change<C>) -> Option<(Vec<C>, Vec<C>)> {
         const ATTEMPTS: usize = 60;
         let last = before.last()?;
@@ -130,16 +132,17 @@ impl<C: Call> Generator<'_, C> {
         })
     }
 
-    /// Draws a subject and its calls. Returns `None` if few calls of the subject fit.
+    /// Draws a subject and its calls. Returns `None` if too few calls of the subject fit.
     fn table(
         &self,
         rng: &mut Rng,
         size: usize,
         (of_subject, of_row): &mut (Balance<C>, Balance<C>),
     ) -> Option<Drawn<C>> {
-        /// How many calls are drawn until one of them fits a subject.
+        /// The maximum number of calls drawn to find one that fits a subject.
         const ATTEMPTS: usize = 20;
-        // A subject that turns out not to fit counts as well, so that the next one is of another kind.
+        // Subjects that turn out not to fit are counted too, so that the next one is of a different
+        // kind.
         let subject = of_subject.choose(rng, |rng| {
             let subject = (self.subject)(rng, size);
             rng.attempt(ATTEMPTS, |rng| self.call(rng, &subject))
@@ -161,8 +164,8 @@ impl<C: Call> Generator<'_, C> {
         Some((subject, calls.iter().map(C::input).collect()))
     }
 
-    /// Returns the pairs, in random order, some of them followed by calls that are almost the same as the
-    /// one before and yet have another answer.
+    /// Returns the pairs in random order. Some are followed by calls that are almost the same as the
+    /// previous one but have a different answer.
     fn with_followers(&self, rng: &mut Rng, pairs: Vec<Vec<C>>) -> Vec<Vec<C>> {
         const ATTEMPTS: usize = 12;
         let mut pairs = rng.shuffled(pairs);
@@ -200,7 +203,7 @@ impl<C: Call> Generator<'_, C> {
         (call.is_hit() == is_hit).then_some(call)
     }
 
-    /// Returns a call that misses because of its range alone, if one fits.
+    /// Returns a call that misses only because of its range, if one fits.
     fn miss_by_range(&self, rng: &mut Rng, hit: &C) -> Option<C> {
         const ATTEMPTS: usize = 20;
         rng.attempt(ATTEMPTS, |rng| {

@@ -1,4 +1,4 @@
-//! Every exam asks every class of a task's domain: items are drawn again until it does.
+//! Every exam tests every class of a task's domain. Items are drawn again until it does.
 
 use std::collections::BTreeMap;
 use std::mem;
@@ -10,7 +10,7 @@ use crate::domains::Domain;
 use crate::domains::classes::Classes;
 use crate::seed::Seed;
 
-/// How often each item is drawn again at most.
+/// The maximum number of times each item is drawn again.
 const ATTEMPTS: usize = 24;
 
 /// Draws the items of a task. Those of a final exam differ from those of the practice exam in every
@@ -29,7 +29,8 @@ pub(super) fn draw_items(
     })
 }
 
-/// Returns the items of the practice exam. They are drawn once, however many exams are generated.
+/// Returns the items of the practice exam. They are drawn only once, even if many exams are
+/// generated.
 fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<DeclaredItem>> {
     static DRAWN: Mutex<BTreeMap<Vec<&str>, Arc<Vec<DeclaredItem>>>> = Mutex::new(BTreeMap::new());
     let mut drawn = DRAWN.lock().expect("no item panics while it is drawn");
@@ -38,8 +39,8 @@ fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<Declare
     Arc::clone(practice)
 }
 
-/// Draws the items of a task. As long as a class of the task's domain is missing, an item that could ask
-/// it is drawn again. It is kept if fewer classes are missing then.
+/// Draws the items of a task. As long as a class of the task's domain is missing, an item that could
+/// test it is drawn again. The new item is kept if that leaves fewer classes missing.
 fn draw_complete(
     seed: Seed,
     task: &AuthoredTask,
@@ -90,7 +91,7 @@ fn missing_columns(domain: &dyn Domain, drawn: &[DeclaredItem]) -> Vec<String> {
     cells.chain(pairs.map(|_| String::new())).collect()
 }
 
-/// Returns whether an item asks the domain's function for something that one of these columns counts.
+/// Returns whether an item tests the domain's function in one of these columns.
 fn asks_any(domain: &dyn Domain, item: &DeclaredItem, columns: &[String]) -> bool {
     let asked = Classes::count(domain, [item.item()]).columns;
     let is_asked = |column: &String| column.is_empty() || asked.contains(column);

@@ -7,23 +7,23 @@ use crate::domains::Domain;
 use crate::items::complete;
 use crate::seed::{Rng, Seed};
 
-/// A task as its authors have it: its items, and what the contract says that they do not test.
+/// A task as declared by its authors: its items and the parts of the contract they don't test.
 #[derive(Debug)]
 pub struct AuthoredTask {
     /// The items, in the exam's order.
     pub items: &'static [Declaration],
-    /// The points of items for which the declaration does not have them.
+    /// The points of items whose declaration doesn't state them.
     pub points: &'static [(&'static str, u32)],
     /// Changes the questions of all items when they are drawn.
     pub finish: fn(Seed, &mut [DeclaredItem]),
     /// The sentences of the method's documentation that no item tests, each with the reason.
     pub untested: &'static [(&'static str, &'static str)],
-    /// The domain of the function that the items call, unless an earlier task has it.
+    /// The domain of the function that the items call, unless an earlier task already declares it.
     pub domain: Option<&'static dyn Domain>,
 }
 
 impl AuthoredTask {
-    /// A task without items whose contract is tested in full.
+    /// A task without items, to start a declaration from. All of its contract is tested.
     pub const NEW: AuthoredTask = AuthoredTask {
         items: &[],
         points: &[],
@@ -51,30 +51,32 @@ pub struct Declaration {
     pub id: &'static str,
     /// The points for correct answers to all questions. Most items have one.
     pub points: u32,
-    /// A sentence that says what must hold, which is the feedback for students.
+    /// A sentence that states the requirement. Students see it as feedback.
     pub title: &'static str,
     /// A hint on where to look for the mistake.
     pub look: &'static str,
     /// The section of the handout that teaches it.
     pub section: &'static str,
-    /// The sentences of the method's documentation that it tests, each in full or up to an ellipsis.
+    /// The sentences of the method's documentation that the item tests, either entire or up to an
+    /// ellipsis.
     pub tests: &'static [&'static str],
-    /// Draws its questions.
+    /// Draws the item's questions.
     pub questions: fn(&mut Rng) -> Vec<ExamQuestion>,
-    /// The group that it belongs to, if items of other tasks need that group.
+    /// The group that the item belongs to, if items of other tasks need that group.
     pub group: Option<Group>,
-    /// The groups of items of earlier tasks that it depends on.
+    /// The groups of items of earlier tasks that the item depends on.
     pub needs: &'static [Group],
 }
 
 /// A group of items that items of later tasks need as a whole.
 ///
 /// An item needs only groups whose mistakes could make it fail even if its own task is solved
-/// correctly. A student who fails an item and one that it needs is advised to fix the latter first.
+/// correctly. A student who fails an item and one of the items it needs is advised to fix the
+/// latter first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group(pub &'static str);
 
-/// An item whose dependencies are groups, and not yet the ids of items.
+/// An item whose dependencies are still groups rather than the ids of items.
 #[derive(Clone, Debug)]
 pub struct DeclaredItem {
     item: Item,
@@ -83,20 +85,19 @@ pub struct DeclaredItem {
 }
 
 impl DeclaredItem {
-    /// Returns the item, which does not know the ids of the items that it needs.
+    /// Returns the item, without the ids of the items that it needs.
     pub(super) fn item(&self) -> &Item {
         &self.item
     }
 
-    /// Returns the item's questions, to which more can be added.
+    /// Returns the item's questions, so that more can be added.
     pub(super) fn questions(&mut self) -> &mut Vec<ExamQuestion> {
         &mut self.item.questions
     }
 }
 
 impl Declaration {
-    /// The fields of an item of one point that neither belongs to a group nor needs one. The others
-    /// are empty.
+    /// The default fields of an item with one point that doesn't belong to a group or need one.
     pub const ALONE: Declaration = Declaration {
         id: "",
         points: 1,
@@ -109,8 +110,8 @@ impl Declaration {
         needs: &[],
     };
 
-    /// Returns the fields of an item of one point that belongs to a group and needs none. The others
-    /// are empty.
+    /// Returns the default fields of an item with one point that belongs to a group but doesn't need
+    /// one.
     pub const fn in_group(group: Group) -> Self {
         Declaration {
             group: Some(group),

@@ -1,5 +1,5 @@
-//! Final exams share no question with the practice exam, whose answers everybody has. An item is
-//! drawn again as long as the practice exam's answers would earn points in it.
+//! Final exams don't share any questions with the practice exam, whose answers are public. An item
+//! is drawn again as long as the practice exam's answers would earn points in it.
 
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge, one_row_answers_all};
@@ -8,7 +8,7 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// Draws an item that differs from this one of the practice exam in every question.
+/// Draws an item whose questions all differ from those of this practice exam's item.
 pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
     let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), practice);
@@ -19,13 +19,13 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
         .expect("some numbers differ from those of the practice exam")
 }
 
-/// Returns whether the correct answer to a question of the one item earns points for a question of
-/// the other.
+/// Returns whether the correct answer to a question of one item earns points for a question of the
+/// other.
 ///
-/// Some questions are left out. If one row answers them all, as with the length of a direction, or if no
-/// ray hits anything, there is only one answer. A tree is an
-/// answer to its own primitives only, and these are drawn by the seed. So is the number that a
-/// picture to be recorded depends on.
+/// Some questions are left out. If all rows have the same answer, e.g. the length of a direction, or if
+/// no ray hits anything, only one answer exists. A tree only answers a question about its own
+/// primitives, and these depend on the seed. The same applies to the number that a picture to be
+/// recorded depends on.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
     let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn an_item_that_shares_a_question_is_drawn_again() {
-        // There are few sizes of a small film, so some seeds draw one of the practice exam's.
+        // A small film can only have a few sizes, so some seeds draw one from the practice exam.
         let sizes = |seed| camera::TASK.draw(seed).remove(0);
         let practice = sizes(Seed::PRACTICE);
         let corners = camera::CORNERS;

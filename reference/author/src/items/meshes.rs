@@ -14,7 +14,7 @@ pub fn flat_triangle(corners: [DVec3; 3], shape: u32) -> Shape {
     }
 }
 
-/// Returns a triangle with these corners, whose normals and texture coordinates are drawn.
+/// Returns a triangle with these corners and random normals and texture coordinates.
 pub fn triangle(rng: &mut Rng, corners: [DVec3; 3]) -> Shape {
     let across = rng.direction();
     let vertices = corners.map(|corner| {
@@ -25,8 +25,8 @@ pub fn triangle(rng: &mut Rng, corners: [DVec3; 3]) -> Shape {
     Shape::Triangle { vertices, shape: 0 }
 }
 
-/// Returns such a triangle around `center` in a random orientation. It has no sharp angles, and fits in
-/// a ball of radius `size` around `center`.
+/// Returns such a triangle around `center` in a random orientation. It doesn't have sharp angles and
+/// fits in a ball of radius `size` around `center`.
 pub fn random_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let corners = random_corners(rng, size);
     triangle(rng, corners.map(|corner| center + corner))
@@ -61,8 +61,8 @@ pub fn with_numbers(
     shapes.into_iter().zip(numbers).map(number).collect()
 }
 
-/// Returns a flat triangle around `center` in a random orientation. It has no sharp angles, and
-/// fits in a ball of radius `size` around `center`.
+/// Returns a flat triangle around `center` in a random orientation. It doesn't have sharp angles
+/// and fits in a ball of radius `size` around `center`.
 pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let corners = random_corners(rng, size);
     flat_triangle(corners.map(|corner| center + corner), 0)
@@ -82,8 +82,8 @@ fn random_corners(rng: &mut Rng, size: f64) -> [DVec3; 3] {
     [corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)]
 }
 
-/// Returns `count` flat triangles of half to full `size`, with centres distributed at random in
-/// the cube from −`half` to `half`.
+/// Returns `count` flat triangles of half to full `size` with random centres in the cube from
+/// −`half` to `half`.
 pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     let triangles = (0..count).map(|_| {
         let center = rng.point(half);
@@ -149,7 +149,7 @@ pub fn lanes(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns spheres in a few clumps, of which some have many times as many as others.
+/// Returns spheres in a few clumps. Some clumps have many times as many spheres as others.
 pub fn clumps(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let clumps = (0..rng.integer(7, 9)).map(|_| (rng.point(10.0), rng.log_uniform(1.0, 12.0)));
     let clumps: Vec<(DVec3, f64)> = clumps.collect();
@@ -200,7 +200,7 @@ pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns a few large triangles on the ground, and many small primitives in a few crowded spots.
+/// Returns a few large triangles on the ground and many small primitives in a few crowded spots.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)
         .map(|_| rng.point(10.0) * dvec3(1.0, 0.1, 1.0))

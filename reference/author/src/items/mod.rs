@@ -2,7 +2,8 @@
 //!
 //! An item's keys test only the quantities that its idea is about. Every item has questions with
 //! opposite answers (such as hits and misses), so that no constant answer passes it. All questions
-//! are drawn from the exam's seed, and no question of a final exam is one of the practice exam.
+//! are drawn from the exam's seed, and final exams don't share any questions with the practice
+//! exam.
 
 pub mod bbox;
 pub mod build;
@@ -38,7 +39,8 @@ pub static TASKS: &[&AuthoredTask] = &[
     &traverse::TASK,
 ];
 
-/// The points of the items of `rays` that are worth more than one. Those of a task add up to its points.
+/// The points of the items of `rays` that are worth more than one. The points of a task's items add up
+/// to the task's points.
 const POINTS: &[(&str, u32)] = &[
     ("camera.field_of_view", 2),
     ("camera.offset", 2),

@@ -3,7 +3,7 @@
 //! At an edge, correct submissions whose rays differ only in the last bit see different surfaces.
 //! The key of a position is therefore a set of surfaces: those seen at the position itself, at four
 //! neighbours that are closer to it than any mistake would move an edge, and at positions in
-//! between. The latter are needed because the depth near a sphere's silhouette changes so steeply
+//! between. The latter are needed because the depth changes so steeply near a sphere's silhouette
 //! that a correct depth may be between those at two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
@@ -12,14 +12,14 @@ use protocol::{ExamCamera, Geometry, Question, Rows, Sample, Shape, Table, every
 
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// The distance of the neighbours from a position, along each axis and in pixels.
+/// The distance of the neighbours from a position along each axis, in pixels.
 const NEIGHBOUR_DISTANCE: f32 = 5e-4;
-/// The maximum depth of bisection between a position and a neighbour with another surface.
+/// The maximum depth of bisection between a position and a neighbour with a different surface.
 const HALVINGS: u32 = 12;
 
 /// Returns a camera at the origin that looks down −z with a field of view of 90 degrees.
 ///
-/// Its numbers are exact in single precision, so shapes can be placed exactly behind the middles of
+/// Its numbers are exact in single precision, so shapes can be placed exactly behind the centres of
 /// pixels.
 pub fn camera_at_origin(pixels: u32) -> ExamCamera {
     camera_along(Vec3::ZERO, DVec3::NEG_Z, 1.0, pixels)
@@ -134,7 +134,7 @@ mod tests {
             unreachable!("the question is a picture")
         };
         assert_eq!(hits.len(), 9 * 9 * 5);
-        // The middles of the nine pixels in the middle column are on the edge.
+        // The centres of the nine pixels in the middle column are on the edge.
         let indices: Vec<u32> = alternatives.iter().map(|(index, _)| *index).collect();
         let expected: Vec<u32> = (0..9).map(|row| 5 * (9 * row + 4)).collect();
         assert_eq!(indices, expected);

@@ -1,5 +1,5 @@
 //! Places: the same question elsewhere in space, and at another size. Code that depends on absolute
-//! sizes, or on being near the origin, is right in one place and wrong in another.
+//! sizes or on being near the origin is correct in one place and wrong in another.
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
@@ -18,8 +18,8 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Returns a place far from the origin for things of the same size, whose coordinates have the
-    /// same sign on each axis.
+    /// Returns a place far from the origin for shapes of the same size. All coordinates along an
+    /// axis have the same sign.
     pub(super) fn elsewhere(rng: &mut Rng) -> Self {
         let mut far = || rng.sign() * rng.uniform(60.0, 120.0);
         Place {
@@ -28,12 +28,12 @@ impl Place {
         }
     }
 
-    /// Returns the place for things that are this many times as large, and then moved.
+    /// Returns the place that scales shapes by this factor and then moves them.
     pub(super) fn new(scale: f64, offset: DVec3) -> Self {
         Place { scale, offset }
     }
 
-    /// Returns the place at which the box around these shapes has this centre, and its largest side is
+    /// Returns the place where the box around these shapes has this centre and its longest side is
     /// twice this size.
     pub(super) fn around(shapes: &[Shape], size: f64, center: DVec3) -> Self {
         let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
@@ -50,8 +50,8 @@ impl Place {
         }
     }
 
-    /// Returns a place near this one at which multiples of 1/128 stay exact: the factor is a power of
-    /// two, and the offset consists of multiples of its 128th part.
+    /// Returns a place near this one where multiples of 1/128 stay exact: the factor is a power of
+    /// two, and the offset a multiple of a 128th of that.
     pub(super) fn exact(self) -> Self {
         let scale = self.scale.log2().floor().exp2();
         let step = scale / 128.0;
@@ -61,7 +61,7 @@ impl Place {
         }
     }
 
-    /// Returns whether coordinates have enough digits here for the smallest of these shapes.
+    /// Returns whether coordinates here have enough digits for the smallest of these shapes.
     pub(super) fn keeps_digits(self, shapes: &[Shape]) -> bool {
         /// The largest coordinate, in sizes of the smallest shape.
         const MOST: f64 = 8000.0;
@@ -122,8 +122,8 @@ impl Place {
         Interval::new(self.length(times.min), self.length(times.max))
     }
 
-    /// Moves a node here. A sphere's centre and its box are rounded separately, so the box gets
-    /// larger by two units in the last place, to contain the sphere. A flat box stays flat.
+    /// Moves a node here. A sphere's centre and its box are rounded separately, so the box grows by
+    /// two units in the last place to still contain the sphere. A flat box stays flat.
     pub(super) fn node(self, node: &TreeNode) -> TreeNode {
         let (mut min, mut max) = (self.point(node.min), self.point(node.max));
         for axis in 0..3 {
@@ -135,7 +135,7 @@ impl Place {
         TreeNode { min, max, ..*node }
     }
 
-    /// Moves the value of a field here. What has no place and no size stays as it is.
+    /// Moves the value of a field here. Values without a position or a size stay unchanged.
     fn value(self, value: Value<'_>) -> Value<'static> {
         match value {
             Value::Length(length) => Value::Length(self.length(length)),
@@ -160,7 +160,7 @@ impl Place {
     }
 }
 
-/// Returns a question at another place, or `None` if it is about a picture.
+/// Returns a question at a different place, or `None` if it is about a picture.
 pub(super) fn moved(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let change = |value: Value<'_>| place.value(value);
     let question = match (&asked.question, asked.question.table()) {

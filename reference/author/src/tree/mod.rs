@@ -13,7 +13,7 @@ use crate::seed::Rng;
 /// A tree of an exam question.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// The primitives, in the order the leaves refer to. Some may be in no leaf.
+    /// The primitives, in the order the leaves refer to. Some may not be in any leaf.
     pub shapes: Vec<Shape>,
     /// The nodes. Some may be unreachable from the root.
     pub nodes: Vec<TreeNode>,
@@ -197,16 +197,16 @@ impl Tree {
         }
     }
 
-    /// Returns the same tree with its root first, followed by a copy of the whole tree with its
-    /// root last. In it, a traversal that starts at the first or the last node instead of at `root`
-    /// is still correct.
+    /// Returns the same tree with its root first, followed by a copy of the entire tree with its
+    /// root last. A traversal that starts at the first or the last node instead of `root` is still
+    /// correct there.
     ///
     /// The copy has its own nodes. If only the root were copied, its children would have two
     /// parents. That would confuse code that computes parents or depths in one pass over all nodes.
     pub fn with_roots_at_both_ends(&self, rng: &mut Rng) -> Tree {
         let mut tree = self.with_nodes_shuffled(rng, RootPosition::First);
         let count = tree.nodes.len();
-        // Node 1 is copied to the index after the last node and so on.
+        // Node 1 is copied to the index after the last node, and so on.
         let copied = |node: &TreeNode| renumbered(*node, |index| index + count - 1);
         let mut copy: Vec<TreeNode> = tree.nodes.iter().map(copied).collect();
         copy.rotate_left(1);

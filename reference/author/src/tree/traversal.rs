@@ -1,4 +1,4 @@
-//! Traversals of a tree: the correct one, and the slides' pseudo-code taken literally.
+//! Traversals of a tree: a correct one and the slides' pseudo-code, taken literally.
 
 use super::Tree;
 use crate::oracle::bbox::Bounds;

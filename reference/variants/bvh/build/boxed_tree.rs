@@ -1,5 +1,5 @@
-// Builds a temporary tree of `Box`es and vectors, with primitives partitioned into new vectors
-// instead of in place, and then creates the nodes from that tree.
+// Builds a temporary tree of `Box`es and vectors and then creates the nodes from that tree.
+// Primitives are partitioned into new vectors instead of in place.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
@@ -13,13 +13,13 @@ impl Bvh {
     }
 }
 
-/// A temporary tree, from which the nodes are created.
+/// The temporary tree that the nodes are created from.
 enum Tree {
     Leaf(BBox, Vec<Primitive>),
     Interior(BBox, Box<Tree>, Box<Tree>),
 }
 
-/// Appends the nodes and primitives of a tree, and returns the index of its root.
+/// Appends the nodes and primitives of a tree and returns the index of its root.
 fn flatten(tree: Tree, nodes: &mut Vec<Node>, primitives: &mut Vec<Primitive>) -> usize {
     let node = match tree {
         Tree::Leaf(bbox, contents) => {

@@ -1,9 +1,9 @@
-// Builds the tree with numbers of buckets that are parameters of a function.
+// Builds the tree with a function that takes the number of buckets as a const parameter.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         build_top_down(primitives, max_leaf_size, |primitives| {
-            // A bucket takes time, whether it is empty or not.
+            // Even an empty bucket takes time.
             if primitives.len() < 32 {
                 split::<8>(primitives)
             } else {

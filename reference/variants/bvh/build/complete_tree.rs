@@ -1,6 +1,6 @@
-// Builds a complete tree: all leaves but one are full, and the children of node i are at 2i + 1
-// and 2i + 2, as in a binary heap. The number of leaves determines how many primitives are in the
-// left subtree; areas are not considered.
+// Builds a complete tree: all leaves but one are full, and the children of node i are at 2i + 1 and
+// 2i + 2, as in a binary heap. The number of leaves determines how many primitives are in the left
+// subtree. Areas are ignored.
 
 impl Bvh {
     /// Builds a complete tree.
@@ -16,8 +16,8 @@ impl Bvh {
     }
 }
 
-/// Builds the subtree over `primitives` at `index`. The first of them has index `start` in the
-/// tree's list.
+/// Builds the subtree over `primitives` at `index`. The first one is at index `start` in the tree's
+/// list.
 fn fill(
     nodes: &mut [Node],
     index: usize,
@@ -43,7 +43,7 @@ fn fill(
     fill(nodes, r, right, start + left.len(), max_leaf_size);
 }
 
-/// Returns the number of leaves in the left subtree of a complete tree with this many leaves, whose
+/// Returns the number of leaves in the left subtree of a complete tree with this many leaves. Its
 /// last level is filled from the left.
 fn left_leaves(leaves: usize) -> usize {
     let full = 1 << leaves.ilog2();

@@ -1,7 +1,7 @@
 // Sorts the primitives along each axis once, before building. A sweep over the sorted centres, the
-// events, finds the cheapest split of a node; the three lists are then divided without sorting them
-// again. See Wald and Havran, "On building fast kd-Trees for Ray Tracing, and on doing that in
-// O(N log N)", IEEE Symposium on Interactive Ray Tracing, 2006.
+// events, finds the cheapest split of a node. The three lists are then divided without sorting them
+// again. See Wald and Havran, "On building fast kd-Trees for Ray Tracing, and on doing that in O(N
+// log N)", IEEE Symposium on Interactive Ray Tracing, 2006.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
@@ -27,7 +27,7 @@ impl Bvh {
     }
 }
 
-/// The tree while it is built.
+/// The state of a tree that is being built.
 struct Sweep {
     boxes: Vec<BBox>,
     /// For each primitive, whether it is on the left side of the node that is being split.
@@ -39,8 +39,8 @@ struct Sweep {
 }
 
 impl Sweep {
-    /// Builds the node over some primitives, given by their indices, sorted along each axis. Returns
-    /// the node's index.
+    /// Builds the node over some primitives, given by their indices and sorted along each axis.
+    /// Returns the node's index.
     fn build_node(&mut self, events: [Vec<usize>; 3]) -> usize {
         let bbox = self.bounds(&events[0]);
         let index = self.nodes.len();
@@ -64,7 +64,7 @@ impl Sweep {
         index
     }
 
-    /// Returns the axis of the cheapest split, and the size of its left side.
+    /// Returns the axis of the cheapest split and the size of its left side.
     fn cheapest_split(&self, events: &[Vec<usize>; 3]) -> (usize, usize) {
         let size = events[0].len();
         let (mut least, mut best) = (f32::INFINITY, (0, size / 2));

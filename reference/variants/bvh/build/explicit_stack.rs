@@ -1,11 +1,11 @@
-// Builds the tree with an explicit stack, marks a leaf by using its own index for both children,
+// Builds the tree with an explicit stack. Marks a leaf by using its own index for both children,
 // and also fills in `start` and `size` of interior nodes.
 
 impl Bvh {
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes: Vec<Node> = Vec::new();
-        // The primitives of each node that is still to be created, and the parent in which to store
-        // the node's index.
+        // The primitives of each node that hasn't been created yet, and the parent to store its
+        // index in.
         let mut open = Vec::new();
         if !primitives.is_empty() {
             open.push((0..primitives.len(), None::<usize>));
@@ -26,7 +26,7 @@ impl Bvh {
             if range.len() > max_leaf_size.max(1) {
                 let middle = range.start + split_by_buckets(contents, bounds_of(contents), 12);
                 // The left child is popped next, so its index is one more than its parent's. The
-                // right child's index is not known yet; it is stored when that child is created.
+                // right child's index isn't known yet. It is stored when that child is created.
                 nodes[index].l = index + 1;
                 open.push((middle..range.end, Some(index)));
                 open.push((range.start..middle, None));

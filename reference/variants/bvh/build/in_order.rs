@@ -1,5 +1,5 @@
 // Pushes the left subtree of a node, then the node, then the right subtree, so that the root is in
-// the middle; the buckets divide the node's own box.
+// the middle. The buckets divide the node's own box.
 
 impl Bvh {
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
@@ -13,7 +13,7 @@ impl Bvh {
     }
 }
 
-/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Builds the subtree over `primitives`. The first one is at index `start` in the tree's list.
 /// Returns the index of the subtree's root.
 fn build_subtree(
     primitives: &mut [Primitive],

@@ -1,9 +1,9 @@
-// Inserts one primitive after the other, each where it increases the areas of the boxes the least.
-// See Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE
-// Computer Graphics and Applications 7(5), 1987.
+// Inserts the primitives one by one, each where it increases the areas of the boxes the least. See
+// Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer
+// Graphics and Applications 7(5), 1987.
 
 impl Bvh {
-    /// Builds the tree by inserting one primitive after the other.
+    /// Builds the tree by inserting the primitives one by one.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let clusters = primitives.into_iter().map(Cluster::one);
         build_from_cluster(clusters.reduce(Cluster::with), max_leaf_size)
@@ -11,7 +11,7 @@ impl Bvh {
 }
 
 impl Cluster {
-    /// Returns the cluster after inserting one more primitive.
+    /// Returns the cluster with another primitive inserted.
     fn with(self, new: Cluster) -> Cluster {
         // The costs of making `new` a sibling of this node, or of inserting it below a child: the
         // area of the new common box, plus the growth of the boxes above it.

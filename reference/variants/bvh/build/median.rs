@@ -1,5 +1,5 @@
 // Splits at the median of the primitives' centres along the longest axis, so that each side gets
-// half of the primitives. Areas are not considered.
+// half of the primitives. Areas are ignored.
 
 impl Bvh {
     /// Builds the tree by splitting at the median.

@@ -1,4 +1,4 @@
-// Pads boxes that are flat, by a small part of their diagonal, so that the box test needs no special
+// Pads flat boxes by a small fraction of their diagonal, so that the box test doesn't need a special
 // case for them.
 
 impl Bvh {
@@ -11,7 +11,7 @@ impl Bvh {
     }
 }
 
-/// The padding of a flat box, as a part of its diagonal.
+/// The padding of a flat box as a fraction of its diagonal.
 const PADDING: f32 = 1e-5;
 
 fn padded(mut bbox: BBox) -> BBox {

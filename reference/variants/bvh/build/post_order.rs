@@ -1,5 +1,5 @@
-// Pushes a node after both of its children, so that the root comes last and no placeholder for an
-// interior node is needed.
+// Pushes a node after both of its children, so that the root comes last and interior nodes don't
+// need placeholders.
 
 impl Bvh {
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
@@ -12,7 +12,7 @@ impl Bvh {
     }
 }
 
-/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Builds the subtree over `primitives`. The first one is at index `start` in the tree's list.
 /// Returns the index of the subtree's root.
 fn build_subtree(
     primitives: &mut [Primitive],

@@ -1,5 +1,5 @@
-// Builds the tree with a queue, level by level, so that the children of a node are always next to
-// each other; the buckets divide the box of the centres.
+// Builds the tree with a queue, level by level, so that the children of a node are always adjacent.
+// The buckets divide the box of the centres.
 
 use std::collections::VecDeque;
 

@@ -1,5 +1,5 @@
-// Builds the two subtrees of a large node in two threads. Each returns a list of its own, in which
-// the root is first; the parent appends the lists and shifts the indices.
+// Builds the two subtrees of a large node in two threads. Each returns its own list with the root
+// first. The parent appends the lists and shifts the indices.
 
 use std::panic::resume_unwind;
 use std::thread;
@@ -14,10 +14,10 @@ impl Bvh {
     }
 }
 
-/// The least number of primitives that is worth a thread.
+/// The minimum number of primitives that is worth a thread.
 const WORTH_A_THREAD: usize = 1024;
 
-/// Builds the subtree over `primitives`, the first of which has index `start` in the tree's list.
+/// Builds the subtree over `primitives`. The first one is at index `start` in the tree's list.
 fn build_subtree(primitives: &mut [Primitive], start: usize, max_leaf_size: usize) -> Vec<Node> {
     let bbox = bounds_of(primitives);
     let size = primitives.len();
@@ -48,7 +48,7 @@ fn build_subtree(primitives: &mut [Primitive], start: usize, max_leaf_size: usiz
     nodes
 }
 
-/// Returns a node whose children are found `by` indices later in the list.
+/// Returns a node whose children are `by` indices later in the list.
 fn shifted(node: Node, by: usize) -> Node {
     if node.is_leaf() {
         node

@@ -1,4 +1,4 @@
-// Splits the list of a node's primitives into two new lists, by twelve buckets over the centres.
+// Splits the list of a node's primitives into two new lists, using twelve buckets over the centres.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
@@ -34,7 +34,7 @@ fn split(primitives: Vec<Primitive>) -> (Vec<Primitive>, Vec<Primitive>) {
     split_into(primitives, 12)
 }
 
-/// Does the same with so many bins along each axis.
+/// Does the same with this many bins along each axis.
 fn split_into(mut primitives: Vec<Primitive>, bins: usize) -> (Vec<Primitive>, Vec<Primitive>) {
     let mut centers = BBox::EMPTY;
     for primitive in &primitives {
@@ -86,7 +86,7 @@ fn split_into(mut primitives: Vec<Primitive>, bins: usize) -> (Vec<Primitive>, V
     }
 }
 
-/// Returns whether an axis is tried: if a plane separates the centres of so many primitives.
+/// Returns whether to try an axis, i.e. whether a plane can separate the centres.
 fn is_tried(centers: &BBox, axis: usize, _count: usize) -> bool {
     centers.min[axis] < centers.max[axis]
 }

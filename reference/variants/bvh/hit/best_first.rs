@@ -1,5 +1,5 @@
-// Traverses the tree best first: a heap of the nodes still to be visited returns the node whose box
-// the ray enters first.
+// Traverses the tree best first: a heap of the nodes to visit returns the one whose box the ray
+// enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,7 +11,7 @@ impl Bvh {
         let mut closest = None;
         let mut open = BinaryHeap::from_iter(OpenNode::new(root, &ray));
         while let Some(OpenNode { node, entry }) = open.pop() {
-            // The ray enters the boxes of all other open nodes at this distance or farther away.
+            // The ray enters the boxes of all other open nodes at this distance or later.
             if entry > ray.range.max {
                 break;
             }
@@ -27,8 +27,8 @@ impl Bvh {
     }
 }
 
-/// A node that is still to be visited. In comparisons, the node whose box the ray enters first is
-/// the greatest, because a `BinaryHeap` returns the greatest element first.
+/// A node to visit. In comparisons, the node whose box the ray enters first is the greatest,
+/// because a `BinaryHeap` returns the greatest element first.
 struct OpenNode<'a> {
     node: &'a Node,
     entry: f32,

@@ -9,7 +9,7 @@ impl Bvh {
         let mut rest = *ray;
 
         // One bit for each level, with the root's bit at the top. A bit is 1 if the child being
-        // traversed on that level is the last to be visited.
+        // traversed on that level is the last one to visit.
         let mut trail = 0_u64;
         while trail < DONE {
             let mut node = root;

@@ -1,4 +1,4 @@
-// Traversal visits up to four children at once; the build determines these children (Wald, Benthin
+// Traversal visits up to four children at once. The build determines these children (Wald, Benthin
 // and Boulos, "Getting Rid of Packets", 2008).
 
 #[derive(Clone, Debug)]
@@ -48,8 +48,8 @@ impl Bvh {
     }
 }
 
-/// Returns up to four descendants of a node: as long as there are fewer, the interior node with the
-/// largest box is replaced with its children.
+/// Returns up to four descendants of a node. While there are fewer, replaces the interior node with
+/// the largest box with its children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();

@@ -1,4 +1,4 @@
-// During traversal, each node returns its closest hit, and its parent takes the nearer of the two
+// During traversal, each node returns its closest hit, and its parent picks the nearer of the two
 // hits.
 
 impl Bvh {

@@ -17,7 +17,7 @@ impl Bvh {
             .unwrap_or_else(|closest| closest)
     }
 
-    /// Returns the leaves whose boxes the ray hits, and where it enters them, from near to far.
+    /// Returns the leaves whose boxes the ray hits with their entry distances, from near to far.
     fn leaves<'a>(&'a self, ray: &'a Ray) -> impl Iterator<Item = (f32, &'a Node)> {
         let entered = |index: usize| {
             let node = self.nodes.get(index)?;

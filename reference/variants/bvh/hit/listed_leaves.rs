@@ -1,4 +1,4 @@
-// Traversal first lists all leaves that the ray hits, and then tests them from near to far.
+// Traversal first lists all leaves that the ray hits and then tests them from near to far.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,11 +1,11 @@
-// Tests no primitive twice for one ray, even if a tree had it in several leaves. A mailbox holds the
-// number of the last ray that tested its primitive. Every call has a number of its own, and boxes that
-// are too few are added, so that no answer depends on earlier rays or other trees. See Amanatides and
-// Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
+// Never tests a primitive twice for one ray, even if it is in several leaves of a tree. A mailbox
+// contains the number of the last ray that tested its primitive. Every call has its own number, and
+// missing mailboxes are added, so that no answer depends on earlier rays or other trees. See
+// Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
 
 use std::cell::RefCell;
 
-/// The mailboxes, and the number of the current ray.
+/// The mailboxes and the number of the current ray.
 struct Mail {
     boxes: Vec<u64>,
     ray: u64,
@@ -27,7 +27,7 @@ impl Mail {
         self.boxes.resize(count, 0);
     }
 
-    /// Returns whether the ray has not tested this primitive, and marks it as tested.
+    /// Returns whether the ray hasn't tested this primitive yet, and marks it as tested.
     fn is_new(&mut self, primitive: usize) -> bool {
         std::mem::replace(&mut self.boxes[primitive], self.ray) != self.ray
     }

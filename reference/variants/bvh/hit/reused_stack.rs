@@ -1,5 +1,5 @@
-// Keeps the memory of the traversal's stack from one call to the next, so that a ray allocates
-// nothing. The stack is emptied at the beginning of a call, and only its capacity is kept.
+// Keeps the memory of the traversal's stack from one call to the next, so that rays don't allocate.
+// The stack is emptied at the beginning of each call, and only its capacity is kept.
 
 use std::cell::RefCell;
 

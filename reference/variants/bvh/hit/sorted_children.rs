@@ -1,4 +1,4 @@
-// Traversal puts the children that the ray hits in a sorted list, and never shortens the ray itself.
+// Traversal puts the children that the ray hits in a sorted list and never shortens the ray itself.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

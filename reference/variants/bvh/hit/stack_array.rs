@@ -1,8 +1,9 @@
-// Traverses the tree with a stack of fixed size, in an array: the size is a parameter of its type.
+// Traverses the tree with a stack of fixed size in an array. The size is a const parameter of its
+// type.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
-        // A level needs one entry: the farther child, while the nearer one is visited.
+        // Each level needs one entry: the farther child, while the nearer one is being visited.
         let mut open = Stack::<(usize, f32), 64>::new((0, 0.0));
         let mut closest: Option<Trace> = None;
         let root = self.nodes.get(self.root)?;

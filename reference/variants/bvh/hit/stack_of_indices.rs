@@ -1,4 +1,4 @@
-// Traverses the tree with a stack of indices, and tests a box when its node is popped.
+// Traverses the tree with a stack of indices and tests a box when its node is popped.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,4 +1,4 @@
-// Traversal tests the box of a node when it reaches the node; by then, the closest hit so far has
+// Traversal tests the box of a node when it reaches the node. By then, the closest hit so far has
 // shortened the ray.
 
 impl Bvh {
@@ -19,8 +19,8 @@ impl Bvh {
             return self.test_leaf(node, ray, closest);
         }
 
-        // A missed box counts as infinitely far away. Even if its node is visited first, the box
-        // test there fails.
+        // A missed box is treated as infinitely far away. Even if its node is visited first, the
+        // box test there fails.
         let entry = |child: usize| {
             let inside = self.nodes[child].bbox.hit(ray, ray.range);
             inside.map_or(f32::INFINITY, |inside| inside.min)

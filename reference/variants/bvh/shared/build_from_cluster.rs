@@ -57,8 +57,8 @@ impl Cluster {
         }
     }
 
-    /// Appends the nodes and primitives of the cluster, and returns the index of its root. A
-    /// cluster that fits in a leaf becomes a leaf.
+    /// Appends the nodes and primitives of the cluster and returns the index of its root. A cluster
+    /// that fits in a leaf becomes a leaf.
     fn flatten(
         self,
         max_leaf_size: usize,

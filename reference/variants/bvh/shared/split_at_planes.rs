@@ -1,5 +1,5 @@
 /// Partitions the primitives in place by the best of `count` planes across each axis of the node's
-/// box; returns the size of the left side.
+/// box. Returns the size of the left side.
 fn split_at_planes(primitives: &mut [Primitive], count: usize) -> usize {
     let bbox = bounds_of(primitives);
     let plane = |axis: usize, i: usize| {
@@ -27,7 +27,7 @@ fn split_at_planes(primitives: &mut [Primitive], count: usize) -> usize {
     })
 }
 
-/// Moves the primitives before the plane to the front, as C++'s `std::partition` does, and returns
+/// Moves the primitives before the plane to the front, like C++'s `std::partition`, and returns
 /// their number.
 fn partition(primitives: &mut [Primitive], axis: usize, plane: f32) -> usize {
     let mut first = 0;

@@ -1,5 +1,5 @@
-/// Sorts the primitives along the axis of the cheapest split; returns the size of the left side.
-/// `costs` returns sizes of the left side with their costs, given the sorted primitives.
+/// Sorts the primitives along the axis of the cheapest split. Returns the size of the left side.
+/// Given the sorted primitives, `costs` returns possible sizes of the left side with their costs.
 fn split_sorted(
     primitives: &mut [Primitive],
     costs: impl Fn(&[Primitive]) -> Vec<(usize, f32)>,

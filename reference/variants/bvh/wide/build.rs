@@ -128,7 +128,7 @@ impl Bucket {
     }
 }
 
-/// A builder of binary trees by binned SAH, over all three axes at once.
+/// A builder of binary trees by binned SAH over all three axes at once.
 struct Builder {
     items: Vec<Item>,
     nodes: Vec<Node>,
@@ -154,9 +154,9 @@ impl Builder {
     }
 }
 
-/// Partitions the items in place by the cheapest split, and returns the size of the left side.
-/// Larger nodes are divided into more slices: there, evaluating the splits takes little time
-/// relative to counting the items, and the choice of the split matters most.
+/// Partitions the items in place by the cheapest split and returns the size of the left side.
+/// Larger nodes are divided into more slices. There, evaluating the splits takes little time
+/// compared to counting the items, and the choice of the split matters most.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
     match items.len() {
         0..512 => partition_in::<16>(items, centers),
@@ -168,7 +168,7 @@ fn partition(items: &mut [Item], centers: Bounds) -> usize {
 /// Partitions with `SLICES` slices of the centres along each axis.
 fn partition_in<const SLICES: usize>(items: &mut [Item], centers: Bounds) -> usize {
     let extent = (centers.upper - centers.lower).to_array();
-    // Along an axis with no extent, or almost none, all items are in the first slice.
+    // Along an axis with little or no extent, all items are in the first slice.
     let scale = extent.map(|extent| SLICES as f32 / extent);
     let scale = f32x4::from(scale.map(|scale| if scale.is_finite() { scale } else { 0.0 }));
     let slices = |item: &Item| {

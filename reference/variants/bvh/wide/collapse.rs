@@ -4,7 +4,7 @@
 struct Collapser<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
-    /// The indices of the primitives to which the leaves refer. A primitive that is split occurs
+    /// The indices of the primitives that the leaves refer to. A primitive that is split occurs
     /// several times.
     order: Vec<usize>,
     /// For each node, the plan for collapsing its subtree.
@@ -21,7 +21,7 @@ struct Plan {
     /// `costs[n]` is the cost of this subtree when it is collapsed into at most n children of a
     /// wide ancestor, for n from 1.
     costs: [f32; 8],
-    /// `sides[n]` holds the numbers of these children that come from the left and from the right
+    /// `sides[n]` contains the numbers of these children that come from the left and from the right
     /// subtree. Both are 0 if the whole subtree is one child.
     sides: [(u8, u8); 9],
 }
@@ -83,9 +83,8 @@ impl<'a> Collapser<'a> {
         self.plans[index] = plan;
     }
 
-    /// Splits a leaf into two if it does not fit in a pack, and returns whether it was split. Both
-    /// new leaves keep the box of the old leaf, which need not be the tightest box in a tree from
-    /// the caller.
+    /// Splits a leaf into two if it doesn't fit in a pack. Returns whether it was split. Both new
+    /// leaves keep the box of the old leaf, which may not be tight in a tree from the caller.
     fn split_leaf(&mut self, index: usize) -> bool {
         let Node {
             bbox, start, size, ..
@@ -115,9 +114,8 @@ impl<'a> Collapser<'a> {
         }
     }
 
-    /// Writes the wide node for a subtree and everything below it, and returns the node's first
-    /// line. Leaves come before other children, and large boxes before small ones: see
-    /// [`Bvh::prefetch`].
+    /// Writes the wide node for a subtree and everything below it. Returns the node's first line.
+    /// Leaves come before other children, and large boxes before small ones: see [`Bvh::prefetch`].
     fn write_node(&mut self, root: usize) -> u32 {
         let mut children = Vec::with_capacity(8);
         self.children(root, 8, &mut children);
@@ -151,7 +149,7 @@ impl<'a> Collapser<'a> {
         to_u32(start)
     }
 
-    /// Writes the pack of a leaf, and returns its first line.
+    /// Writes the pack of a leaf and returns its first line.
     fn write_leaf(&mut self, index: usize) -> u32 {
         let Node { start, size, .. } = self.nodes[index];
         // Takes each primitive once, even if the leaf contains several pieces of that primitive.

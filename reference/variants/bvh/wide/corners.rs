@@ -69,7 +69,7 @@ fn fits_in_pack(primitives: &[Primitive], indices: impl ExactSizeIterator<Item =
         && (triangles == 0 || spheres == 0)
 }
 
-/// Converts an index to `u32`, and checks that it leaves the bit [`LEAF`] free.
+/// Converts an index to `u32` and checks that it leaves the bit [`LEAF`] free.
 fn to_u32(index: usize) -> u32 {
     let index = u32::try_from(index).ok().filter(|&index| index < LEAF);
     index.expect("there are fewer than 2^31 lines and primitives")

@@ -17,7 +17,7 @@ impl WideRay {
     /// infinity times 0 is NaN. The inverse of this number is large enough to serve as infinity.
     const MIN_COMPONENT: f32 = 1e-30;
 
-    /// A factor that makes up for the rounding error of exit distances, so that no box is missed.
+    /// A factor that makes up for the rounding error of exit distances so that no box is missed.
     /// Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
     const EXIT_PADDING: f32 = 1.000_000_4;
 
@@ -60,7 +60,7 @@ impl<'a> WideNode<'a> {
         children.as_array()[lane].to_bits()
     }
 
-    /// Returns the entry distances of all boxes, and a bit mask of the boxes that the ray enters
+    /// Returns the entry distances of all boxes and a bit mask of the boxes that the ray enters
     /// before `max`.
     fn entries(&self, wide_ray: &WideRay, max: f32) -> (f32x8, u32) {
         let from = |axis: usize, upper: bool| {
@@ -71,8 +71,7 @@ impl<'a> WideNode<'a> {
             [0, 1, 2].map(|axis| from(axis, wide_ray.is_negative[axis]) * wide_ray.inverse[axis]);
         let leave = [0, 1, 2]
             .map(|axis| from(axis, !wide_ray.is_negative[axis]) * wide_ray.padded_inverse[axis]);
-        // Maxima and minima are computed in pairs that do not depend on each other, which shortens
-        // the dependency chain.
+        // Maxima and minima are computed in independent pairs, which shortens the dependency chain.
         let enter = (enter[0].fast_max(enter[1])).fast_max(enter[2].fast_max(wide_ray.min));
         let leave = (leave[0].fast_min(leave[1])).fast_min(leave[2].fast_min(f32x8::splat(max)));
         (enter, enter.simd_le(leave).to_bitmask())

@@ -2,7 +2,7 @@
 
 /// A leaf with up to eight triangles, or with the indices of up to eight spheres.
 ///
-/// The triangles have at most eight different corners, because neighbours share them. Three
+/// The triangles have at most eight distinct corners, because neighbours share them. Three
 /// registers hold the corners' coordinates, and the fourth holds one word per triangle with the
 /// lanes of its corners. A lane without a triangle repeats one corner three times, which no ray
 /// hits.
@@ -60,9 +60,9 @@ impl<'a> Pack<'a> {
 
     /// The lane whose flag marks a pack of spheres.
     const SPHERES_FLAG: usize = 0;
-    /// The lane whose flag marks a pack with triangles that are not flat. The extra data of the
-    /// first two words is then the index of the first triangle's surface; otherwise, the extra data
-    /// of each word is the triangle's number.
+    /// The lane whose flag marks a pack with triangles that aren't flat. In that case, the extra
+    /// data of the first two words is the index of the first triangle's surface. Otherwise, the
+    /// extra data of each word is the triangle's number.
     const SURFACES_FLAG: usize = 1;
 
     fn at(lines: &'a [CacheLine], start: u32) -> Self {
@@ -123,7 +123,7 @@ impl<'a> Pack<'a> {
         })
     }
 
-    /// Tests eight triangles by Möller and Trumbore's algorithm, and returns the closest hit up to
+    /// Tests eight triangles by Möller and Trumbore's algorithm and returns the closest hit up to
     /// `max`.
     fn hit(&self, wide_ray: &WideRay, max: f32) -> Option<PackHit> {
         let [p0, p1, p2] = self.corners();
@@ -132,8 +132,8 @@ impl<'a> Pack<'a> {
 
         let p = cross(&wide_ray.dir, &e2);
         let q = cross(&s, &e1);
-        // There is no division unless there is a hit: u, v and t are compared with multiples of the
-        // determinant, after both sides have been multiplied by its sign.
+        // Only hits need a division: u, v and t are compared with multiples of the determinant,
+        // after both sides have been multiplied by its sign.
         let determinant = dot(&p, &e1);
         let sign = determinant & f32x8::splat(-0.0);
         let determinant = determinant ^ sign;

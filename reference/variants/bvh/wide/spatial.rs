@@ -1,4 +1,4 @@
-// Builds the tree for traversal, in which triangles may be split.
+// Builds the tree for traversal, where triangles may be split.
 
 /// A builder of the tree for traversal. If the boxes of a node's two sides would overlap, the node
 /// is split by a plane instead if that is cheaper. A triangle that crosses the plane then has a
@@ -7,7 +7,7 @@
 struct SpatialBuilder<'a> {
     primitives: &'a [Primitive],
     nodes: Vec<Node>,
-    /// The indices of the primitives to which the leaves refer. A primitive that is split occurs
+    /// The indices of the primitives that the leaves refer to. A primitive that is split occurs
     /// several times.
     order: Vec<usize>,
     /// The number of additional pieces that spatial splits may still create.
@@ -181,7 +181,7 @@ impl<'a> SpatialBuilder<'a> {
             }
             if (a[axis] < plane && plane < b[axis]) || (b[axis] < plane && plane < a[axis]) {
                 let at = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
-                // Enlarges the box, so that it contains the exact point despite rounding.
+                // Enlarges the box so that it contains the exact point despite rounding.
                 let slack = 4e-7 * a.abs().max(b.abs());
                 for at in [at - slack, at + slack] {
                     low.join(Bounds::point(at));

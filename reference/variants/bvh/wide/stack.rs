@@ -1,11 +1,11 @@
 // The stack of the traversal.
 
-/// A child to be visited, and the distance at which the ray enters its box.
+/// A child to visit and the distance where the ray enters its box.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct StackEntry(u64);
 
 impl StackEntry {
-    /// Creates an entry, with the entry distance in the bits above the child. The bit patterns of
+    /// Creates an entry with the entry distance in the bits above the child. The bit patterns of
     /// non-negative floats have the same order as the floats, so the nearest of several entries is
     /// the smallest integer.
     fn new(entry: f32, child: u32) -> Self {
@@ -21,7 +21,7 @@ impl StackEntry {
     }
 }
 
-/// The children that are still to be visited, the nearest last.
+/// The children to visit, the nearest last.
 struct Stack {
     entries: [StackEntry; Stack::SIZE],
     len: usize,
@@ -31,8 +31,8 @@ struct Stack {
 }
 
 impl Stack {
-    /// The size of the array: a power of two, so that `%` is a mask and the index needs no bounds
-    /// check.
+    /// The size of the array: a power of two, so that `%` becomes a mask and the index doesn't need
+    /// a bounds check.
     const SIZE: usize = 32;
 
     fn new() -> Self {
@@ -43,7 +43,7 @@ impl Stack {
         }
     }
 
-    /// Makes room for the children of one more node, and returns the index of the first of them.
+    /// Makes room for the children of one more node. Returns the index of the first of them.
     fn reserve_eight(&mut self) -> usize {
         if self.len > Stack::SIZE - 8 {
             self.overflow.extend_from_slice(&self.entries[..self.len]);

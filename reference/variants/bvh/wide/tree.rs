@@ -5,17 +5,17 @@
 //
 // Traversal is limited by cache misses and branch mispredictions, not by arithmetic:
 //
-// - Nodes and packs are in one array, with the packs of a node right behind it. All children that
+// - Nodes and packs share one array, with the packs of a node right behind it. All children that
 //   the ray hits are prefetched at once, together with the memory behind them.
-// - A pack is small, because each corner that neighbouring triangles share is stored once.
+// - Packs are small, because each corner that neighbouring triangles share is stored once.
 // - A stack entry is one integer, with the entry distance in the bits above the child, so that the
 //   nearer of two children is found without a branch.
-// - For each axis, the sign of the ray's direction tells which plane of a box the ray reaches
+// - For each axis, the sign of the ray's direction decides which plane of a box the ray reaches
 //   first, so only that plane is used to compute the entry distance.
 // - The shading data of a triangle is in one cache line. For a flat triangle, it is computed from
 //   the corners, so nothing else is read.
-// - For a tree built here, traversal does not use `nodes` but another tree, in which a large
-//   triangle may be split into pieces.
+// - For a tree built here, traversal uses a different tree than `nodes`, where large triangles may
+//   be split into pieces.
 
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Shape};
@@ -24,13 +24,13 @@ use wide::{f32x4, f32x8, u32x8};
 
 use crate::triangle::Triangle;
 
-/// A bounding volume hierarchy, stored twice: as a binary tree, and as a wide tree for traversal.
+/// A bounding volume hierarchy, stored twice: as a binary tree and as a wide tree for traversal.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     pub primitives: Vec<Primitive>,
     pub nodes: Vec<Node>,
     pub root: usize,
-    /// The wide tree, with its root first. Empty if there are no primitives.
+    /// The wide tree with its root first, or empty without primitives.
     lines: Vec<CacheLine>,
     /// Shading data of the triangles in each pack, unless all triangles of the pack are flat.
     surfaces: Vec<Surface>,
@@ -151,9 +151,9 @@ impl Bvh {
         }
     }
 
-    /// Prefetches a child, which is likely to be visited, though perhaps not immediately, and the
-    /// memory behind the child, which is likely to be visited next: the first packs of a node, or
-    /// the neighbours of a pack.
+    /// Prefetches a child and the memory behind it. The child is likely to be visited, though
+    /// perhaps not immediately, followed by that memory: the first packs of a node, or the
+    /// neighbours of a pack.
     fn prefetch(&self, child: u32) {
         const LINES: usize = WideNode::LINES + 2 * Pack::LINES;
         let start = (child & !LEAF) as usize;
@@ -188,7 +188,7 @@ impl Bvh {
     }
 }
 
-/// Prefetches the cache line in which `what` begins, if the processor supports it.
+/// Prefetches the cache line where `what` begins, if the processor supports it.
 fn prefetch<T>(what: &T) {
     #[cfg(target_feature = "sse")]
     safe_arch::prefetch_t0(what);

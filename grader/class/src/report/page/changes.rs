@@ -8,7 +8,7 @@ use crate::regrade_diff::{Changes, Drift};
 use crate::report::text::{points_now, points_of_item, with_changed_points};
 use grader::printing::counted;
 
-/// Renders the differences from earlier runs, if there are any.
+/// Renders the differences from earlier runs, if any.
 pub(super) fn sections(changes: &Changes) -> Markup {
     html! {
         @if let Some(regrade) = &changes.regrade {

@@ -72,7 +72,7 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Change
     page.into_string()
 }
 
-/// Returns a content security policy that forbids external resources, and allows only [`STYLE`] and
+/// Returns a content security policy that forbids external resources and allows only [`STYLE`] and
 /// [`SCRIPT`].
 fn content_security_policy() -> String {
     let [style, script] = [STYLE, SCRIPT].map(|text| STANDARD.encode(Sha256::digest(text)));
@@ -118,7 +118,7 @@ fn distribution(summary: &ClassSummary) -> Markup {
     }
 }
 
-/// Renders a distribution as ten columns with axes, and with the numbers as text for screen readers.
+/// Renders a distribution as ten columns with axes, and the numbers as text for screen readers.
 fn bars(distribution: &Distribution) -> Markup {
     let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
     let counts: Vec<String> = distribution.bins.iter().map(ToString::to_string).collect();
@@ -178,7 +178,7 @@ fn causes(causes: &[Cause]) -> Markup {
     }
 }
 
-/// Renders how often each task and item was failed, in each section. Items are folded up.
+/// Renders how often each task and item was failed, in each section. Items are collapsed.
 fn failure_rates(summary: &ClassSummary) -> Markup {
     let table = |of_items: bool| {
         let rates = summary.failed.iter();

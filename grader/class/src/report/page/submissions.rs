@@ -43,7 +43,7 @@ pub(super) fn section(class: &GradedClass) -> Markup {
 fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
     let names = row.result.info.display_names();
     let is_other = names != row.result.id;
-    // Names may be equal, or look alike.
+    // Names may be equal or look alike.
     let id = html! { @if is_other { " " code { (sanitized(&row.result.id)) } } };
     let who = sanitized(&names);
     html! {
@@ -66,7 +66,7 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
     }
 }
 
-/// Returns the final points of the people, once if they are equal.
+/// Returns the final points of the people, or a single number if they are equal.
 fn counts(row: &ClassRow) -> String {
     let counts = row.grades.iter().map(|grade| match &grade.counted {
         Some(counted) => counted.points.to_string(),
@@ -77,8 +77,8 @@ fn counts(row: &ClassRow) -> String {
     counts.join(" / ")
 }
 
-/// Renders the platform's late flag, the reason why people have no final points, or else what counts,
-/// and the comments of staff.
+/// Renders the platform's late flag, an explanation of the final points or why there are none, and
+/// comments by staff.
 fn notes(row: &ClassRow) -> Markup {
     html! {
         @if row.result.info.is_late() { p { "marked " (LATE) " by the platform" } }

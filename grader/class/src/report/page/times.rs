@@ -11,7 +11,7 @@ use grader::printing::counted;
 
 /// Renders the section, if anything is known about times.
 pub(super) fn section(class: &GradedClass) -> Markup {
-    // With the id, since names may be equal, or look alike.
+    // With the id, since names may be equal or look alike.
     let grades = || {
         let rows = class.rows.iter();
         let people = rows.flat_map(|row| row.people().map(move |person| (row, person)));

@@ -9,7 +9,7 @@ use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// The components of a direction that are almost 0.
+/// The upper limit of a direction's component that is almost 0.
 pub(super) const SMALL_COMPONENT: f32 = 1e-4;
 
 /// A call of `BBox::hit`.
@@ -21,7 +21,7 @@ pub struct BoxCall {
     pub ray: Ray,
     /// The times.
     pub times: Interval,
-    /// The arguments of the call before this one, if it was about the same box.
+    /// The arguments of the previous call, if it was about the same box.
     pub(super) before: Option<(Ray, Interval)>,
 }
 
@@ -48,7 +48,7 @@ impl BoxCall {
         self.bounds.half_side()
     }
 
-    /// Returns the part of the ray that is asked about.
+    /// Returns the ray, limited to the times of the call.
     pub fn ray64(&self) -> Ray64 {
         Ray64::from(&self.ray).within(self.times)
     }
@@ -58,26 +58,27 @@ impl BoxCall {
         self.times == Interval::AHEAD
     }
 
-    /// Returns whether the box has no thickness along an axis.
+    /// Returns whether the thickness of the box is 0 along an axis.
     pub fn is_flat(&self) -> bool {
         self.bounds.min.cmpeq(self.bounds.max).any()
     }
 
-    /// Returns how far from the centre the ray's line passes, in halves of the diagonal.
+    /// Returns the distance between the box's centre and the ray's line, in half diagonals.
     pub(super) fn distance_of_line(&self) -> f64 {
         let to_center = self.bounds.center() - self.ray.origin.as_dvec3();
         let dir = self.ray.dir.as_dvec3();
         to_center.reject_from(dir).length() / (0.5 * self.bounds.diagonal())
     }
 
-    /// Returns the number of axes across which the ray starts in the plane of a face of a thick box.
+    /// Returns the number of axes along which the box is thick and the ray starts in the plane of a
+    /// face.
     pub(super) fn faces_at_start(&self) -> usize {
         let start = self.ray.origin.as_dvec3();
         let is_on = start.cmpeq(self.bounds.min) | start.cmpeq(self.bounds.max);
         is_on.bitmask().count_ones() as usize
     }
 
-    /// Returns whether the call before was about almost the same ray, with the same times.
+    /// Returns whether the previous call was about almost the same ray with the same times.
     pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
         self.before.is_some_and(|(ray, times)| {
             times == self.times && fields::is_almost_the_same_ray(&ray, &self.ray)
@@ -95,7 +96,7 @@ impl BoxCall {
         self.bounds.contains(&start)
     }
 
-    /// Returns whether it matters that a component of the direction is almost 0, and not 0.
+    /// Returns whether it matters that a component of the direction is almost 0 rather than 0.
     pub fn is_decided_by_slant(&self) -> bool {
         let would_hit = self.with_zeros().map(|call| call.is_hit());
         would_hit.is_some_and(|would_hit| would_hit != self.is_hit())
@@ -110,7 +111,8 @@ impl BoxCall {
         (dir != self.ray.dir).then_some(BoxCall { ray, ..*self })
     }
 
-    /// Returns the times at which the ray's line enters and leaves the box, whatever the times are.
+    /// Returns the times when the ray's line enters and leaves the box, ignoring the times of the
+    /// call.
     pub fn crossing(&self) -> Option<(f64, f64)> {
         let whole = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
         self.bounds.span(&Ray64::from(&self.ray).within(whole))
@@ -118,7 +120,7 @@ impl BoxCall {
 
     /// Returns whether this line, which misses the box, would hit one that is a little larger.
     pub(super) fn is_narrow_miss(&self, line: &Ray64) -> bool {
-        /// By how much, in sizes.
+        /// The margin, in sizes of the box.
         const NARROW: f64 = 0.002;
         let larger = self.bounds.grown(NARROW * self.size());
         larger.span(line).is_some()

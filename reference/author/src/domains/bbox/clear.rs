@@ -8,12 +8,12 @@ use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 
 impl BoxCall {
-    /// Returns whether every correct formula in single precision agrees on the outcome: it would be the
-    /// same if the box and the times were a little larger or smaller.
+    /// Returns whether every correct formula in single precision agrees on the outcome, i.e. whether it
+    /// would be the same for a slightly larger or smaller box and slightly different times.
     pub fn is_clear(&self) -> bool {
-        /// How much larger or smaller, in sizes.
+        /// The margin, in sizes of the box.
         const MARGIN: f64 = 0.02;
-        /// The same for a thin box, in sides.
+        /// The margin of a thin box, in lengths of its side.
         const THIN_MARGIN: f64 = 0.1;
         let size = self.size();
         let sides = self.bounds.max - self.bounds.min;
@@ -29,7 +29,7 @@ impl BoxCall {
         let is_lost = |axis: usize| {
             let speed = f64::from(self.ray.dir[axis].abs());
             if is_flat.test(axis) && is_still.test(axis) {
-                // A ray in the plane of a flat box is not tested.
+                // Rays in the plane of a flat box aren't tested.
                 (origin - self.bounds.min)[axis].abs() < longer
             } else if is_flat.test(axis) {
                 // Where a slanting ray crosses the plane depends on the rounding of the time.
@@ -43,7 +43,7 @@ impl BoxCall {
                 let is_at_an_end = ends.iter().any(|end| (end - time).abs() < late);
                 is_at_an_end || late > 0.25 * longer || (0..3).any(is_far)
             } else {
-                // A ray in the plane of a face is not tested, either.
+                // Rays in the plane of a face aren't tested either.
                 let sides = [self.bounds.min, self.bounds.max];
                 let is_in_plane = sides.iter().any(|side| side[axis] == origin[axis]);
                 is_still.test(axis) && is_in_plane
@@ -76,7 +76,7 @@ impl BoxCall {
     /// Returns whether the ray enters or leaves the box through a side that it is almost parallel to, so
     /// that rounding changes the time.
     fn is_decided_by_rounding(&self, coordinates: f64) -> bool {
-        /// The largest part of a tolerance that errors may take.
+        /// The largest fraction of a tolerance that errors may use up.
         const PART: f64 = 0.3;
         let ray64 = self.ray64();
         let Some((enter, leave)) = self.bounds.span(&ray64) else {

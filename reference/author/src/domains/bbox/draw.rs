@@ -1,4 +1,4 @@
-//! Draws boxes, and rays through and beside them with times.
+//! Draws boxes, rays through and past them, and times.
 
 use glam::DVec3;
 use protocol::{Interval, Ray};
@@ -10,7 +10,8 @@ use crate::domains::{Call, Generator};
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// Draws boxes of these sizes, each with calls that belong to an idea, every other one a hit.
+/// Draws boxes of these sizes. Each has calls that fit an item's idea, and every other call is a
+/// hit.
 pub fn tables(
     rng: &mut Rng,
     sizes: &[usize],
@@ -28,7 +29,7 @@ pub fn tables(
         differ: &|_, _| true,
     };
     let mut tables = generator.tables(rng, sizes);
-    // If the last two have the same calls, they stay as they are: one begins where the other ends.
+    // If the last two have the same calls, they stay unchanged: one begins where the other ends.
     let alone = if tables.len() > sizes.len() {
         sizes.len() - 1
     } else {
@@ -64,7 +65,7 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     if half[axis] < THIN * size && !is_foil && rng.index(3) == 0 {
         half[(axis + 3 - other) % 3] = size * thin(rng);
     }
-    // Farther away, coordinates have too few digits for foil.
+    // Farther away, coordinates don't have enough digits for foil.
     let mut center = if is_foil {
         rng.point(0.9 * size)
     } else {
@@ -92,8 +93,8 @@ fn thin(rng: &mut Rng) -> f64 {
     }
 }
 
-/// Returns a centre and half of the sides near these, so that single precision has digits for the corners
-/// and for the centre. Sides that are too short for that stay as they are.
+/// Returns a centre and half sides close to these, so that the corners and the centre are exact in single
+/// precision. Sides that are too short for that are returned unchanged.
 fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     let step = size.log2().floor().exp2() / 256.0;
     let is_long = half.cmpge(DVec3::splat(step));
@@ -104,7 +105,7 @@ fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     ]
 }
 
-/// Draws a ray through a box or beside it, with times. Returns `None` if it would start too far away.
+/// Draws a ray through a box or past it, and times. Returns `None` if it would start too far away.
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let sides = bounds.max - bounds.min;
@@ -128,7 +129,8 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     query_along(rng, bounds, dir)
 }
 
-/// Draws a ray in this direction. Some start far away in another.
+/// Draws a ray in this direction. Sometimes, draws one that starts far away or at the origin
+/// instead.
 fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let target = target(rng, bounds);
@@ -150,7 +152,7 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     match rng.index(4) {
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
-            // Close to a face, inside or outside: by a part of the box's size, or of this side.
+            // Close to a face, inside or outside, by a fraction of the box's size or of this side.
             let thinnest = (0..3).filter(|&axis| sides[axis] > 0.0);
             let thinnest = thinnest.min_by(|&a, &b| sides[a].total_cmp(&sides[b]));
             let axis = match thinnest {
@@ -171,7 +173,7 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     }
 }
 
-/// Draws a ray with a component that is almost 0, along a slab that it starts beside, or that it leaves
+/// Draws a ray with a component that is almost 0, along a slab. It starts beside the slab or leaves it
 /// on its long way to the box.
 fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
@@ -188,7 +190,7 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Draws a ray that crosses foil, or the air beside it, with a component below 3e-6.
+/// Draws a ray with a component below 3e-6 that crosses foil or passes beside it.
 fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -226,8 +228,8 @@ fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, origin, dir, sides.max_element()))
 }
 
-/// Draws a ray that starts exactly in the centre of the box. Returns `None` if single precision has no
-/// digits for it.
+/// Draws a ray that starts exactly in the centre of the box. Returns `None` if the centre isn't exact
+/// in single precision.
 fn from_center(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let center = bounds.center();
     let is_exact = center.as_vec3().as_dvec3() == center;
@@ -244,7 +246,7 @@ fn from_the_origin(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, DVec3::ZERO, dir, furthest))
 }
 
-/// Draws a ray that starts where one or two coordinates are 0.
+/// Draws a ray whose start has one or two coordinates that are 0.
 fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let (dir, size) = (fields::direction(rng), bounds.half_side());
     let target = target(rng, bounds);
@@ -259,7 +261,7 @@ fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval
     is_inside.then(|| with_times(rng, origin, dir, furthest))
 }
 
-/// Draws a ray past a corner or an edge, which it cuts off.
+/// Draws a ray that just cuts off a corner or an edge.
 fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -274,7 +276,7 @@ fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Returns a ray with its own range and times, whose ends are at distances up to `furthest`.
+/// Returns a ray with its own range, and times that end at distances up to `furthest`.
 fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, Interval) {
     let mut times = fields::range(rng, furthest);
     match rng.index(16) {
@@ -293,9 +295,9 @@ fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, 
     (ray, times)
 }
 
-/// Returns a smaller box with the same centre, also in single precision.
+/// Returns a smaller box with exactly the same centre in single precision.
 fn smaller(bounds: &Bounds) -> Bounds {
-    /// How many sides are tried.
+    /// The number of sides that are tried.
     const ATTEMPTS: usize = 256;
     let twice = bounds.min + bounds.max;
     let (mut min, mut max) = (bounds.min.as_vec3(), bounds.max.as_vec3());
@@ -318,14 +320,14 @@ fn smaller(bounds: &Bounds) -> Bounds {
     Bounds::new(min, max)
 }
 
-/// Returns the calls of a table, and three more about almost the same ray, which hits the box or misses
-/// it, if the box is so thin that this is clear.
+/// Returns the calls of a table. If the box is so thin that the answers are clear, adds three calls
+/// about almost the same ray, which either hits or misses the box.
 fn with_almost_the_same_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
 ) -> (Bounds, Vec<(Ray, Interval)>) {
-    /// How many rays are drawn.
+    /// The maximum number of rays that are drawn.
     const ATTEMPTS: usize = 3000;
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -361,12 +363,12 @@ fn with_almost_the_same_rays(
     (bounds, queries)
 }
 
-/// Returns boxes that are lines along the axes, and one that is a point, each with rays that clearly miss
-/// it.
+/// Returns boxes that are lines along the axes and a box that is a point, each with rays that clearly
+/// miss it.
 pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     /// The number of rays for each box.
     const RAYS: usize = 8;
-    /// The least distance between a ray and the box, in sizes.
+    /// The minimum distance between a ray and the box, in sizes.
     const CLEAR: f64 = 0.05;
     let table = |axis: usize| {
         let class = 1 + rng.index(7);
@@ -400,17 +402,18 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     (0..4).map(table).collect()
 }
 
-/// Returns the calls of a table, and three more: two rays that are parallel to the one before, and one
-/// with the same start. Where one of them hits, the other misses.
+/// Returns the calls of a table and three more: two whose rays are parallel to the previous one, and
+/// one whose ray starts at the same point. Each of them hits if the previous ray misses, and vice
+/// versa.
 fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
 ) -> (Bounds, Vec<(Ray, Interval)>) {
-    /// How many rays are drawn for each.
+    /// The maximum number of rays drawn for each.
     const ATTEMPTS: usize = 400;
     let is_hit = |query: &(Ray, Interval)| BoxCall::new(bounds, *query).is_hit();
-    // The first is parallel to the last row, or to one that is moved to the end for it.
+    // The first is parallel to the last row, or to a row that is moved to the end for this.
     let found = (0..queries.len()).rev().find_map(|row| {
         let last = queries[row];
         let dir = last.0.dir;
@@ -430,7 +433,7 @@ fn with_related_rays(
         queries.push(last);
         queries.extend(parallel);
     }
-    // Some row is followed by one from the same start, with the same times.
+    // A row is followed by one with the same start and the same times.
     let found = (0..queries.len()).rev().find_map(|row| {
         let (ray, times) = queries[row];
         let other = rng.attempt(ATTEMPTS, |rng| {
@@ -453,7 +456,7 @@ mod tests {
     use super::*;
     use crate::seed::Seed;
 
-    /// Products with the inverse of the direction, in single precision.
+    /// Multiplies by the inverse of the direction, in single precision.
     fn span(call: &BoxCall) -> Option<(f32, f32)> {
         let (origin, inverse) = (call.ray.origin, call.ray.dir.recip());
         let (mut enter, mut leave) = (call.times.min, call.times.max);

@@ -119,7 +119,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     ],
 };
 
-/// The form of the box.
+/// The shape of the box: flat, thin or thick.
 const FORM: Aspect<BoxCall> = Aspect {
     name: "form",
     classes: &[
@@ -175,7 +175,7 @@ const PAPER: f64 = 0.0009;
 /// The shortest side of a box below which it is as thin as foil, relative to the longest.
 const FOIL: f64 = 1.8e-4;
 
-/// How many axes have 0 at a side of the box.
+/// The number of axes along which a side of the box is at 0.
 const ZERO_SIDES: Aspect<BoxCall> = Aspect {
     name: "sides at 0",
     classes: &["along one axis", "along all axes"],
@@ -216,7 +216,7 @@ const START: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// Where in the box the ray starts.
+/// The position inside the box where the ray starts.
 const START_INSIDE: Aspect<BoxCall> = Aspect {
     name: "start in the box",
     classes: &["in the centre", "on an edge", "in a corner", "elsewhere"],
@@ -234,7 +234,7 @@ const START_INSIDE: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The octant of the box, if the ray starts at the origin of the world, outside of the box.
+/// The octant of the box, if the ray starts at the world's origin and that is outside the box.
 const START_AT_THE_ORIGIN: Aspect<BoxCall> = Aspect {
     name: "octant, from the origin of the world",
     classes: OCTANTS,
@@ -257,14 +257,14 @@ const ZEROS_OF_START: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The distance at which the ray enters the box.
+/// The distance where the ray enters the box.
 const DISTANCE: Aspect<BoxCall> = Aspect {
     name: "distance",
     classes: DISTANCES,
     class: |call| Some(distance_class(call.bounds.span(&call.ray64())?.0)),
 };
 
-/// How the ray's line crosses the box, and which part of that is in the times.
+/// How the ray's line crosses the box, and how much of the crossing is within the times.
 const OUTCOME: Aspect<BoxCall> = Aspect {
     name: "outcome",
     classes: &[
@@ -301,7 +301,7 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// How far from the centre of the box a hit passes.
+/// The distance between a hit's ray and the box's centre.
 const WAY: Aspect<BoxCall> = Aspect {
     name: "way past the centre",
     classes: &["near", "farther away", "near an edge or a corner"],
@@ -328,7 +328,7 @@ const DIAGONAL: Aspect<BoxCall> = Aspect {
     class: |call| diagonal_class(call.ray.dir),
 };
 
-/// The components of the direction that are almost 0, if they decide.
+/// The components of the direction that are almost 0, if they decide the answer.
 const SLANT: Aspect<BoxCall> = Aspect {
     name: "components below 1e-4",
     classes: &[
@@ -353,7 +353,7 @@ const TIMES: Aspect<BoxCall> = Aspect {
     class: |call| times_class(call.times),
 };
 
-/// The ray's own range, which does not matter.
+/// The ray's own range, which must be ignored.
 const RAYS_RANGE: Aspect<BoxCall> = Aspect {
     name: "the ray's own range",
     classes: RANGE_CLASSES,
@@ -382,7 +382,7 @@ const TIMES_CLASSES: &[&str] = &[
     "one point",
 ];
 
-/// The same, with one more for a range that is empty.
+/// The same classes and an additional one for empty ranges.
 const RANGE_CLASSES: &[&str] = &[
     "from 0 to ∞",
     "from 0 to an end",
@@ -395,7 +395,7 @@ const RANGE_CLASSES: &[&str] = &[
     "empty",
 ];
 
-/// The call before.
+/// The previous call.
 const HISTORY: Aspect<BoxCall> = Aspect {
     name: "call before",
     classes: &[

@@ -1,4 +1,4 @@
-//! Calls of shapes that differ from others in a single property.
+//! Calls whose shape differs from a previous one in a single property.
 
 use glam::{DVec3, Vec3};
 use protocol::{Ray, Shape};
@@ -8,12 +8,12 @@ use crate::domains::Call;
 use crate::oracle::scan;
 
 impl ShapeCall {
-    /// Returns the call of a smaller shape with the same centre.
+    /// Returns the call with a smaller shape that has the same centre.
     pub fn smaller(&self, _: DVec3) -> Self {
         self.scaled(0.75)
     }
 
-    /// Returns the call of a shape with the same centre whose size differs by less than a hundredth.
+    /// Returns the call with a shape that has the same centre and is larger by less than 1%.
     pub fn slightly_larger(&self, random: DVec3) -> Self {
         self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
     }
@@ -31,20 +31,20 @@ impl ShapeCall {
         call
     }
 
-    /// Returns the call with everything moved, so that this point of the shape is the origin.
+    /// Returns the call with everything moved so that this point of the shape is the origin.
     pub fn moved_to_origin(&self, point: Vec3) -> Self {
         let shape = moved(&self.shape, |corner| corner - point);
         let origin = self.ray.origin - point;
         ShapeCall::new(shape, Ray { origin, ..self.ray })
     }
 
-    /// Returns the call of the shape at another place, less than a size away.
+    /// Returns the call with the shape at a different position, less than a size away.
     pub fn elsewhere(&self, random: DVec3) -> Self {
         let offset = self.offset(random);
         ShapeCall::new(moved(&self.shape, |point| point + offset), self.ray)
     }
 
-    /// Returns the call of a shape that differs in its number only.
+    /// Returns the call with a shape that only differs in its number.
     pub fn with_other_number(&self, _: DVec3) -> Self {
         let mut call = ShapeCall::new(self.shape, self.ray);
         let (Shape::Sphere { shape, .. }
@@ -54,14 +54,14 @@ impl ShapeCall {
         call
     }
 
-    /// Returns a vector that is a small part of the shape's size, or a large part of it.
+    /// Returns a vector that is either short or long, compared to the shape's size.
     pub fn offset(&self, random: DVec3) -> Vec3 {
         let part = if random.x > 0.0 { 0.5 } else { 0.02 };
         (part * self.size() * random).as_vec3()
     }
 }
 
-/// Returns a shape with its centre or its corners moved.
+/// Returns the shape with its centre or its corners moved.
 fn moved(shape: &Shape, to: impl Fn(Vec3) -> Vec3) -> Shape {
     let mut shape = *shape;
     match &mut shape {

@@ -1,4 +1,4 @@
-//! Calls that follow another one of the same shape and are almost the same.
+//! Calls that follow another call of the same shape and are almost the same.
 
 use glam::Vec3Swizzles;
 use protocol::Ray;
@@ -19,7 +19,7 @@ const DISTANCE: f64 = 0.02;
 /// The largest difference between almost the same ends of a range, in sizes.
 const ENDS: f64 = 0.03;
 
-/// How a call can follow another one.
+/// The ways a call can follow another.
 pub const FOLLOW: &[Follow<ShapeCall>] = &[
     |rng, before| {
         let dir = before.ray.dir.as_dvec3();
@@ -65,8 +65,8 @@ pub const FOLLOW: &[Follow<ShapeCall>] = &[
     },
 ];
 
-/// Returns two calls of the same ray: the range of one ends or begins just before a hit, and that of the
-/// other just behind it.
+/// Returns two calls with the same ray. The range of the first ends or begins just before a hit, and the
+/// range of the second just behind it.
 fn with_ranges_beside_a_hit(rng: &mut Rng, before: &ShapeCall) -> Option<Vec<ShapeCall>> {
     let whole = before.ray.within(0.0, f32::INFINITY);
     let distance = scan::intersect(&Ray64::from(&whole), &before.shape)?.distance;
@@ -87,7 +87,7 @@ fn with_ranges_beside_a_hit(rng: &mut Rng, before: &ShapeCall) -> Option<Vec<Sha
     Some(vec![first?, second?])
 }
 
-/// Returns the class of the call before: none, one with another ray, or one that is almost the same.
+/// Returns the class of the previous call: none, a different ray, or almost the same call.
 pub fn class_of(call: &ShapeCall) -> usize {
     let Some(before) = call.before else {
         return 0;
@@ -128,7 +128,7 @@ pub fn class_of(call: &ShapeCall) -> usize {
 }
 
 impl ShapeCall {
-    /// Returns the call of the same shape with another ray.
+    /// Returns the call of the same shape with a different ray.
     fn with_ray(&self, ray: Ray) -> Self {
         ShapeCall::new(self.shape, ray)
     }

@@ -1,4 +1,4 @@
-//! Calls of `hit` of a single shape, and what all shapes have in common.
+//! Calls of `hit` on a single shape, and the aspects that all shapes have in common.
 
 mod changes;
 mod history;
@@ -24,18 +24,18 @@ pub struct ShapeCall {
     pub shape: Shape,
     /// The ray.
     pub ray: Ray,
-    /// The ray of the call before this one, if it was about the same shape.
+    /// The ray of the previous call, if it was about the same shape.
     pub before: Option<Ray>,
 }
 
 impl ShapeCall {
-    /// Returns the hit, or `None` if there is none.
+    /// Returns the hit, or `None` if the ray misses.
     pub fn hit(&self) -> Option<Intersection> {
         scan::intersect(&Ray64::from(&self.ray), &self.shape)
     }
 
-    /// Returns whether the answer differs from another one in a judged quantity, by more than twice its
-    /// tolerance.
+    /// Returns whether the answer differs from another answer in a judged quantity by more than twice
+    /// its tolerance.
     pub fn differs(&self, other: &Self, judged: &[&str]) -> bool {
         let (Some(hit), Some(other_hit)) = (self.hit(), other.hit()) else {
             return self.is_hit() != other.is_hit();
@@ -58,7 +58,7 @@ impl ShapeCall {
         })
     }
 
-    /// Returns half of the largest side of the shape's box.
+    /// Returns half of the longest side of the shape's box.
     pub fn size(&self) -> f64 {
         scan::bounds(&self.shape).half_side()
     }
@@ -84,7 +84,7 @@ pub const DIRECTION: Aspect<ShapeCall> = Aspect {
     class: |call| direction_class(call.ray.dir),
 };
 
-/// Rays that start at the origin, as those of a camera do.
+/// Rays that start at the origin, like a camera's.
 pub const ORIGIN: Aspect<ShapeCall> = Aspect {
     name: "ray",
     classes: &["from the origin"],
@@ -112,7 +112,7 @@ pub const RANGE: Aspect<ShapeCall> = Aspect {
     class: |call| range_class(call.ray.range),
 };
 
-/// The call before.
+/// The previous call.
 pub const HISTORY: Aspect<ShapeCall> = Aspect {
     name: "call before",
     classes: &[

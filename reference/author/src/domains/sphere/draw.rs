@@ -1,4 +1,4 @@
-//! Draws spheres, and rays in, around and beside them.
+//! Draws spheres, and rays that start in, around and beside them.
 
 use std::f64::consts::TAU;
 
@@ -13,8 +13,8 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws spheres of these sizes, each with rays that belong to an idea, every other one a hit. All
-/// correct formulas compute the judged quantities within their tolerances.
+/// Draws spheres of these sizes. Each has rays that fit an item's idea, and every other ray is a
+/// hit. All correct formulas compute the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -43,7 +43,8 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let mut center = fields::place(rng, size).as_vec3();
     let axis = rng.index(3);
     match rng.index(8) {
-        // The highest point is at the height of the origin, as that of the ground is.
+        // The highest point is at the height of the origin, like that of a sphere used as the
+        // ground.
         0 => center.y = -radius,
         1 if radius >= 100.0 => center.y = -radius,
         1 => center[axis] = radius * rng.sign() as f32,
@@ -103,7 +104,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(ray.within(range.min, range.max))
 }
 
-/// Draws a range that begins or ends just before or behind a root.
+/// Draws a range that begins or ends just before or just behind a root.
 fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
     let beside = line.sphere.radius * rng.log_uniform(0.0101, 0.02);
     let end = (line.roots[rng.index(2)] + rng.sign() * beside) as f32;
@@ -115,7 +116,7 @@ fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
     (end >= 0.0).then_some(range)
 }
 
-/// How a sphere can differ from the one before.
+/// The ways a sphere can differ from the previous one.
 const CHANGES: &[Change<ShapeCall>] = &[
     ShapeCall::smaller,
     ShapeCall::slightly_larger,
@@ -132,7 +133,7 @@ mod tests {
     use super::*;
     use crate::seed::Seed;
 
-    /// The quadratic formula in full, in single precision.
+    /// Evaluates the full quadratic formula in single precision.
     fn distance(ray: &Ray, shape: &Shape) -> Option<f32> {
         let Shape::Sphere { center, radius, .. } = *shape else {
             return None;

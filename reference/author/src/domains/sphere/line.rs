@@ -1,4 +1,4 @@
-//! The line of a ray past or through a sphere, and how exact its roots are in single precision.
+//! The line of a ray past or through a sphere, and the accuracy of its roots in single precision.
 
 use protocol::Shape;
 
@@ -21,7 +21,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Returns the line of a call, or `None` if its shape is no sphere.
+    /// Returns the line of a call, or `None` if its shape isn't a sphere.
     pub fn of(call: &ShapeCall) -> Option<Line> {
         let Shape::Sphere { center, radius, .. } = call.shape else {
             return None;
@@ -61,7 +61,7 @@ impl Line {
         self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
     }
 
-    /// Returns the roots in the ray's range.
+    /// Returns the roots that are in the ray's range.
     pub fn hits(&self) -> impl Iterator<Item = f64> + '_ {
         self.roots
             .into_iter()
@@ -70,9 +70,9 @@ impl Line {
 
     /// Returns whether every correct formula in single precision agrees on whether the sphere is hit.
     pub fn is_clear(&self) -> bool {
-        /// The least difference between the squares of the approach and of 1.
+        /// The minimum difference between the squares of the approach and of 1.
         const TANGENT_MARGIN: f64 = 0.01;
-        /// The least difference between a distance and an end of the range, in radii.
+        /// The minimum difference between a distance and an end of the range, in radii.
         const END_MARGIN: f64 = 0.01;
         let distance = self.start();
         let squared = (self.approach * self.approach - 1.0).abs();
@@ -90,7 +90,7 @@ impl Line {
     /// Returns whether every correct formula in single precision computes the quantity of this name well
     /// within its tolerance.
     pub fn is_exact(&self, quantity: &str) -> bool {
-        /// The largest part of a tolerance that errors may take.
+        /// The largest fraction of a tolerance that errors may use up.
         const PART: f64 = 0.3;
         let Some(distance) = self.hits().next() else {
             return true;
@@ -109,7 +109,7 @@ impl Line {
         }
     }
 
-    /// Returns how wrong a distance may be if it is computed in single precision by a usual formula.
+    /// Returns a bound on the error of a distance that a usual formula computes in single precision.
     /// The difference b² − c loses digits as the square of the distance from the centre grows, and the
     /// square root passes on more of that loss the closer the ray is to a tangent.
     fn distance_error(&self) -> f64 {

@@ -72,7 +72,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     ],
 };
 
-/// Radii that are exactly a power of ten, and the largest ones.
+/// Radii that are exactly a power of ten, and the largest radii.
 const EXACT: Aspect<ShapeCall> = Aspect {
     name: "radius",
     classes: &[
@@ -115,7 +115,7 @@ const TOUCH: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The start of the ray, seen from the sphere.
+/// The start of the ray relative to the sphere.
 const START: Aspect<ShapeCall> = Aspect {
     name: "start",
     classes: &[
@@ -151,10 +151,10 @@ const START: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The least distance of a root that counts as distant, in radii.
+/// The minimum distance of a distant root, in radii.
 const DISTANT: f64 = 15.0;
 
-/// The distance from a root that counts as near, in radii.
+/// The maximum distance from a near root, in radii.
 const NEAR: f64 = 0.1;
 
 /// The distance of the ray's line from the centre.
@@ -188,7 +188,7 @@ const LATITUDE: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The ends of the range, seen from the roots.
+/// The ends of the range relative to the roots.
 const END: Aspect<ShapeCall> = Aspect {
     name: "end of the range",
     classes: &[

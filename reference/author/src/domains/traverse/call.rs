@@ -1,4 +1,4 @@
-//! Calls of `Bvh::hit` of trees.
+//! Calls of `Bvh::hit` on trees.
 
 use std::mem;
 use std::sync::Arc;
@@ -17,13 +17,13 @@ use crate::tree::Tree;
 pub struct TraverseCall {
     pub(super) subject: Arc<Subject>,
     pub(super) ray: Ray,
-    /// The ray of the call of the same tree before this one.
+    /// The ray of the previous call on the same tree.
     pub(super) previous: Option<Ray>,
     /// The decoy in front of the answer.
     pub(super) decoy: Option<Decoy>,
     /// The correct hit.
     pub(super) hit: Option<Intersection>,
-    /// The correct hit of the call before.
+    /// The correct hit of the previous call.
     previous_hit: Option<Intersection>,
 }
 
@@ -57,16 +57,19 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
 /// A second hit that is hardly farther away than the closest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layer {
-    /// It belongs to a primitive before that of the closest hit in the same leaf, at almost the same distance.
+    /// It is in the same leaf at almost the same distance, and its primitive comes before that of the closest
+    /// hit.
     SameLeaf,
-    /// It is in a leaf that the ray starts in, and both hits are near the start, as seen from afar.
+    /// It is in a leaf that the ray starts in. Compared to the size of the tree, both hits are near
+    /// the start.
     OtherLeaf,
 }
 
 impl TraverseCall {
-    /// Returns the layer close behind the hit, if there is one.
+    /// Returns the layer close behind the hit, if any.
     pub(super) fn layer(&self) -> Option<Layer> {
-        /// The largest difference of the distances, or distance from the start in diagonals of the tree.
+        /// The largest difference between the distances, or the largest distance from the start, in
+        /// diagonals of the tree.
         const MOST: f64 = 1e-3;
         let ray64 = Ray64::from(&self.ray);
         let tree = &self.subject.tree;
@@ -92,13 +95,13 @@ impl TraverseCall {
         (closest.distance < near && others.any(is_near)).then_some(Layer::OtherLeaf)
     }
 
-    /// Returns the place of the hit in its leaf.
+    /// Returns the index of the hit primitive in its leaf.
     pub(super) fn place_in_leaf(&self) -> Option<usize> {
         let mut primitives = self.subject.tree.primitives(self.leaf_of_hit()?);
         primitives.position(|index| self.is_hit(index))
     }
 
-    /// Returns the leaf of the exam's tree that holds the hit.
+    /// Returns the leaf of the exam's tree that contains the hit.
     pub(super) fn leaf_of_hit(&self) -> Option<usize> {
         let Subject { tree, leaves, .. } = &*self.subject;
         let mut leaves = leaves.iter().copied();
@@ -111,9 +114,9 @@ impl TraverseCall {
         self.hit.is_some_and(|hit| hit.shape == number)
     }
 
-    /// Returns whether the ray is almost the one before, and the distance of its hit is clearly another.
+    /// Returns whether the ray is almost the previous one but hits at a clearly different distance.
     pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
-        /// The least difference of the distances.
+        /// The minimum difference between the distances.
         const LEAST: f64 = 5e-4;
         let differ = |a: f64, b: f64| (a - b).abs() > LEAST * a.max(b);
         let is_other = match (self.hit, self.previous_hit) {
@@ -124,10 +127,11 @@ impl TraverseCall {
         is_other && self.previous.is_some_and(is_almost_the_same)
     }
 
-    /// Returns whether a primitive in no leaf is in front of the answer, and whether it is about as large as
-    /// the tree.
+    /// Returns `None` if no unreferenced primitive is in front of the answer, and otherwise whether it is
+    /// about as large as the tree.
     pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
-        /// The least sides along two axes of a primitive that is as large as the tree, in sides of the tree.
+        /// A primitive is as large as the tree if it has at least this size along two axes, in sides of the
+        /// tree.
         const LARGE: f64 = 0.9;
         let ray64 = Ray64::from(&self.ray);
         let end = self.hit.map_or(ray64.max, |hit| hit.distance);
@@ -157,10 +161,10 @@ impl Placed for TraverseCall {
     }
 }
 
-/// A tree that rays are asked of.
+/// A tree that rays are traced through.
 #[derive(Debug)]
 pub(super) struct Subject {
-    /// The exam's tree. A tree that the submission builds has no nodes yet.
+    /// The exam's tree. A tree that the submission builds doesn't have nodes yet.
     pub(super) tree: Tree,
     pub(super) is_built: bool,
     /// The box around all primitives in leaves.
@@ -228,7 +232,7 @@ impl Subject {
         })
     }
 
-    /// Returns the number of nodes that can be reached.
+    /// Returns the number of reachable nodes.
     pub(super) fn nodes(&self) -> usize {
         (2 * self.leaves.len()).saturating_sub(1)
     }

@@ -15,14 +15,14 @@ pub(super) struct Decoy {
     pub(super) reason: usize,
     pub(super) is_sphere: bool,
     pub(super) leaf_size: usize,
-    /// Its place in its leaf.
+    /// Its index in its leaf.
     pub(super) place: usize,
     pub(super) level: usize,
     /// The number of axes along which the box of its leaf is flat.
     pub(super) flat_axes: u32,
-    /// Whether its leaf has four or more primitives, as well as the sibling, which is next to it in the list.
+    /// Whether its leaf and the sibling, which is next to it in the list, have four or more primitives each.
     pub(super) is_beside_a_large_leaf: bool,
-    /// Whether the ray starts in the box of the sibling, which holds the hit.
+    /// Whether the ray starts in the box of the sibling, which contains the hit.
     pub(super) is_from_siblings_box: bool,
     pub(super) history: usize,
 }
@@ -71,8 +71,7 @@ impl Decoy {
     }
 }
 
-/// Returns the class of the reason why a leaf is not entered. Returns `None` if it is because of a node
-/// above.
+/// Returns the class of the reason a leaf isn't entered, or `None` if the reason is a node above it.
 fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     let reason = decoy::skip_reason(tree, leaf, ray64)?;
     let sibling = tree.sibling(leaf)?;
@@ -118,7 +117,7 @@ fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     sibling.is_some() && tree.leaf_of_hit(ray64) == sibling
 }
 
-/// Returns the class of the call before that of a decoy.
+/// Returns the class of the call that precedes a decoy's.
 fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> usize {
     let Some(previous) = previous.map(Ray64::from) else {
         return 0;
@@ -126,7 +125,7 @@ fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> u
     if tree.leaf_of_hit(&previous) == Some(leaf) {
         return 1;
     }
-    // How much earlier the ray enters the leaf than its sibling.
+    // The distance by which the ray enters the leaf earlier than its sibling.
     let earlier = |ray64: &Ray64| {
         let sibling = tree.sibling(leaf)?;
         Some(entry(tree, sibling, ray64)? - entry(tree, leaf, ray64)?)

@@ -4,7 +4,7 @@ use super::call::TraverseCall;
 use crate::domains::Aspect;
 use crate::domains::fields::class_up_to;
 
-/// The reason why the decoy is not asked.
+/// The reason the decoy must not be tested.
 pub(super) const REASON: Aspect<TraverseCall> = Aspect {
     name: "decoy",
     classes: &[
@@ -31,7 +31,7 @@ pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
     class: |call| Some(class_up_to(&[1, 2, 3, 16], call.decoy?.leaf_size)),
 };
 
-/// The place of the decoy in its leaf.
+/// The index of the decoy in its leaf.
 pub(super) const PLACE: Aspect<TraverseCall> = Aspect {
     name: "decoy's place",
     classes: &["alone", "first", "in the middle", "last"],
@@ -77,7 +77,7 @@ pub(super) const START: Aspect<TraverseCall> = Aspect {
     class: |call| Some(usize::from(call.decoy?.is_from_siblings_box)),
 };
 
-/// The call before that of a decoy.
+/// The call that precedes a decoy's.
 pub(super) const HISTORY: Aspect<TraverseCall> = Aspect {
     name: "decoy's history",
     classes: &[

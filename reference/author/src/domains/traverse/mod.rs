@@ -1,4 +1,4 @@
-//! The domain of `Bvh::hit`, of the exam's trees and of trees that the submission builds.
+//! The domain of `Bvh::hit`, both on the exam's trees and on trees that the submission builds.
 
 mod call;
 mod decoy;
@@ -167,7 +167,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
     ],
 };
 
-/// Where the tree comes from.
+/// The origin of the tree: the exam or the submission.
 const WAY: Aspect<TraverseCall> = Aspect {
     name: "tree",
     classes: &["the exam's", "the student's own"],
@@ -317,7 +317,7 @@ const RANGE: Aspect<TraverseCall> = Aspect {
     class: |call| range_class(call.ray.range),
 };
 
-/// The call of the same tree before this one.
+/// The previous call on the same tree.
 const HISTORY: Aspect<TraverseCall> = Aspect {
     name: "history",
     classes: &[
@@ -334,7 +334,7 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The distance of the hit, relative to the coordinates.
+/// The distance of the hit relative to the coordinates.
 const NEARNESS: Aspect<TraverseCall> = Aspect {
     name: "distance, in coordinates of the start",
     classes: &["below 1e-5", "1e-5", "1e-3 or more"],
@@ -348,7 +348,7 @@ const NEARNESS: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The start of the ray in the boxes around the hit.
+/// The start of the ray relative to the boxes around the hit.
 const IN_BOX: Aspect<TraverseCall> = Aspect {
     name: "start in a box of the hit",
     classes: &[
@@ -393,7 +393,7 @@ const ON_SPHERE: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The number of primitives whose boxes the ray enters before its hit or its end.
+/// The number of primitives whose boxes the ray enters before it hits or ends.
 const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     name: "boxes of primitives on the way",
     classes: &["up to 2,048", "2,049 to 5,000"],
@@ -409,7 +409,7 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The place of the primitive that is hit in its leaf.
+/// The index of the hit primitive in its leaf.
 const PLACE_OF_HIT: Aspect<TraverseCall> = Aspect {
     name: "place of the hit in its leaf",
     classes: &["up to the 16th", "up to the 512th", "later"],
@@ -431,7 +431,7 @@ const LAYERS: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// A primitive in no leaf in front of the answer.
+/// An unreferenced primitive in front of the answer.
 const UNREFERENCED: Aspect<TraverseCall> = Aspect {
     name: "primitive of no leaf in front",
     classes: &["small", "as large as the tree"],

@@ -1,4 +1,4 @@
-//! Draws triangles, and rays through and beside them.
+//! Draws triangles, and rays through and past them.
 
 use glam::{BVec2, BVec3, DVec2, DVec3, Vec3, vec2};
 use protocol::{Interval, Ray, Shape, Vertex};
@@ -12,8 +12,8 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws triangles of these sizes, each with rays that belong to an idea, every other one a hit. All
-/// correct formulas compute the judged quantities within their tolerances.
+/// Draws triangles of these sizes. Each has rays that fit an item's idea, and every other ray is a
+/// hit. All correct formulas compute the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -35,8 +35,8 @@ pub fn tables(
     generator.tables(rng, sizes)
 }
 
-/// Draws a triangle of this size. It faces along an axis, almost so, along a diagonal, or in any
-/// direction, and may be narrow at a corner.
+/// Draws a triangle of this size. It faces exactly or almost along an axis, along a diagonal, or in
+/// any other direction, and may be narrow at a corner.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
     let corners = corners(rng);
@@ -60,7 +60,7 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     }
 }
 
-/// Draws the corners of a triangle with sides of about one.
+/// Draws the corners of a triangle with sides of about length one.
 fn corners(rng: &mut Rng) -> [DVec3; 3] {
     let (axis, kind) = (rng.index(3), rng.index(4));
     let tilt = match kind {
@@ -99,13 +99,13 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
     match rng.index(5) {
         // The side opposite a corner is so short that the corner is narrow.
         0 => corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03)),
-        // A corner is so close to the side opposite it that the triangle is flat there.
+        // A corner is so close to the opposite side that the triangle is almost flat.
         1 => {
             let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
             let most = if rng.coin() { 0.014 } else { 0.04 };
             corners[corner] = foot.lerp(corners[corner], rng.log_uniform(0.01, most));
         }
-        // The angle at a corner is almost right.
+        // The angle at a corner is almost a right angle.
         2 => {
             let side = corners[second] - corners[corner];
             let other = corners[third] - corners[corner];
@@ -120,7 +120,7 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
     corners
 }
 
-/// Draws the corners of a triangle with a right angle between two sides that are along axes.
+/// Draws the corners of a triangle with a right angle between two sides along axes.
 fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] {
     let corner = rng.index(3);
     let mut corners = [rng.point(1.0); 3];
@@ -138,8 +138,8 @@ fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] 
 /// Moves corners so that the normal of the plane is exactly along a diagonal of a cube or of one of its
 /// faces. Returns `None` if the triangle would be narrow.
 fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3]> {
-    /// A side of a grid whose points have coordinates with so few digits that sums are exact, in parts of
-    /// the largest coordinate.
+    /// The spacing of a grid, relative to the largest coordinate. The coordinates of its points have so
+    /// few digits that sums are exact.
     const STEP: f32 = 1.0 / (1 << 20) as f32;
     let largest = corners.map(|corner| corner.abs().max_element());
     let largest = largest.into_iter().fold(0.0, f32::max);
@@ -164,7 +164,7 @@ fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3
     (altitude > 0.3 * longest && is_inside).then_some(moved)
 }
 
-/// Draws normals, which more or less point to a side, and texture coordinates.
+/// Draws normals, which point more or less to one side, and texture coordinates.
 fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
     let common = (side + 0.7 * rng.direction()).normalize();
     let spread = [0.0, 0.4, 0.8, 2.0, 2.0][rng.index(5)];
@@ -178,9 +178,9 @@ fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3
         let uv = DVec2::select(BVec2::new(same_u, same_v), tile, uv);
         Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
     });
-    // Often, two corners have the same normal, or one has other texture coordinates by far.
+    // Often, two corners have the same normal, or one has very different texture coordinates.
     let [from, to, any] = [rng.index(3), rng.index(3), rng.index(3)];
-    // Beside an angle that is almost right, such coordinates show what is wrong with the weights.
+    // Next to an angle that is almost a right angle, such coordinates make wrong weights visible.
     let right = almost_right_corner(corners.map(|corner| corner.as_dvec3()));
     let right = right.filter(|_| rng.coin());
     let (far, kind) = right.map_or_else(|| (any, rng.index(6)), |corner| (corner, 2));
@@ -221,7 +221,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     };
     let ahead = size
         * match rng.index(6) {
-            // The shorter the way, the smaller the cosine at which rounding still allows an exact answer.
+            // The shorter the distance, the smaller the cosine can be before rounding spoils the answer.
             _ if kind == 0 && rng.coin() => rng.log_uniform(NEAR, 1.0),
             0 => rng.log_uniform(NEAR, 3.0),
             1 => rng.log_uniform(0.0102, NEAR),
@@ -238,7 +238,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(ray.within(range.min, range.max))
 }
 
-/// Draws a range that begins or ends just before or behind the plane of the triangle.
+/// Draws a range that begins or ends just before or just behind the plane of the triangle.
 fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     let plane = Plane::of(call)?;
     let beside = plane.size * rng.log_uniform(0.0102, END);
@@ -268,7 +268,7 @@ fn weights(rng: &mut Rng) -> [f64; 3] {
     weights
 }
 
-/// How a triangle can differ from the one before.
+/// The ways a triangle can differ from the previous one.
 const CHANGES: &[Change<ShapeCall>] = &[
     ShapeCall::smaller,
     ShapeCall::with_other_number,
@@ -292,7 +292,7 @@ const CHANGES: &[Change<ShapeCall>] = &[
     },
 ];
 
-/// Returns the call of a triangle with one corner at another place.
+/// Returns the call with one corner of the triangle at a different position.
 fn with_other_corner(call: &ShapeCall, corner: usize, offset: Vec3) -> ShapeCall {
     let mut changed = ShapeCall::new(call.shape, call.ray);
     if let Shape::Triangle { vertices, .. } = &mut changed.shape {
@@ -301,7 +301,8 @@ fn with_other_corner(call: &ShapeCall, corner: usize, offset: Vec3) -> ShapeCall
     changed
 }
 
-/// Returns the call of a triangle with another normal or other texture coordinates at one corner.
+/// Returns the call with a different normal or different texture coordinates at one corner of the
+/// triangle.
 fn with_other_attributes(
     call: &ShapeCall,
     random: DVec3,
@@ -321,7 +322,8 @@ mod tests {
     use crate::domains::Call;
     use crate::seed::Seed;
 
-    /// The distance to the plane, and the weights as ratios of dot products, in single precision.
+    /// Computes the distance to the plane and the weights as ratios of dot products, in single
+    /// precision.
     fn distance(ray: &Ray, shape: &Shape) -> Option<f32> {
         let Shape::Triangle { vertices, .. } = shape else {
             return None;

@@ -165,7 +165,7 @@ const PLANE: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The direction in which the triangle faces.
+/// The direction that the triangle faces.
 const FACING: Aspect<ShapeCall> = Aspect {
     name: "facing",
     classes: &[
@@ -191,7 +191,7 @@ const FACING: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The diagonal along which the triangle faces.
+/// The diagonal that the triangle faces along.
 const FACING_DIAGONAL: Aspect<ShapeCall> = Aspect {
     name: "facing along a diagonal",
     classes: DIAGONALS,
@@ -201,7 +201,7 @@ const FACING_DIAGONAL: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The form of the triangle.
+/// The proportions of the triangle.
 const FORM: Aspect<ShapeCall> = Aspect {
     name: "form",
     classes: &[
@@ -229,7 +229,7 @@ const FORM: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// Triangles that almost have no area.
+/// Triangles with almost no area.
 const FLAT: Aspect<ShapeCall> = Aspect {
     name: "altitude",
     classes: &["below 0.6 % of the longest side"],
@@ -241,10 +241,10 @@ const FLAT: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest angle that counts as narrow, in radians.
+/// The largest narrow angle, in radians.
 const NARROW: f64 = 0.045;
 
-/// The angles of the triangle, almost all of which are usual.
+/// The angles of the triangle. Almost all are ordinary.
 const ANGLES: Aspect<ShapeCall> = Aspect {
     name: "angles",
     classes: &[
@@ -259,7 +259,7 @@ const ANGLES: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// Returns the corner at which the angle is right or almost right.
+/// Returns the corner whose angle is exactly or almost a right angle.
 fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
     let cosine = |corner: usize| {
         let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
@@ -268,13 +268,13 @@ fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
     (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT)
 }
 
-/// Triangles with an angle that is almost right, but not exactly, and whose texture coordinates differ so
-/// much there that the difference shows.
+/// Triangles with an angle that is almost, but not exactly, a right angle, and with texture coordinates
+/// that differ so much there that the difference matters.
 const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
     name: "almost right and far",
     classes: &["at p0", "at p1", "at p2"],
     class: |call| {
-        /// The least difference between texture coordinates.
+        /// The minimum difference between texture coordinates.
         const LEAST: f32 = 5.0;
         let Shape::Triangle { vertices, .. } = call.shape else {
             return None;
@@ -289,7 +289,7 @@ const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest cosine of an angle that is almost right.
+/// The largest cosine of an angle that is almost a right angle.
 const ALMOST_RIGHT: f64 = 3e-3;
 
 /// The edges of the triangle.
@@ -312,7 +312,7 @@ const EDGE_ALONG: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The corner with a right angle between two edges that are along axes.
+/// The corner with a right angle between two edges along axes.
 const LEGS: Aspect<ShapeCall> = Aspect {
     name: "two edges along axes",
     classes: &["at p0", "at p1", "at p2"],
@@ -350,7 +350,7 @@ fn all_equal(values: [f32; 3]) -> bool {
     values.iter().all(|value| *value == values[0])
 }
 
-/// Returns which two of three values are equal, if the third is another one.
+/// Returns which two of three values are equal, if the third differs.
 fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     match (a == b, b == c, c == a) {
         (true, false, _) => Some(0),
@@ -382,7 +382,7 @@ const EQUAL_NORMALS: Aspect<ShapeCall> = Aspect {
     class: |call| equal_two(corner_normals(&call.shape)?),
 };
 
-/// The side to which the normals of the corners point.
+/// The side that the corners' normals point to.
 const NORMALS: Aspect<ShapeCall> = Aspect {
     name: "normals of the corners",
     classes: &["to the front", "to the back"],
@@ -413,7 +413,7 @@ const SPREAD: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The start of the ray, seen from the triangle. Its size is half of its box's longest side.
+/// The start of the ray relative to the triangle, whose size is half of its box's longest side.
 const START: Aspect<ShapeCall> = Aspect {
     name: "start",
     classes: &[
@@ -441,7 +441,7 @@ const START: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The distance from the plane that counts as near, in sizes.
+/// The maximum distance of a point near the plane, in sizes.
 const NEAR: f64 = 0.05;
 
 /// The cosine between the ray and the triangle's normal.
@@ -480,15 +480,15 @@ const CROSSING: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest weight at which a point counts as just inside an edge.
+/// The largest weight of a point that is just inside an edge.
 const EDGE: f64 = 0.02;
 
-/// Weights that are small, and yet show in the texture coordinates of a hit.
+/// Weights that are small but still matter for the texture coordinates of a hit.
 const SMALL_WEIGHTS: Aspect<ShapeCall> = Aspect {
     name: "small weights",
     classes: &["below a thousandth"],
     class: |call| {
-        /// The least difference that shows.
+        /// The minimum difference that matters.
         const LEAST: f64 = 3e-3;
         let Shape::Triangle { vertices, .. } = call.shape else {
             return None;
@@ -503,10 +503,10 @@ const SMALL_WEIGHTS: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The weight below which one is small.
+/// The upper limit of a small weight.
 const SMALL_WEIGHT: f64 = 1e-3;
 
-/// The ends of the range, seen from the point where the ray crosses the plane.
+/// The ends of the range relative to the point where the ray crosses the plane.
 const ENDS: Aspect<ShapeCall> = Aspect {
     name: "end of the range",
     classes: &[
@@ -528,10 +528,10 @@ const ENDS: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest distance of the range's end from the plane that counts as near, in sizes.
+/// The maximum distance between the plane and an end of the range near it, in sizes.
 const END: f64 = 0.02;
 
-/// The least distance of a plane that counts as distant, in sizes.
+/// The minimum distance of a distant plane, in sizes.
 const DISTANT: f64 = 20.0;
 
 /// The corner with the smallest weight.
@@ -544,7 +544,7 @@ const LEAST_WEIGHT: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The axis that the ray is parallel to. A triangle across an axis is seldom seen from both sides.
+/// The axis that the ray is parallel to. Triangles across an axis are rarely seen from both sides.
 const AXIS: Aspect<ShapeCall> = Aspect {
     name: "axis",
     classes: &["along x", "along y", "along z", "any"],

@@ -1,4 +1,4 @@
-//! Where a ray crosses the plane of a triangle, and how exact that is in single precision.
+//! The point where a ray crosses a triangle's plane, and its accuracy in single precision.
 
 use glam::DVec3;
 use protocol::Shape;
@@ -16,10 +16,10 @@ pub struct Plane {
     pub distance: f64,
     /// The weights of the corners.
     pub weights: [f64; 3],
-    /// The ray's direction times the normal (p1 − p0) × (p2 − p0), which has length one. Negative if
-    /// the ray comes from the front.
+    /// The dot product of the ray's direction and the normalized normal (p1 − p0) × (p2 − p0).
+    /// Negative if the ray comes from the front.
     pub slope: f64,
-    /// The length of the sum of the corners' normals, times the weights.
+    /// The length of the sum of the corners' normals, each times its weight.
     normal_length: f64,
     /// The distance of the ray's start from the triangle, in sizes.
     start: f64,
@@ -34,7 +34,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Returns the point where a call's ray crosses the plane, or `None` if it is parallel to it.
+    /// Returns the point where a call's ray crosses the plane, or `None` if the ray is parallel to
+    /// it.
     pub fn of(call: &ShapeCall) -> Option<Plane> {
         let corners @ [p0, p1, p2] = scan::corners(&call.shape)?;
         let ray64 = Ray64::from(&call.ray);
@@ -74,7 +75,7 @@ impl Plane {
         self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
     }
 
-    /// Returns whether the ray crosses the plane inside the triangle, whatever its range is.
+    /// Returns whether the ray crosses the plane inside the triangle, ignoring its range.
     pub fn is_inside(&self) -> bool {
         self.least_weight() >= 0.0
     }
@@ -85,13 +86,13 @@ impl Plane {
 
     /// Returns whether every correct formula in single precision agrees on whether the triangle is hit.
     pub fn is_clear(&self) -> bool {
-        /// The least distance from an edge, in altitudes.
+        /// The minimum distance from an edge, in altitudes.
         const EDGE_MARGIN: f64 = 5e-4;
-        /// The least cosine at which edges are tested.
+        /// The minimum cosine at which edges are tested.
         const EDGE_COSINE: f64 = 0.1;
-        /// The least distance from an edge of a ray at a smaller cosine, in altitudes.
+        /// The minimum distance between an edge and a ray at a smaller cosine, in altitudes.
         const GRAZING_MARGIN: f64 = 0.1;
-        /// The least difference between a distance and an end of the range, in sizes.
+        /// The minimum difference between a distance and an end of the range, in sizes.
         const END_MARGIN: f64 = 0.0101;
         let margin = if self.slope.abs() < EDGE_COSINE {
             GRAZING_MARGIN
@@ -113,7 +114,7 @@ impl Plane {
     /// Returns whether every correct formula in single precision computes the quantity of this name well
     /// within its tolerance.
     pub fn is_exact(&self, quantity: &str) -> bool {
-        /// The largest part of a tolerance that errors may take.
+        /// The largest fraction of a tolerance that errors may use up.
         const PART: f64 = 0.5;
         if !self.is_hit() {
             return true;
@@ -122,7 +123,7 @@ impl Plane {
         match quantity {
             "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
             "normal" => {
-                /// The least length of a sum whose direction is well known.
+                /// The minimum length of a sum whose direction is accurate.
                 const LEAST: f64 = 0.3;
                 let error = 2.0 * self.weight_error() / self.normal_length;
                 self.normal_length > LEAST && error <= PART * 1e-3
@@ -133,8 +134,8 @@ impl Plane {
         }
     }
 
-    /// Returns how wrong the distance may be if it is computed in single precision by a usual formula,
-    /// such as (n · p0 − n · origin) / (n · direction).
+    /// Returns a bound on the error of the distance if a usual formula computes it in single
+    /// precision, such as (n · p0 − n · origin) / (n · direction).
     fn distance_error(&self) -> f64 {
         let slenderness = self.longest / self.altitude;
         let lengths = self.coordinates + self.distance.abs();
@@ -142,15 +143,15 @@ impl Plane {
         1.5 * EPSILON * (lengths + determinant) / self.slope.abs()
     }
 
-    /// Returns how wrong a weight may be if it is computed in single precision by a usual formula. Some
-    /// divide by the square of the area.
+    /// Returns a bound on the error of a weight that a usual formula computes in single precision. Some
+    /// formulas divide by the square of the area.
     fn weight_error(&self) -> f64 {
         let position = 2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates;
         position / self.altitude + 4.0 * EPSILON * (self.longest / self.altitude).powi(2)
     }
 }
 
-/// Returns the normals of a triangle's corners, or `None` if it has none.
+/// Returns the normals of a triangle's corners, or `None` if it doesn't have any.
 pub(super) fn corner_normals(shape: &Shape) -> Option<[DVec3; 3]> {
     let Shape::Triangle { vertices, .. } = shape else {
         return None;

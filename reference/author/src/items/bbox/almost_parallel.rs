@@ -1,5 +1,5 @@
-//! Rays that are almost parallel to a face of a box, and yet cross the plane of this face. The times are
-//! wrong if a small constant is added to the direction, or if a small component is taken for 0.
+//! Rays that are almost parallel to a face of a box but still cross the plane of this face. The times
+//! are wrong if a small constant is added to the direction, or if a small component is treated as 0.
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
@@ -9,12 +9,12 @@ use super::bbox_question;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// The number of rays that hit, and of those that miss.
+/// The number of rays that hit, and the number of rays that miss.
 const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// Returns rays that hit a box, followed by as many that miss it.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
-    // The planes are so close to the origin that usual formulas lose no digits, whatever they divide.
+    // The planes are so close to the origin that no usual formula loses digits.
     let mut corner = || rng.vector(0.2, 0.4).as_vec3().as_dvec3();
     let bounds = Bounds {
         min: -corner(),
@@ -30,8 +30,8 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     bbox_question(bounds, queries)
 }
 
-/// Returns a ray that is almost parallel to a face of the box. If it is a hit, it crosses the plane of
-/// this face where it enters or leaves the box, and otherwise beside the box.
+/// Returns a ray that is almost parallel to a face of the box. A hit crosses the plane of this face
+/// where it enters or leaves the box, a miss beside the box.
 fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hit: bool) -> Ray {
     let (along, across) = (number % 3, (number + 1) % 3);
     let third = 3 - along - across;
@@ -48,7 +48,7 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
     dir[third] = rng.uniform(-0.02, 0.02);
     let dir = dir.normalize();
 
-    // The point in which the ray crosses the plane.
+    // The point where the ray crosses the plane.
     let moves_up = dir[across] > 0.0;
     let mut point = bounds.center() + 0.2 * rng.point(1.0) * size;
     point[across] = if enters == moves_up {
@@ -57,8 +57,8 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
         bounds.max[across]
     };
     if !is_hit {
-        // A ray that enters the slab there has already left the box, and one that leaves it is not yet in
-        // the box.
+        // A ray that enters the slab there has already left the box, and a ray that leaves it there
+        // hasn't reached the box yet.
         let beyond = rng.uniform(0.8, 1.2) * size[along];
         let forward = if enters { 1.0 } else { -1.0 };
         point[along] = bounds.center()[along] + forward * dir[along].signum() * beyond;

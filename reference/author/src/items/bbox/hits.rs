@@ -6,7 +6,7 @@ use crate::domains::bbox::lines_and_a_point;
 use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::items::{Declaration, groups};
 
-/// Returns whether the box is not behind the ray, which starts outside.
+/// Returns whether the ray starts outside the box and the box isn't behind it.
 fn is_ahead(call: &BoxCall) -> bool {
     let enters_ahead = |(enter, _)| enter > 0.0;
     is_ordinary(call) && call.is_unlimited() && call.crossing().is_none_or(enters_ahead)

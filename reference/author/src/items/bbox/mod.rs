@@ -55,8 +55,8 @@ fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
     ExamQuestion::new(question, key)
 }
 
-/// Creates questions about boxes of these sizes. Their calls belong to an idea, and every other one is a
-/// hit.
+/// Creates questions about boxes of these sizes. Their calls fit an item's idea, and every other one is
+/// a hit.
 fn questions(
     rng: &mut Rng,
     sizes: &[usize],
@@ -68,8 +68,8 @@ fn questions(
         .collect()
 }
 
-/// Returns whether neither the box is flat nor the ray parallel to one of its faces, which are ideas of
-/// two items. Nor does it matter that a ray is almost parallel.
+/// Returns whether the box isn't flat and the ray isn't parallel to one of its faces, since separate
+/// items test these. Whether the ray is almost parallel mustn't matter either.
 fn is_ordinary(call: &BoxCall) -> bool {
     !call.is_flat() && !call.is_parallel() && !call.is_decided_by_slant()
 }

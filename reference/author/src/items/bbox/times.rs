@@ -1,4 +1,4 @@
-//! Items about the times that count.
+//! Items about the interval of times that is tested.
 
 use super::{is_ordinary, questions};
 use crate::domains::fields::{EVERY_SIZE, USUAL};

@@ -11,7 +11,7 @@ use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder, SideRule};
 use crate::oracle::{scan, sweep};
 use crate::seed::Rng;
 
-/// Creates a question about a tree whose cost is the only thing that is judged.
+/// Creates a question about a tree that is only judged by its cost.
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
@@ -28,8 +28,8 @@ const MAX_CORRECT_COST: f64 = 1.06;
 const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// Creates a question about a random mesh for each of these numbers of primitives and maximum leaf
-/// sizes. Their sizes and places are drawn from the domain. For them, correct builders come close to the
-/// exact sweep, and builders that compare only adjacent buckets do not.
+/// sizes. Their sizes and positions are drawn from the domain. On these meshes, correct builders come
+/// close to the exact sweep, but builders that compare only adjacent buckets don't.
 fn cost_questions(
     rng: &mut Rng,
     mesh: fn(&mut Rng, usize) -> Vec<Shape>,
@@ -54,8 +54,8 @@ fn cost_questions(
     sizes.iter().map(question).collect()
 }
 
-/// Creates questions about trees as large as a scene can be: for each of the upper nodes, the area of its
-/// box times the number of its primitives is above 1e10.
+/// Creates questions about trees as large as a scene can be. In each of the upper nodes, the box's area
+/// times the number of primitives is above 1e10.
 fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     let question = |&(count, max_leaf_size): &(usize, u32)| {
         rng.retry(|rng| {
@@ -69,10 +69,10 @@ fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     sizes.iter().map(question).collect()
 }
 
-/// Creates questions about a few clumps of spheres, of which some have many times as many as others. So it
-/// is expensive to split by count, be it above the last levels or below the root.
+/// Creates questions about a few clumps of spheres. Some clumps have many times as many spheres as others,
+/// which makes splitting by count expensive, even if only above the last levels or only below the root.
 fn clumps_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
-    /// The least cost of a tree that is partly split by count, relative to the exact sweep's.
+    /// The minimum cost of a tree that is partly split by count, relative to the exact sweep's.
     const LEAST: f64 = 1.25;
     let question = |&(count, max_leaf_size): &(usize, u32)| {
         rng.retry(|rng| {
@@ -111,8 +111,8 @@ fn cost_of_sweep(question: &ExamQuestion) -> f64 {
     sweep
 }
 
-/// Creates a question about a few long lanes of spheres. The best split is between two lanes, and so
-/// not along the axis of the largest extent.
+/// Creates a question about a few long lanes of spheres. The best split is between two lanes and
+/// therefore not along the axis of the largest extent.
 fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQuestion {
     rng.retry(|rng| {
         let shapes = meshes::lanes(rng, count);
@@ -125,7 +125,7 @@ fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQu
 }
 
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
-/// of a builder narrowly miss the best split, so that its tree is expensive.
+/// of a builder narrowly miss the best split, which makes its tree expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     let sides = SideRule::AllBuckets;
     let costs = [8, 10, 12, 16, 17, 24, 25, 32]

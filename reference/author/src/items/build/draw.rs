@@ -11,7 +11,7 @@ use crate::items::meshes;
 use crate::items::place::Place;
 use crate::seed::Rng;
 
-/// The arrangement of some primitives. All others are scattered.
+/// The arrangement of some of the primitives. All others are scattered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arrangement {
     /// Scattered in a cube.
@@ -28,18 +28,18 @@ pub(super) enum Arrangement {
     Equal,
     /// Two of the primitives are equal.
     EqualPair,
-    /// One is far from all others.
+    /// One primitive is far from all others.
     Outlier,
     /// Most are much smaller than the largest.
     DifferentSizes,
-    /// Some are triangles without area.
+    /// Some primitives are triangles without area.
     WithoutArea,
     /// All are triangles on a line along an axis.
     Line,
 }
 
-/// Draws questions about `count` trees with primitives in one of these arrangements, at most `most` of
-/// them, so that each class of each aspect occurs. Those whose sizes do not `belong` are left out.
+/// Draws questions about `count` trees. Each has at most `most` primitives in one of these
+/// arrangements. Each class of each aspect occurs, except for calls that don't `belong`.
 pub(super) fn questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
@@ -92,7 +92,8 @@ pub(super) fn count(rng: &mut Rng, most: usize) -> usize {
     })
 }
 
-/// Draws the maximum number of primitives in a leaf: any, or one that is near the number of primitives.
+/// Draws the maximum number of primitives in a leaf: any number, or one close to the number of
+/// primitives.
 pub(super) fn leaf_size(rng: &mut Rng, count: usize) -> u32 {
     let count = count as u32;
     let size = match rng.index(11) {
@@ -111,7 +112,7 @@ pub(super) fn leaf_size(rng: &mut Rng, count: usize) -> u32 {
     size.clamp(1, 1000)
 }
 
-/// Draws a place for shapes of which the whole has a size of this class.
+/// Draws a place for shapes that together have a size of this class.
 pub(super) fn place_of_size(rng: &mut Rng, shapes: &[Shape], size: usize) -> Place {
     rng.retry(|rng| {
         let size = fields::size(rng, size);
@@ -139,7 +140,7 @@ fn arranged(
     } else if arrangement == Arrangement::Concentric {
         axes = DVec3::ZERO;
     }
-    // Spheres have the centres that they are given; boxes of triangles may have others.
+    // Spheres have exactly these centres, but the boxes of triangles may have others.
     let has_centers = matches!(
         arrangement,
         Arrangement::Plane | Arrangement::Row | Arrangement::Concentric
@@ -189,7 +190,7 @@ fn arranged(
     rng.shuffled(shapes)
 }
 
-/// Returns a primitive around a point: a triangle, a flat one, a sphere, or any of them.
+/// Returns a primitive around a point: a triangle, a flat triangle, a sphere, or any of these.
 pub(super) fn primitive(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 => meshes::random_triangle(rng, center, size),
@@ -202,7 +203,7 @@ pub(super) fn primitive(rng: &mut Rng, kind: usize, center: DVec3, size: f64) ->
     }
 }
 
-/// Returns a triangle of which all corners, or two of them, are the same point.
+/// Returns a triangle with two or three corners at the same point.
 fn without_area(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let other = if rng.coin() {
         center
@@ -225,7 +226,7 @@ fn flat(rng: &mut Rng, kind: usize, center: DVec3, size: f64, axis: usize) -> Sh
 }
 
 /// Returns one of many spheres around the origin. Their centres and radii are multiples of a power of
-/// two, so they keep a common centre wherever they are moved.
+/// two, so they still have a common centre after being moved.
 fn shell(index: usize) -> Shape {
     meshes::sphere(DVec3::ZERO, (index + 3) as f64 / 128.0)
 }

@@ -35,8 +35,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
         cost::COST_STRANDS,
         cost::COST_SHEETS,
         cost::COST_TOWN,
-        // Last, because builders that recurse without end on these are often right otherwise, and a
-        // task is stopped after two crashes.
+        // Last, because builders that recurse infinitely on these are often correct otherwise, and
+        // a task is stopped after two crashes.
         unusual_inputs::COINCIDENT,
         unusual_inputs::CONCENTRIC,
     ],
@@ -48,7 +48,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
     finish: |seed, items| {
         let control = control(seed);
         for item in items {
-            // The first wrong answer is about numbers that a person can follow.
+            // Large questions come last, so that the first wrong answer is about numbers that
+            // people can follow.
             item.questions().sort_by_key(is_large);
             item.questions().push(control.clone());
         }
@@ -56,20 +57,20 @@ pub static TASK: AuthoredTask = AuthoredTask {
     points: POINTS,
 };
 
-/// Returns whether a question is about over a thousand primitives.
+/// Returns whether a question is about more than a thousand primitives.
 fn is_large(question: &ExamQuestion) -> bool {
     matches!(&question.question, Question::Build { shapes, .. } if shapes.len() > 1000)
 }
 
-/// Returns the last question of every item, whose answer is wrong if there is no tree or if half of
-/// the primitives are in one leaf. Its primitives are far apart, so that no heuristic prefers to keep
-/// them together: the maximum leaf size is tested by another item.
+/// Returns the last question of every item. An answer is wrong if the tree is missing or has half of
+/// the primitives in one leaf. The primitives are far apart, so that no heuristic prefers to keep
+/// them together. The maximum leaf size is tested by a different item.
 fn control(seed: Seed) -> ExamQuestion {
     let soup = meshes::soup(&mut seed.rng("build.control"), 24, 2.0, 0.1);
     build_question(&[Partition, Split], soup, 4)
 }
 
-/// Creates a question about a tree over these shapes, which are numbered anew.
+/// Creates a question about a tree over these shapes, which are renumbered.
 fn build_question(
     checks: &[TreeCheck],
     shapes: impl IntoIterator<Item = Shape>,

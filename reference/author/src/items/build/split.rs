@@ -1,5 +1,5 @@
-//! The item about a single split: primitives in a row, for which one partition is by far the best. Both
-//! of its sides fit in a leaf, but all primitives together do not.
+//! The item about a single split: primitives in a row for which one partition is by far the best. Each
+//! side fits in a leaf, but all primitives together don't.
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
@@ -30,13 +30,13 @@ struct Layout<'a> {
 /// How exactly the centres of primitives are in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Alignment {
-    /// About in a row.
+    /// Roughly in a row.
     Loose,
     /// Exactly in a row.
     Row,
-    /// In a plane, and about in a row.
+    /// In a plane and roughly in a row.
     Plane,
-    /// In a plane that contains the primitives, which are triangles.
+    /// In a plane that also contains the primitives, which are triangles.
     Flat,
 }
 
@@ -51,7 +51,7 @@ const ALIGNMENTS: [Alignment; 4] = [
 const SMALL: f64 = 0.05;
 
 /// Three clumps, two of them near each other. A builder that forgets the outermost bucket ignores
-/// the clump at that end, so splitting between the two near clumps can seem best to it.
+/// the clump at that end, so it may prefer to split between the two near clumps.
 const CLUMPS: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -59,7 +59,7 @@ const CLUMPS: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 /// Clumps with a gap from just above one quarter to just below one half. A builder with four
-/// buckets has no plane in this gap.
+/// buckets doesn't have a plane in this gap.
 const GAP: Layout<'static> = Layout {
     clumps: &[
         (0.0, 0.2, 4),
@@ -72,8 +72,8 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps of which the first is the largest. If a builder counts the primitives of other buckets than
-/// those that it encloses, it does not count this one, and splits at the other gap.
+/// Clumps, the largest one first. A builder whose counts are from different buckets than its boxes
+/// misses this clump and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -81,8 +81,8 @@ const HEAVY_END: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps of which the first is of large primitives, so that it is best left alone. The wider gap is
-/// the other one: a builder that takes a primitive for a point splits there.
+/// Clumps, the first of large primitives, so that it is best split off. The other gap is the wider
+/// one. A builder that treats primitives as points splits there.
 const LARGE_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
     first_size: 1.2,
@@ -122,13 +122,13 @@ impl Drawn {
         }
     }
 
-    /// Returns the question at a place that is so near that coordinates in single precision have
-    /// digits for the detail, and the best split is still the only one. Returns `None` if there is no such
-    /// place, or hardly any.
+    /// Returns the question moved to a random place. The place is so near that coordinates in single
+    /// precision have enough digits for the detail, and the best split is still unambiguous. Returns
+    /// `None` if such places are rare or don't exist.
     fn question(&self, rng: &mut Rng, size: usize) -> Option<ExamQuestion> {
         /// The largest coordinate, in extents of the detail.
         const MOST: f64 = 1e5;
-        /// How many places are tried.
+        /// The maximum number of places that are tried.
         const ATTEMPTS: usize = 200;
         let shapes = rng.attempt(ATTEMPTS, |rng| {
             let shapes = place_of_size(rng, &self.shapes, size).shapes(&self.shapes);
@@ -164,9 +164,10 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
         .collect()
 }
 
-/// Returns what draws each layout of clumps along each axis.
+/// Returns functions that draw each layout of clumps along each axis.
 fn in_clumps() -> Vec<Draw> {
-    /// How many times as many primitives as shown each layout has. One of those with a gap has over 1,024.
+    /// The factors that multiply the layouts' numbers of primitives. One layout with a gap then has over
+    /// 1,024.
     const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 96, 1, 5, 2, 20, 1, 50];
     let layouts = [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate();
     let along_axes =
@@ -193,7 +194,7 @@ fn in_clumps() -> Vec<Draw> {
     along_axes.enumerate().map(draw).collect()
 }
 
-/// Returns what draws a few primitives, of which a leaf has room for all but one.
+/// Returns functions that draw a few primitives: one more than fit in a leaf.
 fn of_a_few() -> Vec<Draw> {
     let crowds = [3, 4, 5, 6, 8].into_iter().enumerate();
     let crowds = crowds.map(|(index, count)| -> Draw {
@@ -216,7 +217,7 @@ fn of_a_few() -> Vec<Draw> {
     crowds.chain(spheres).collect()
 }
 
-/// Returns what draws two crowds of many primitives.
+/// Returns functions that draw two crowds of many primitives.
 fn of_many() -> Vec<Draw> {
     let counts = [16_usize, 64, 129, 256, 513, 1100].into_iter();
     let draw = |count: usize| -> Draw {
@@ -230,8 +231,9 @@ fn of_many() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns what draws a crowd and, far from it, less than a sixteenth as many primitives. Both are multiples
-/// of a 64th of all, rounded up, so that builders with 64 chunks of equal numbers find the gap, too.
+/// Returns functions that draw a crowd and, far from it, less than a sixteenth as many primitives. Both
+/// numbers are multiples of a 64th of all, rounded up, so that builders with 64 equally large chunks find
+/// the gap too.
 fn of_outliers() -> Vec<Draw> {
     let counts = [(18, 60), (100, 180)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
@@ -254,7 +256,7 @@ fn of_outliers() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns what draws strips in layers.
+/// Returns functions that draw strips in layers.
 fn of_strips() -> Vec<Draw> {
     let stacks = STACKS.iter().enumerate();
     let stacks = stacks.map(|(index, &(count, least))| -> Draw {
@@ -283,8 +285,8 @@ fn few(
     row(rng, &layout, axis, is_mirrored)
 }
 
-/// Returns two crowds of which the smaller is the denser. Builders that try up to 64 chunks of equally
-/// many primitives instead of buckets find the gap as well: the first crowd along the axis consists of
+/// Returns two crowds. The smaller one is denser. Builders that try up to 64 chunks of equally many
+/// primitives instead of buckets find the gap as well: the first crowd along the axis consists of
 /// whole chunks.
 fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let chunk = count.div_ceil(64);
@@ -306,7 +308,7 @@ fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shap
 /// The size of a primitive that is far larger than the spaces between some others.
 const LARGE: f64 = 0.4;
 
-/// Returns triangles in a row along an axis, evenly spaced in each clump, for which one partition is the
+/// Returns triangles in a row along an axis, evenly spaced in each clump, so that one partition is the
 /// best.
 fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     rng.retry(|rng| {
@@ -316,7 +318,7 @@ fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Sh
 }
 
 fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
-    /// The number of primitives from which on all are spheres, which take less space in an exam.
+    /// From this number of primitives on, all are spheres, since these take less space in an exam.
     const MANY: usize = 33;
     let start = rng.point(3.0);
     let length = rng.uniform(8.0, 12.0);
@@ -327,7 +329,7 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
         Alignment::Loose if all >= MANY => 2,
         Alignment::Loose => rng.index(4),
     };
-    // How far the centres may be from the row.
+    // The maximum distance of the centres from the row.
     let away = match layout.alignment {
         Alignment::Loose => DVec3::ONE,
         Alignment::Row => DVec3::ZERO,
@@ -351,8 +353,8 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
     meshes::number_shapes(rng.shuffled(shapes))
 }
 
-/// Returns a primitive of a kind, whose box has this centre. From 4 on, the kinds are triangles in a plane
-/// across an axis.
+/// Returns a primitive of a kind whose box has this centre. Kinds from 4 are triangles in a plane across
+/// an axis.
 fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 | 1 => meshes::random_triangle_with_box_around(rng, center, size),
@@ -368,8 +370,8 @@ fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shap
     }
 }
 
-/// Returns spheres about in a row, of which a builder with no more buckets than spheres has no plane in the
-/// best gap.
+/// Returns spheres roughly in a row. Builders with at most as many buckets as there are spheres don't have
+/// a plane in the best gap.
 fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     rng.retry(|rng| {
         let start = rng.point(3.0);
@@ -394,7 +396,7 @@ fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
 
 /// Returns whether a builder with so few buckets builds a much more expensive tree.
 fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
-    /// The least cost, relative to the exact sweep's.
+    /// The minimum cost relative to the exact sweep's.
     const LEAST: f64 = 1.25;
     let few = BucketedBuilder {
         count,
@@ -405,8 +407,8 @@ fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
     relative_cost(&question, few) >= LEAST
 }
 
-/// Numbers of strips in two layers, with the least space between the layers, in extents of the centres
-/// along the strips. The most is eight times as much.
+/// Numbers of strips in two layers, each with the minimum space between the layers in extents of the
+/// centres along the strips. The maximum is eight times that.
 const STACKS: [(usize, f64); 9] = [
     (12, 0.001),
     (12, 0.001),
@@ -422,7 +424,7 @@ const STACKS: [(usize, f64); 9] = [
 /// The extent of the centres of strips along the strips.
 const SPREAD: f64 = 2.6;
 
-/// Returns strips along an axis, with centres of these heights along another.
+/// Returns strips along an axis whose centres have these heights along another axis.
 fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape> {
     let [along, across] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
     let start = rng.point(3.0);
@@ -434,7 +436,7 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
         };
         let center = start + at * along + *height * DVec3::AXES[axis];
         let (half, width) = (rng.uniform(4.5, 5.5) * along, width * across);
-        // Some have no area.
+        // Some strips have no area.
         let width = if heights.len() == 12 && index % 4 == 2 {
             DVec3::ZERO
         } else {
@@ -448,8 +450,8 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
     meshes::number_shapes(rng.shuffled(strips))
 }
 
-/// Returns two layers of strips that are much longer than the space between the layers, which is so
-/// large in extents of the centres along the strips.
+/// Returns two layers of strips that are much longer than the space between the layers. `ratio` is
+/// that space in extents of the centres along the strips.
 fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
     let space = ratio * SPREAD;
     let shapes = rng.retry(|rng| {
@@ -471,7 +473,7 @@ fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
 }
 
 /// Returns layers of strips with unequal spaces between them. The stack is so low that a builder with
-/// buckets of the same size along all axes has few of them along this one, and no plane in the best gap.
+/// buckets of the same size along all axes has few of them along this one and no plane in the best gap.
 fn layers(rng: &mut Rng) -> Drawn {
     /// The number of strips in each layer.
     const IN_EACH: usize = 4;
@@ -497,9 +499,9 @@ fn layers(rng: &mut Rng) -> Drawn {
     }
 }
 
-/// Returns whether every builder with 8 to 64 buckets finds the best partition. For this, the
-/// partition must be the best by a clear margin, and must split at a gap along this axis that
-/// contains a plane of every such builder.
+/// Returns whether every builder with 8 to 64 buckets finds the best partition. The partition must
+/// be the best by a clear margin and split at a gap along this axis that contains a plane of every
+/// such builder.
 fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
@@ -511,7 +513,7 @@ fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
         [node_box, center_box].iter().all(|over| {
             let size = (over.max - over.min)[axis];
             let part = |position: f64| (position - over.min[axis]) / size * count as f64;
-            // Some plane is between the two ends of the gap, and not close to either end.
+            // A plane is between the two ends of the gap and not close to either end.
             (part(gap.1) - 0.05).floor() > (part(gap.0) + 0.05).floor()
         })
     })

@@ -14,10 +14,10 @@ use crate::items::place::Place;
 use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
 
-/// The largest number of primitives of which there are many questions.
+/// The maximum number of primitives in most questions.
 const MOST: usize = 130;
 
-/// All arrangements of primitives that differ from each other and have no common centre.
+/// All arrangements of distinct primitives without a common centre.
 const ARRANGEMENTS: &[Arrangement] = &[
     Line,
     FlatBoxes,
@@ -47,13 +47,13 @@ fn is_split(call: &BuildCall) -> bool {
     call.shapes.len() > call.max_leaf_size as usize
 }
 
-/// Returns whether a third of the primitives does not fit into a leaf.
+/// Returns whether a leaf is too small for a third of the primitives.
 fn is_in_small_leaves(call: &BuildCall) -> bool {
     call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
 /// Creates a question about small random triangles for each pair of a number of triangles and a
-/// maximum leaf size. There are up to seven triangles more. Every other question is far from the
+/// maximum leaf size. Up to seven more triangles are added. Every other question is far from the
 /// origin.
 fn soup_questions(
     rng: &mut Rng,
@@ -84,8 +84,8 @@ fn soup_questions_of_size(
     sizes.iter().enumerate().map(question).collect()
 }
 
-/// Creates two questions about as many spheres with the same common box and the same maximum leaf size.
-/// One sphere inside of this box, in the middle of the list, is elsewhere in the second.
+/// Creates two questions with the same number of spheres, the same common box and the same maximum leaf
+/// size. In the second, a sphere from the middle of the list is elsewhere inside this box.
 fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> [ExamQuestion; 2] {
     let count = rng.integer(8, 40) as usize;
     let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
@@ -108,8 +108,8 @@ fn large(rng: &mut Rng, checks: &[TreeCheck]) -> ExamQuestion {
     build_question(checks, spheres, rng.integer(1, 3))
 }
 
-/// Creates questions about trees with many levels. Each sphere is nearer to the origin than the one
-/// before, by so much that it is best to split off one sphere at a time.
+/// Creates questions about trees with many levels. Each sphere is so much nearer to the origin than
+/// the previous one that it is best to split off one sphere at a time.
 fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     let question = |count: i32| {
         let mut scale = 900.0;
@@ -184,10 +184,10 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
     questions: |rng| {
         let crowd = &mut rng.sequence("build.leaf_size.crowd");
         let crowd = build_question(&[LeafSize], meshes::soup(crowd, 100, 0.3, 2.5), 1);
-        // The triangles are so large that the heuristic alone would make some leaves too large. In
-        // the first question, there are so many triangles that some node is split at its very last
-        // plane. In the crowd, they are so close together that buckets over the node's
-        // box do not separate them.
+        // The triangles are so large that a builder that only follows the heuristic makes some
+        // leaves too large. The first question has so many triangles that some node is split at its
+        // very last plane. In the crowd, the triangles are so close together that buckets over the
+        // node's box don't separate them.
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
         let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
         questions.push(crowd);
@@ -216,8 +216,8 @@ pub(super) const STOPS: Declaration = Declaration {
         let checks = [Stops, LeafSize];
         let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
         questions.push(large(rng, &[Stops]));
-        // The same primitives are asked again with another maximum leaf size. The root is a node like
-        // any other: as many primitives as fit into a leaf, and one more.
+        // The same primitives again, with a different maximum leaf size. The root is a node like any
+        // other: one question has as many primitives as fit into a leaf, and one has one more.
         let small = rng.integer(5, 10) as usize;
         for (count, most) in [(small, 130), (rng.integer(300, 999) as usize, 2)] {
             let balls = (0..count).map(|_| meshes::sphere(rng.point(3.0), 0.1));

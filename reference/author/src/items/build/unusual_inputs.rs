@@ -11,12 +11,12 @@ use crate::items::{Declaration, groups, meshes};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// All properties of a tree but its cost.
+/// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
 /// Draws questions from the domain about primitives in these arrangements, in addition to those that
-/// are given. They are judged by how they are split: by [`Split`], if the exact size of leaves is
-/// another item's idea.
+/// are given. Judges how they are split, using [`Split`] if the exact size of leaves is tested by a
+/// different item.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -79,8 +79,8 @@ pub(super) const COINCIDENT: Declaration = Declaration {
         let center = rng.point(2.0);
         let same = meshes::random_flat_triangle(rng, center, 0.5);
         let all = vec![same; 20];
-        // More than half of the primitives coincide, so a leaf that holds all of these counts as not
-        // split.
+        // More than half of the primitives coincide, so a leaf with all of these is considered
+        // unsplit.
         let mut some = meshes::soup(rng, 17, 3.0, 0.4);
         some.extend(vec![same; 30]);
         let ball = meshes::sphere((8.0 * center).round() / 8.0, 0.5);
@@ -113,7 +113,7 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
         let center = rng.point(2.0);
         let step = rng.uniform(0.2, 0.3) as f32;
         let shells = (1..=13).map(|i| meshes::sphere(center, (step * i as f32).into()));
-        // Single precision has digits for all of these, so their centres coincide exactly.
+        // All of these are exact in single precision, so their centres coincide exactly.
         let exact = (8.0 * center).round() / 8.0;
         let many = (3..rng.integer(140, 300)).map(|i| meshes::sphere(exact, f64::from(i) / 128.0));
         let questions = vec![
@@ -192,14 +192,14 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
     let checks = [Partition, Split, Contains];
     let question = |far: f64| build_question(&checks, crowd(far), 2);
     let mut questions = [100.0, 1000.0].map(question).to_vec();
-    // Each triangle is a quarter larger than the one before, so the last is over 1000 times as
+    // Each triangle is a quarter larger than the previous one, so the last is over 1000 times as
     // large as the first.
     let growing = (0..32).map(|i| {
         let size = 1e-3 * 1.25f64.powi(i);
         meshes::random_flat_triangle(rng, 4.0 * size * DVec3::ONE, size)
     });
     questions.push(build_question(&checks, growing, 1));
-    // So many that their nodes can be taken for another kind of node.
+    // So many primitives that nodes could be mistaken for the other kind.
     let mut many = meshes::many_spheres(rng, 1100);
     many.push(meshes::sphere((100.0 * rng.direction()).round(), 1.0));
     questions.push(build_question(ALL, rng.shuffled(many), 1));

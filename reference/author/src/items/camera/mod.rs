@@ -1,7 +1,7 @@
 //! Items of task 1: cameras.
 //!
 //! A mistake in one quantity should not fail the items about other quantities. Most items therefore
-//! use the middle row of the film, where only x matters, and the middles of pixels. Film and sensor
+//! use the middle row of the film, where only x matters, and the centres of pixels. Film and sensor
 //! have the same aspect ratio, except in the items about the aspect ratio.
 
 mod ray;
@@ -81,13 +81,13 @@ fn camera(vertical_fov: f64, aspect_ratio: f64, film: UVec2) -> PinholeCamera {
     }
 }
 
-/// Returns a sample at the middle of each pixel in the middle row of a film with an odd number of
+/// Returns a sample at the centre of each pixel in the middle row of a film with an odd number of
 /// rows.
 fn middle_row(film: UVec2) -> Vec<Sample> {
     (0..film.x).map(|x| middle_of(x, film.y / 2)).collect()
 }
 
-/// Returns the sample at the middle of a pixel.
+/// Returns the sample at the centre of a pixel.
 fn middle_of(x: u32, y: u32) -> Sample {
     Sample {
         pixel: uvec2(x, y),

@@ -1,4 +1,4 @@
-//! Items about the offset within the pixel, and about the ray itself.
+//! Items about the offset within the pixel and about the ray itself.
 
 use glam::{UVec2, Vec2, uvec2};
 use judging::exam::ExamQuestion;
@@ -27,7 +27,7 @@ pub(super) const OFFSET: Declaration = Declaration {
                     pixel: random_below(rng, length) * along[0],
                     offset: offset(rng) * x + 0.5 * y,
                 };
-                // Some are followed by one that is almost the same.
+                // Some samples are followed by an almost identical one.
                 let away = rng.uniform(0.015, 0.03) as f32;
                 let away = if first.offset.dot(x) < 0.5 {
                     away
@@ -102,7 +102,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
     questions: |rng| {
         let film = uvec2(3840, 2160);
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
-        // In the middle of the widest view, even the pixels of a large film are large.
+        // With the widest view, even the pixels in the middle of a large film are large.
         let film = UVec2::from([(); 2].map(|()| rng.integer(2048, 4096)));
         let wide = camera(rng.uniform(173.0, 175.0), rng.uniform(8.0, 10.0), film);
         let in_the_middle = (0..12).map(|_| Sample {
@@ -132,11 +132,11 @@ fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
     camera_question(judged, camera(90.0, 1.0, film), samples)
 }
 
-/// Creates questions about cameras of all kinds, for quantities that are the same for all of them.
+/// Creates questions about all kinds of cameras, for quantities that don't depend on the kind.
 fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuestion> {
     let parts = FIELDS_OF_VIEW.into_iter().enumerate();
     let question = |(index, part)| {
-        // Narrow angles of wide sensors: there a direction is longest.
+        // Narrow angles of view go with wide sensors, where directions are longest.
         let ratio = (2 * ASPECT_RATIOS.len() - 1 - index) % ASPECT_RATIOS.len();
         let aspect = drawn(ASPECT_RATIOS[ratio], rng);
         let film = uvec2(side(rng, index), side(rng, 3 * index + 4));

@@ -8,7 +8,7 @@ use crate::domains::camera::{ASPECT_RATIOS, FIELDS_OF_VIEW, drawn};
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
 
-/// Returns an odd size of a film, which has a row in its middle.
+/// Returns an odd size for a film, so that it has a middle row.
 fn odd_size(rng: &mut Rng, min: u32, max: u32) -> u32 {
     2 * rng.integer(min / 2, max / 2) + 1
 }

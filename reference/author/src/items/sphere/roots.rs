@@ -1,11 +1,12 @@
-//! Items about which of the two roots counts, if any.
+//! Items about which of the two roots is the hit, if any.
 
 use super::questions;
 use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
 use crate::domains::sphere::Line;
 use crate::items::{Declaration, groups};
 
-/// Returns whether the sphere is not behind the ray, which starts outside and has no end.
+/// Returns whether the ray starts outside the sphere and has no end, and the sphere isn't behind
+/// it.
 fn is_ahead(line: &Line) -> bool {
     line.is_unlimited() && (line.misses() || line.roots[0] > 0.0)
 }

@@ -1,5 +1,5 @@
-//! Trees of cells. Each cell is a small tree with one decoy, whose properties are dealt out so that each
-//! reason not to ask a decoy occurs with each kind of leaf, place, level and range.
+//! Trees of cells. Each cell is a small tree with one decoy, whose properties are distributed so that
+//! each reason not to test a decoy occurs with each kind of leaf, index, level and range.
 //!
 //! ```text
 //!   missed            missed with sibling       beyond               both beyond
@@ -11,8 +11,8 @@
 //!                        └──┘ here
 //! ```
 //!
-//! The cells are beside each other, so that a ray hits something in its own cell only. In the tree, they
-//! form a chain of almost 60 levels.
+//! The cells are next to each other, so that a ray only hits something in its own cell. In the tree,
+//! they form a chain of almost 60 levels.
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
@@ -27,7 +27,7 @@ use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
 use crate::tree::{Tree, decoy};
 
-/// Why the decoy of a cell must not be asked.
+/// The reason the decoy of a cell must not be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reason {
     /// The ray misses the box of its leaf.
@@ -36,9 +36,9 @@ pub(super) enum Reason {
     MissedWithSibling,
     /// Its leaf begins beyond the closest hit.
     Beyond,
-    /// The same, and the ray before is a parallel one, which enters this leaf before its sibling.
+    /// The same, and the previous ray is parallel and enters this leaf before its sibling.
     BeyondAfterParallel,
-    /// Its leaf and the sibling begin beyond the closest hit, this one first. Their parent does not.
+    /// Its leaf and then the sibling begin beyond the closest hit. Their parent doesn't.
     NearerOfTwoBeyond,
     /// The same, but its leaf begins after its sibling.
     FartherOfTwoBeyond,
@@ -48,7 +48,8 @@ pub(super) enum Reason {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decoys<'a> {
     pub(super) reasons: &'a [Reason],
-    /// Whether the leaf of a decoy is the left child. If both siblings are beyond the hit, either is.
+    /// Whether the leaf of a decoy is the left child. Either may be, if both siblings are beyond the
+    /// hit.
     pub(super) is_left: bool,
     /// The answer of the slides' pseudo-code, taken literally, for all rays with a decoy.
     pub(super) slides: SlidesAnswer,
@@ -58,7 +59,7 @@ pub(super) struct Decoys<'a> {
 const DECOYS: usize = 12;
 /// The number of trees in the chain. The deepest leaf is two levels below the last of them.
 const CHAIN: usize = 58;
-/// The links of the chain where the level of a decoy is of each class in its domain.
+/// The links of the chain where the decoy's level is in each class of its domain, in order.
 const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
 
 /// Creates a question about a chain of cells.
@@ -110,7 +111,8 @@ fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     })
 }
 
-/// Returns a chain of cells, and of leaves where there is no cell. Any child can be the left one.
+/// Returns a chain of cells, with a leaf at each link without a cell. Any child can be the left
+/// one.
 fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[usize]) -> Tree {
     let mut tree = Tree::default();
     let mut below = None;
@@ -132,7 +134,7 @@ fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[us
     tree
 }
 
-/// Adds all nodes and primitives of another tree, and returns the index of its root.
+/// Adds all nodes and primitives of another tree and returns the index of its root.
 fn add_tree(tree: &mut Tree, added: &Tree) -> usize {
     let (nodes, shapes) = (tree.nodes.len() as u32, tree.shapes.len() as u32);
     tree.nodes.extend(added.nodes.iter().map(|node| {
@@ -162,23 +164,23 @@ struct Plan {
     is_sphere: bool,
     /// The number of primitives in its leaf, including itself.
     leaf_size: usize,
-    /// Its place in its leaf.
+    /// Its index in its leaf.
     place: usize,
     level: usize,
     is_flat: bool,
-    /// Whether a flat box is even a line or a point.
+    /// Whether a flat box is actually a line or a point.
     is_line: bool,
     range: usize,
     hits_nothing: bool,
-    /// Whether the ray starts in the box of the sibling of the decoy's leaf.
+    /// Whether the ray starts in the box of the leaf's sibling.
     starts_in_sibling: bool,
-    /// Whether the ray before hits something in the decoy's leaf.
+    /// Whether the previous ray hits something in the decoy's leaf.
     is_after_a_hit_in_its_leaf: bool,
 }
 
 impl Plan {
-    /// Returns one of `DECOYS` plans. Each class of each property occurs among them, and also among the
-    /// first four, where a ray that hits nothing is one of them.
+    /// Returns one of `DECOYS` plans. Each class of each property occurs among them and even among the
+    /// first four, including a ray that hits nothing.
     fn new(reason: Reason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
@@ -196,7 +198,8 @@ impl Plan {
         let is_after_parallel = reason == Reason::BeyondAfterParallel;
         let is_after_a_hit_in_its_leaf =
             !is_after_parallel && leaf_size > 2 && !is_line && group < 2;
-        // The ray before tests the decoy. It is no sphere then, so that only triangles and boxes matter.
+        // The previous ray tests the decoy. The decoy isn't a sphere in that case, so that only
+        // triangles and boxes matter.
         let is_tested_before = is_after_parallel || is_after_a_hit_in_its_leaf;
         Plan {
             reason,
@@ -224,11 +227,11 @@ struct Frame {
 }
 
 impl Frame {
-    /// Draws the orientation of a cell at one of the places beside each other.
+    /// Draws the orientation of a cell at one of the adjacent positions.
     fn new(rng: &mut Rng, axes: [DVec3; 3], place: usize) -> Self {
         let corner = dvec3(0.0, 10.0 * (place % 6) as f64, 3.0 * (place / 6) as f64);
         let signs = [rng.sign(), rng.sign(), rng.sign()];
-        // A cell that is turned around stays within the same limits.
+        // A cell that is rotated stays within the same limits.
         let turned = [10.0, 4.0, 0.0];
         let mut frame = Frame {
             axes,
@@ -297,12 +300,12 @@ fn with_number(shape: Shape, number: u32) -> Shape {
 #[derive(Clone, Debug)]
 struct Cell {
     tree: Tree,
-    /// The ray toward the decoy, and before it another one for some.
+    /// The ray toward the decoy, in some cells preceded by another ray.
     rays: Vec<Ray>,
 }
 
 impl Cell {
-    /// Draws a cell. Returns `None` if it is not fair.
+    /// Draws a cell. Returns `None` if it isn't fair.
     fn draw(rng: &mut Rng, plan: &Plan, frame: &Frame, link: usize) -> Option<Cell> {
         let mut draft = Draft {
             tree: Tree::default(),
@@ -372,7 +375,7 @@ impl Draft {
         self.number - 1
     }
 
-    /// Adds the leaves of most cells, and returns the ray.
+    /// Adds the leaves of most cells and returns the ray.
     fn add_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let (up, side) = (rng.uniform(0.45, 0.55), rng.uniform(-0.04, 0.04));
         let start = dvec3(rng.uniform(-0.4, 0.0), 0.0, 0.0);
@@ -466,7 +469,7 @@ impl Draft {
         (ray, None)
     }
 
-    /// Adds the leaf with the decoy and its sibling, the left one first, and the node above both.
+    /// Adds the decoy's leaf and its sibling, the left one first, and the node above both.
     fn add_siblings(
         &mut self,
         rng: &mut Rng,
@@ -485,7 +488,7 @@ impl Draft {
         self.add_interior(leaf, other, false)
     }
 
-    /// Returns a tiny triangle beside a point, on either side of the plane in which the ray is.
+    /// Returns a tiny triangle beside a point, on either side of the ray's plane.
     fn tiny(&mut self, rng: &mut Rng, point: DVec3, beside: DVec3) -> Shape {
         const SIZE: f64 = 0.25;
         let beside = beside * dvec3(1.0, 1.0, rng.sign());
@@ -493,7 +496,7 @@ impl Draft {
         with_number(shape, self.next_number())
     }
 
-    /// Adds two leaves whose boxes form a cross. Returns the ray, and a parallel one that enters them in
+    /// Adds two leaves whose boxes form a cross. Returns the ray and a parallel one that enters them in
     /// the other order.
     fn add_crossing_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let dir = dvec3(1.0, -1.0, rng.uniform(-0.03, 0.03)).normalize();
@@ -526,7 +529,8 @@ impl Draft {
         (ray, Some(self.frame.ray(before, dir)))
     }
 
-    /// Returns the ray with the planned range, which begins before the decoy and ends after all boxes.
+    /// Returns the ray with the planned range, which begins before the decoy and ends behind all
+    /// boxes.
     fn with_range(&self, rng: &mut Rng, ray: Ray) -> Ray {
         let later = rng.uniform(0.05, 0.3) as f32;
         let end = rng.uniform(14.0, 25.0) as f32;
@@ -542,8 +546,8 @@ impl Draft {
         ray.within(min, max)
     }
 
-    /// Adds the leaf with the decoy, which is on the ray. The box is flat along `flat`, if it should be, on
-    /// the side where it begins.
+    /// Adds the leaf with the decoy, which is on the ray. A flat box is flat along `flat` and on the side
+    /// where the ray enters.
     fn add_leaf_of_decoy(&mut self, rng: &mut Rng, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
         let LeafOfDecoy {
             corners: [min, mut max],

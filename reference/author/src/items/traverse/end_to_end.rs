@@ -91,7 +91,7 @@ fn built_tree_question(
 }
 
 /// Creates a question about a row of as many triangles as a mesh has. Its rays enter every node, since
-/// they meet a corner of every box, and hit nothing but the larger triangle at the end.
+/// they pass through a corner of every box, but only hit the larger triangle at the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
     const COUNT: usize = 5000;
     const STEP: f64 = 0.02;
@@ -183,8 +183,8 @@ pub(super) const RADIANCE: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates the question about a path-traced picture. The key has no pixels until the reference has
-/// drawn them.
+/// Creates the question about a path-traced picture. The key is empty until the reference has
+/// rendered the picture.
 fn path_traced_picture(rng: &Rng) -> ExamQuestion {
     const SCENE: &str = include_str!(concat!(
         env!("CARGO_MANIFEST_DIR"),

@@ -1,5 +1,5 @@
-//! Pairs of triangles close behind each other. A correct traversal returns the hit on the one in front,
-//! however close the other is, and whichever is found first.
+//! Pairs of triangles close behind each other. A correct traversal returns the hit on the front
+//! triangle, no matter how close the other one is and which one is found first.
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
@@ -18,9 +18,9 @@ const SIZE: f64 = 0.2;
 /// The distance between the two triangles of a pair.
 const SPACE: f64 = 0.0175;
 
-/// Creates a question about pairs of triangles, so small that no other place is tried. Half of the rays start
-/// so close to a pair that both hits are at almost no distance, seen from the size of the tree. The others
-/// start so far away that both are at almost the same distance.
+/// Creates a question about pairs of triangles. They are so small that it isn't moved to other places. Half
+/// of the rays start so close to a pair that both distances are tiny compared to the size of the tree. The
+/// others start so far away that both are at almost the same distance.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     rng.retry(|rng| {
         let mut tree = Tree::default();
@@ -76,7 +76,7 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
 struct Pair {
     /// The middle of the triangle in front.
     place: DVec3,
-    /// The direction from the one in front to the other.
+    /// The direction from the front triangle to the other.
     normal: DVec3,
     /// The axes of the triangles.
     across: [DVec3; 2],
@@ -85,7 +85,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// Returns a triangle so far behind the one in front, and aside.
+    /// Returns a triangle that is moved behind and sideways from the front one by these distances.
     fn triangle(&self, behind: f64, aside: f64, number: u32) -> Shape {
         let [x, y] = self.across;
         let middle = self.place + behind * self.normal + aside * x;
@@ -94,7 +94,7 @@ impl Pair {
         meshes::flat_triangle(corners, self.number + number)
     }
 
-    /// Returns a ray toward the triangle in front from this distance, and one past it.
+    /// Returns a ray from this distance toward the front triangle, and one past it.
     fn rays(&self, rng: &mut Rng, distance: f64) -> (Ray, Ray) {
         let [x, y] = self.across;
         let slant = rng.uniform(-0.15, 0.15) * x + rng.uniform(-0.15, 0.15) * y;
@@ -105,7 +105,7 @@ impl Pair {
         (ray(target), ray(target - 3.0 * SIZE * y))
     }
 
-    /// Adds the two triangles in two leaves. The ray starts in the box of the one behind.
+    /// Adds the two triangles in two leaves. The ray starts in the box of the rear one.
     fn add_near(&self, rng: &mut Rng, tree: &mut Tree) -> (usize, Ray, Ray) {
         let behind = self.triangle(SPACE, 0.0, 0);
         let corner = self.triangle(-0.4, 3.0 * SIZE, 1);
@@ -122,7 +122,7 @@ impl Pair {
         (root, hit, miss)
     }
 
-    /// Adds the two triangles in one leaf, the one behind first. The ray starts far away.
+    /// Adds the two triangles in one leaf, the rear one first. The ray starts far away.
     fn add_far(&self, rng: &mut Rng, tree: &mut Tree) -> (usize, Ray, Ray) {
         let behind = self.triangle(SPACE, 0.0, 0);
         let front = self.triangle(0.0, 0.0, 1);

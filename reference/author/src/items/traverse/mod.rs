@@ -1,12 +1,12 @@
 //! Items of task 3, step 2: traversal of the exam's own trees, so that the result does not depend
 //! on a submission's `build`.
 //!
-//! For some rays, there is an unreferenced primitive (one that is in no leaf) in front of the
-//! correct hit. A linear scan over all primitives, without the tree, returns this primitive, which
-//! is wrong. [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that
-//! should have been skipped. [`cells`] deals out their kinds, leaves, levels and ranges. The position
-//! of the root is the idea of one item. In all other items, starting at the first or the last node
-//! also gives correct answers.
+//! Some rays have an unreferenced primitive (one that isn't in any leaf) in front of the correct hit.
+//! A linear scan over all primitives, which ignores the tree, returns this wrong primitive.
+//! [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that should have
+//! been skipped. [`cells`] distributes their kinds, leaves, levels and ranges. One item tests the
+//! position of the root. In all others, starting at the first or the last node also gives correct
+//! answers.
 
 mod cells;
 mod end_to_end;
@@ -62,7 +62,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     ..AuthoredTask::NEW
 };
 
-/// The fields of an item about traversal that is wrong if triangles or boxes are. The others are empty.
+/// The default fields of an item about traversal, which also fails if triangles or boxes are wrong.
 const TRAVERSAL: Declaration = Declaration {
     needs: &[groups::TRIANGLE_HITS, groups::BOXES],
     ..Declaration::ALONE
@@ -78,7 +78,7 @@ fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
     ExamQuestion::new(Question::hits(tree.geometry(), rays), key)
 }
 
-/// Returns a ray from a point around the tree, or in it, toward a point in it.
+/// Returns a ray from a point around or in the tree toward a point in it.
 fn ray_from_around(rng: &mut Rng, tree: &Tree) -> Ray {
     rng.retry(|rng| {
         let ray = match rng.index(8) {
@@ -110,8 +110,8 @@ fn unambiguous_rays(
     rng.shuffled(rays)
 }
 
-/// Adds an unreferenced primitive in front of the correct hit of every third ray, and one that is almost as
-/// large as the tree.
+/// Adds an unreferenced primitive in front of the correct hit of every third ray, as well as one that is
+/// almost as large as the tree.
 fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
         let hit = tree.expected_hit(&Ray64::from(ray));
@@ -128,7 +128,7 @@ fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     }
 }
 
-/// Returns a triangle across an axis that is almost as large as the tree, and inside its box.
+/// Returns a triangle across an axis that is almost as large as the tree and inside its box.
 fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     let bounds = tree.bounds(tree.root);
     let axis = rng.index(3);
@@ -145,12 +145,12 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     meshes::flat_triangle(corners, number)
 }
 
-/// Returns the rays, followed by some that are almost the ray before, but with a hit at a clearly different
+/// Returns the rays. Some are followed by one that is almost the same but hits at a clearly different
 /// distance.
 fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
-    /// How many rays are drawn for each.
+    /// The maximum number of rays drawn for each.
     const ATTEMPTS: usize = 2000;
-    /// The least difference of the distances.
+    /// The minimum difference between the distances.
     const LEAST: f64 = 7e-4;
     for _ in 0..3 {
         let found = rng.attempt(ATTEMPTS, |rng| {
@@ -180,10 +180,10 @@ fn question_without_decoys(
     with_unreferenced(rng, &mut tree, rays)
 }
 
-/// Creates a question about a tree to which unreferenced primitives are added.
+/// Adds unreferenced primitives to a tree and creates a question about it.
 fn with_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: Vec<Ray>) -> ExamQuestion {
     add_unreferenced(rng, tree, &rays);
-    // A tree of one node stays one.
+    // A tree of a single node stays a single node.
     if tree.nodes.len() > 1 {
         *tree = tree.with_roots_at_both_ends(rng);
     }

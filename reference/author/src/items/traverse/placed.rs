@@ -16,8 +16,7 @@ use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::{Rng, Seed};
 use crate::tree::{Tree, construction, decoy};
 
-/// Moves the questions of one item after another, so that each size and each octant occurs equally
-/// often.
+/// Moves the questions, item by item, so that all sizes and octants occur equally often.
 pub(super) struct Mover {
     rng: Rng,
     /// The number of places that have been drawn.
@@ -31,8 +30,8 @@ impl Mover {
         Mover { rng, count }
     }
 
-    /// Moves all questions of an item that are about lists of rays. A question that begins with the last
-    /// ray of the one before stays together with it.
+    /// Moves all questions of an item that are about lists of rays. A question that begins with the
+    /// previous question's last ray stays together with it.
     pub(super) fn move_all(&mut self, questions: &mut [ExamQuestion]) {
         let together = |a: &ExamQuestion, b: &ExamQuestion| {
             let (a, b) = (rays(a), rays(b));
@@ -53,8 +52,8 @@ impl Mover {
             let size = self.count % sizes;
             let octant = (self.count / sizes + self.count) % fields::OCTANTS.len();
             self.count += 1;
-            // Where a ray starts so far away that there is no place for it at this size, a smaller
-            // size is taken. A question that is fair nowhere else stays.
+            // If a ray starts so far away that this size doesn't fit anywhere, a smaller size is
+            // used. A question that wouldn't be fair anywhere else isn't moved.
             let placed = (0..=size).rev().find_map(|size| {
                 self.rng.attempt(ATTEMPTS, |rng| {
                     let place = place(rng, group, size, octant)?;
@@ -69,8 +68,8 @@ impl Mover {
     }
 }
 
-/// Returns the same question about dust, which is as fair: with this power of two, correct code computes
-/// the same digits.
+/// Returns the same question shrunk to dust. It is just as fair: scaled by this power of two, correct
+/// code computes the same digits.
 pub(super) fn as_dust(asked: &ExamQuestion) -> ExamQuestion {
     let dust = Place::new(1.0 / f64::from(1 << 22), DVec3::ZERO);
     moved(dust, asked).expect("the question has a list of rows")
@@ -93,13 +92,13 @@ fn rays(asked: &ExamQuestion) -> Option<Vec<Ray>> {
     }
 }
 
-/// Returns whether a ray starts at the edge of the scene, so that there is no other place for it.
+/// Returns whether a ray starts at the edge of the scene, so that it cannot be moved.
 fn is_far_away(ray: &Ray) -> bool {
     f64::from(ray.origin.abs().max_element()) > 0.5 * FURTHEST
 }
 
-/// Returns a question at the largest size for which all rays and shapes are in the scene, or `None` if it
-/// is not fair there.
+/// Returns a question at the largest size that keeps all rays and shapes in the scene, or `None` if it
+/// isn't fair there.
 pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     let starts = rays(asked)?;
     let starts = starts.iter().map(|ray| {
@@ -111,7 +110,7 @@ pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     in_place(Place::new(scale, -scale * all.center()), asked)
 }
 
-/// Draws a place in an octant, where no coordinate is too large.
+/// Draws a place in an octant such that no coordinate is too large.
 fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize, octant: usize) -> Option<Place> {
     let shapes: Vec<Shape> = group.iter().flat_map(shapes).copied().collect();
     let size = fields::size(rng, size);
@@ -138,7 +137,7 @@ fn shapes(asked: &ExamQuestion) -> &[Shape] {
     }
 }
 
-/// Returns a question at a place, with a key for its new numbers. Returns `None` if it is not fair
+/// Returns a question at a place, with a key for its new numbers. Returns `None` if it isn't fair
 /// there.
 pub(super) fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let asked = moved(place, asked)?;
@@ -173,8 +172,8 @@ pub(super) fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestio
     })
 }
 
-/// Returns whether rays along an axis or in a plane of two are not in the plane of any face of a box:
-/// whether they meet that box is not tested. Boxes of decoys do not matter.
+/// Returns whether rays along an axis or in a plane of two axes avoid the planes of all faces of
+/// boxes, since whether such a ray hits the box isn't tested. Boxes of decoys don't matter.
 pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool {
     let ordinary = tree.ordinary_primitives();
     let shapes = tree.shapes.iter().zip(&ordinary);
@@ -195,16 +194,16 @@ pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool
     })
 }
 
-/// Returns whether a ray is well clear of all faces, so that it still is where the tree is moved.
+/// Returns whether a ray is so clear of all faces that it still is after the tree has been moved.
 pub(super) fn is_clear_of_faces(tree: &Tree, ray: &Ray) -> bool {
     are_clear_of_faces(tree, &[*ray], 3.0 * FACE_MARGIN)
 }
 
-/// The least distance between the plane of a face and a ray that is parallel to it, in sides of the whole.
+/// The minimum distance between the plane of a face and a ray parallel to it, in sides of the tree.
 const FACE_MARGIN: f64 = 1e-4;
 
-/// Returns whether all correct formulas compute every quantity of a hit well within its tolerance, here
-/// and as far away as most trees are moved.
+/// Returns whether all correct formulas compute every quantity of a hit well within its tolerance, both
+/// here and as far away as most trees are moved.
 pub(super) fn is_exact_elsewhere(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
     let place = Place::around(&[], 1.0, DVec3::splat(50.0));
     let (shapes, ray) = (place.shapes(shapes), place.ray(ray));

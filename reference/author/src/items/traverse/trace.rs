@@ -1,4 +1,4 @@
-//! The item about everything that a hit consists of.
+//! The item about all quantities of a hit.
 
 use judging::exam::ExamQuestion;
 use protocol::{Ray, Shape};
@@ -36,7 +36,7 @@ pub(super) const TRACE: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates a question about a tree of primitives of a kind, whose numbers are drawn.
+/// Creates a question about a tree of primitives of a kind, with random numbers.
 pub(super) fn question(
     rng: &mut Rng,
     kind: usize,

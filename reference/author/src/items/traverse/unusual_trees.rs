@@ -104,7 +104,7 @@ fn no_nodes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut empty_question =
         |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(rng)).collect());
     let mut questions = vec![empty_question(&nothing), empty_question(&empty_leaf)];
-    // The smallest trees that are not empty are one leaf.
+    // The smallest nonempty trees are a single leaf.
     for count in [1, 5] {
         let tree = soup_tree(rng, count, 1.5, count);
         questions.push(question_without_decoys(rng, tree, [12, 6], ray_from_around));

@@ -24,7 +24,7 @@ pub(super) fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
 /// The number of the first decoy. Those of unreferenced primitives are smaller.
 pub(super) const FIRST_DECOY: u32 = 20_000;
 
-/// A filter for the leaves that may hold a decoy for a ray.
+/// A filter for the leaves that may contain a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 
 /// The number of rays in a question that may get a decoy. All other rays come after them.
@@ -33,9 +33,9 @@ const OTHER_RAYS: [usize; 2] = [4, 4];
 /// The minimum number of decoys in a question. A question with fewer decoys is drawn again.
 const MIN_DECOYS: usize = 4;
 
-/// Creates a question in which at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
-/// accepts. The slides' pseudo-code, taken literally, gives the answer `slides` for rays with a
-/// decoy, and the correct answer for all others.
+/// Creates a question where at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
+/// accepts. Taken literally, the slides' pseudo-code gives the answer `slides` for rays with a
+/// decoy and the correct answer for all others.
 fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
     rng.retry(|rng| {
         let tree = soup_tree(rng, 48, 0.7, 1);
@@ -49,7 +49,7 @@ fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -
     })
 }
 
-/// Returns rays for which `fits` accepts some leaf, followed by some other rays.
+/// Returns rays with a leaf that `fits` accepts, followed by some other rays.
 fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> Vec<Ray> {
     let mut chosen = unambiguous_rays(rng, tree, [RAYS_WITH_DECOYS, 0], |rng, tree| {
         rng.retry(|rng| {
@@ -85,8 +85,8 @@ fn add_decoys(
             });
             is_as_required.then_some(with_decoy)
         });
-        // Some rays get no decoy, because a decoy in any of the leaves that `fits` accepts would
-        // not give the answer that `slides` requires.
+        // Some rays don't get a decoy, because no decoy in the leaves that `fits` accepts gives the
+        // answer that `slides` requires.
         if let Some(with_decoy) = added {
             tree = with_decoy;
             done.push(index);
@@ -104,13 +104,13 @@ pub(super) enum SlidesAnswer {
     Wrong,
 }
 
-/// Accepts the leaves that no correct traversal enters, for this reason.
+/// Accepts the leaves that no correct traversal enters for this reason.
 fn skipped_for(reason: SkipReason) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Accepts the leaves that the ray misses, and that are this child of a node of which it hits the
-/// other child's box.
+/// Accepts the leaves that the ray misses and that are this child of a node whose other child's box
+/// it hits.
 fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child)
@@ -118,8 +118,8 @@ fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     }
 }
 
-/// Accepts the leaves that the ray misses, and that are this child of a node of which it misses both
-/// children's boxes.
+/// Accepts the leaves that the ray misses and that are this child of a node whose children's boxes
+/// it both misses.
 fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)
@@ -205,7 +205,7 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
             && fits(tree, leaf, ray64)
     };
-    // The middle of the box that the ray enters last is nearer than that of the other.
+    // The centre of the box that the ray enters last is nearer than the other box's.
     let nearer_center = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         let fork = decoy::find_fork(tree, leaf, ray64);
         let distance = |index: usize| tree.bounds(index).center().distance(ray64.origin);

@@ -54,9 +54,9 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates questions about two trees that the same rays are asked of. The last ray of the one is the
-/// first of the other, which answers it differently. From outside, the trees look the same, down to the
-/// boxes of the third level.
+/// Creates questions about two trees with the same rays. The last ray of the first question is the
+/// first of the second but has a different answer there. The trees have the same boxes down to the
+/// third level.
 fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
     let first = soup_tree(rng, 48, 1.2, 1);
     let second = with_other_contents(rng, &first);
@@ -80,8 +80,8 @@ fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
     [first, with_unreferenced(rng, second, rays)]
 }
 
-/// Returns a tree with the same nodes, in which primitives are elsewhere. The boxes of the first three levels
-/// are the same, so the primitives at the faces of those of the third level stay.
+/// Returns a tree with the same nodes but with primitives in different positions. Primitives at the faces of
+/// the third level's boxes stay, so that the boxes of the first three levels are the same.
 fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
     const LEVELS: usize = 3;
     let mut other = tree.clone();
@@ -108,7 +108,7 @@ fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
 }
 
 /// Creates a question about a few triangles far from the origin. Half of the rays start so close to their
-/// hits that a start moved forward by a fraction of its coordinates would be behind them.
+/// hits that moving the start forward by a fraction of its coordinates would skip them.
 fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
     /// The largest coordinates, in sizes of the triangles.
     const COORDINATES: f64 = 5000.0;
@@ -198,7 +198,8 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Returns what draws every third ray that hits something in a corner of the boxes around it.
+/// Returns a function that draws rays. If possible, every third one hits something in a corner of
+/// the boxes around it.
 fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -230,8 +231,8 @@ pub(super) const RANGE: Declaration = Declaration {
 
 fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut tree = soup_tree(rng, 40, 1.4, 1);
-    // The range starts before the first hit or between the first two, and ends before, between or
-    // after them, or not at all.
+    // The range starts before the first hit or between the first two. It ends before, between or
+    // after them, or never.
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
             let ray = ray_from_around(rng, tree).within(0.0, f32::INFINITY);
@@ -255,7 +256,7 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
         })
     };
     let rays = unambiguous_rays(rng, &tree, [18, 8], kind);
-    // Every other ray is asked again without an end, before or after.
+    // Every other ray is repeated without an end, either before or after it.
     let again = |(index, ray): (usize, &Ray)| {
         let whole = ray.within(0.0, f32::INFINITY);
         let is_clear = is_clear_of_faces(&tree, &whole) && decoy::is_fair(&tree, &[whole]);
@@ -291,7 +292,7 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
     trees.map(question).to_vec()
 }
 
-/// Returns a tree of two leaves, one of which has more than half of the primitives that a leaf may have.
+/// Returns a tree of two leaves, one with more than half of the primitives that a leaf may contain.
 fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     let count = rng.integer(560, 640) as usize;
     let mut shapes = meshes::soup(rng, count + 20, 2.0, 0.3);
@@ -303,8 +304,8 @@ fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     tree
 }
 
-/// Returns what draws rays whose hit is, in turn, the closest of several in a leaf that belongs to the
-/// first primitive, to the last one, and to one in between, or none.
+/// Returns a function that draws rays. In turn, the closest of several hits in a leaf belongs to
+/// the first primitive, to the last one, or to any, and some rays hit nothing.
 fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -367,7 +368,7 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     for node in &mut mirrored.nodes {
         std::mem::swap(&mut node.l, &mut node.r);
     }
-    // Rays along the chain, from both ends, and across it.
+    // Rays along the chain from both ends, and rays across it.
     let kind = |rng: &mut Rng, _: &Tree| {
         let target = DVec3::X * rng.uniform(0.0, 30.0) + rng.point(0.4);
         let away = match rng.index(3) {
@@ -434,7 +435,7 @@ pub(super) const MIXED: Declaration = Declaration {
             })
         };
         let distances = question_without_decoys(rng, tree, [28, 10], kind);
-        // Spheres, and then all kinds.
+        // Spheres first, then all kinds.
         let traces = [(2, 5, 1), (3, 24, 2)]
             .map(|(kind, count, max_leaf_size)| trace::question(rng, kind, count, max_leaf_size));
         [vec![distances], traces.to_vec()].concat()

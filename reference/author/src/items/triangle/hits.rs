@@ -1,4 +1,4 @@
-//! Items about whether a ray hits, and at which distance.
+//! Items about whether and at which distance a ray hits.
 
 use glam::{Vec2, Vec3, vec3};
 use judging::exam::ExamQuestion;
@@ -10,12 +10,12 @@ use crate::domains::triangle::Plane;
 use crate::items::{Declaration, groups, shape_question};
 use crate::seed::Rng;
 
-/// Returns whether only the point where the ray crosses the plane decides.
+/// Returns whether the hit only depends on the point where the ray crosses the plane.
 fn is_ahead(plane: &Plane) -> bool {
     plane.is_unlimited() && plane.distance > 0.0
 }
 
-/// Returns whether only the range decides.
+/// Returns whether the hit only depends on the range.
 fn is_through(plane: &Plane) -> bool {
     is_steep(plane) && plane.is_inside() && is_well_inside(plane)
 }
@@ -209,7 +209,7 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
     let point = flat([[1.0, 1.0]; 3]);
     let coinciding_corners = flat([[1.0, 2.0], [1.0, 2.0], [3.0, 2.0]]);
     let half_square = flat([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]);
-    // Parallel to the plane at several distances, over the triangle and beside it.
+    // Parallel to the plane at several distances, both over the triangle and beside it.
     let beside = [1.0, 2.0, 3.0, -1.0, 5.0].into_iter();
     let parallel = beside.flat_map(|y| [2.0, -2.0, 1.0, -1.0].map(|z| along(y, z)));
     let parallel = parallel.collect();
@@ -222,7 +222,7 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
         question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
         question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
         question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
-        // On both sides of the plane, as t = z / 0 is +∞ on one of them and −∞ on the other.
+        // On both sides of the plane, because t = z / 0 is +∞ on one side and −∞ on the other.
         question(half_square, parallel),
     ];
     [degenerate, control].concat()

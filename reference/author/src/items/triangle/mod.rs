@@ -39,8 +39,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
     ..AuthoredTask::NEW
 };
 
-/// Creates questions about triangles of these sizes. Their rays belong to an idea, and every other one
-/// is a hit.
+/// Creates questions about triangles of these sizes. Their rays fit an item's idea, and every other
+/// one is a hit.
 fn questions(
     rng: &mut Rng,
     judged: &[&str],
@@ -52,12 +52,12 @@ fn questions(
     tables.map(question).collect()
 }
 
-/// Returns whether the ray does not graze the triangle, which is the idea of an item.
+/// Returns whether the ray doesn't graze the triangle, since a separate item tests that.
 fn is_steep(plane: &Plane) -> bool {
     plane.slope.abs() > 0.1
 }
 
-/// Returns whether the ray does not pass close to an edge, which is the idea of an item.
+/// Returns whether the ray doesn't pass close to an edge, since a separate item tests that.
 fn is_well_inside(plane: &Plane) -> bool {
     plane.least_weight().abs() > 0.02
 }

@@ -36,7 +36,7 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
         shapes.push(shape(&turned, 0));
     };
 
-    // A square whose diagonal passes beside the middles of pixels, which are 1/8 apart.
+    // A square whose diagonal misses the centres of the pixels, which are 1/8 apart.
     let mut eighths = || rng.integer(0, 6) as f32 / 8.0;
     let middle = vec2(-2.25 + 1.0 / 64.0 + eighths(), -2.25 + eighths());
     let corner = |x: f32, y: f32| {

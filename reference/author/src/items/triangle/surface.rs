@@ -56,7 +56,7 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
     tests: &["`normal` and `uv`…"],
     questions: |rng| {
         questions(rng, &["uv"], USUAL, |plane| {
-            // Close to an edge, too, where small weights count.
+            // Also close to an edge, where small weights matter.
             if plane.is_inside() {
                 let is_near_a_corner = plane.weights.iter().any(|&weight| weight > 0.8);
                 is_near_a_corner && is_steep(plane) && plane.slope < 0.0

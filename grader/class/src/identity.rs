@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::Person;
-use crate::names::fold;
+use crate::names::{are_equal, fold};
 
 /// One person's part of a submission: the index of the row and of the person in it.
 pub type Attempt = (usize, usize);
@@ -21,6 +21,28 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
         groups.entry(id).or_default().push(attempt);
     }
     groups.into_values().collect()
+}
+
+/// Returns the index of the submission with this id, or of the only one of people with this name or
+/// identifier. `all` has the id and the people of each submission. If several could be meant, or none,
+/// the error has their indices.
+pub fn find_submission<'a>(
+    who: &str,
+    all: impl Iterator<Item = (&'a str, &'a [Person])> + Clone,
+) -> Result<usize, Vec<usize>> {
+    if let Some(index) = all.clone().position(|(id, _)| are_equal(id, who)) {
+        return Ok(index);
+    }
+    let is_theirs = |people: &[Person]| {
+        let mut names = people.iter().flat_map(Person::identifiers);
+        names.any(|name| are_equal(name, who))
+    };
+    let theirs = all.enumerate().filter(|(_, (_, people))| is_theirs(people));
+    let theirs: Vec<usize> = theirs.map(|(index, _)| index).collect();
+    match theirs.as_slice() {
+        [only] => Ok(*only),
+        _ => Err(theirs),
+    }
 }
 
 /// Returns a number for each person in the list. All records of the same person get the same

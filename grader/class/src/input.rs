@@ -138,7 +138,7 @@ fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec
             Some(entry) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 let why = format!("{} cannot be unpacked: {}", sanitize(&name, 200), file.why);
-                entry.source = Source::Missing(why);
+                entry.leave_to_staff(why);
             }
             None => class.unmatched.push(file),
         }

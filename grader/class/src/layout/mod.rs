@@ -213,15 +213,19 @@ fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
         let id: String = entry.id.nfc().collect();
-        let wanted = safe_folder_name(&id);
-        let mut id = wanted.clone();
-        let mut number = 2;
-        while !used.insert(id.to_lowercase()) {
-            id = format!("{wanted}-{number}");
-            number += 1;
-        }
-        entry.id = id;
+        entry.id = unique_name(&safe_folder_name(&id), &mut used);
     }
+}
+
+/// Returns the name, with a number if it is used, and adds it to the used ones in lower case.
+pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
+    let mut name = wanted.to_owned();
+    let mut number = 2;
+    while !used.insert(name.to_lowercase()) {
+        name = format!("{wanted}-{number}");
+        number += 1;
+    }
+    name
 }
 
 /// The entries of a layout, and the paths that belong to none.

@@ -5,13 +5,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use grader::handed_out::HandedOut;
-use grader::nearest_name::suggestion;
 use judging::sanitize::sanitize_line;
 
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::identity::find_submission;
-use crate::layout::{Layout, LayoutChoice, RecognisedClass, read_as};
+use crate::layout::{Layout, LayoutChoice, RecognisedClass, recognise};
 use crate::listing::list_folder;
 use crate::paths::contains;
 use crate::store::Store;
@@ -40,25 +39,14 @@ pub fn replace_files(
         layout: Some(Layout::Plain),
         title: None,
     };
-    let corrected = read_as(&choice, &listed, None, handed_out, &[])?;
+    let corrected = recognise(&choice, &listed, None, handed_out, &[])?;
     let mut used: BTreeMap<usize, String> = BTreeMap::new();
     for Entry { info, source, .. } in corrected.entries {
         let path = sanitize_line(&info.from, MAX_CHARS);
-        let name = info.display_names();
         let all = class.entries.iter();
         let all = all.map(|entry| (entry.id.as_str(), entry.info.people.as_slice()));
-        let ids = || class.entries.iter().map(|entry| entry.id.as_str());
-        let index = find_submission(&name, all).map_err(|several| match several.as_slice() {
-            [one, other, ..] => Error::user(format!(
-                "{shown}: {path} could correct {} or {}: name it after one of them",
-                class.entries[*one].id, class.entries[*other].id
-            )),
-            _ => Error::user(format!(
-                "{shown}: {path} is named after no submission and none of its people{}; --dry-run \
-                 without --corrected lists them",
-                suggestion(&name, ids())
-            )),
-        })?;
+        let index = find_submission(&info.display_names(), &all.collect::<Vec<_>>())
+            .map_err(|why| Error::user(format!("{shown}: {path}: {why}")))?;
         let entry = &mut class.entries[index];
         if let Some(other) = used.insert(index, path.clone()) {
             return Err(Error::user(format!(

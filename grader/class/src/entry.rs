@@ -40,6 +40,9 @@ pub struct EntryInfo {
     /// Whether there is nothing to grade because of names or the export, which only staff can correct.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub needs_staff: bool,
+    /// The number of the attempt among those of the same people, if the platform counts them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attempt: Option<u32>,
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,

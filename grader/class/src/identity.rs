@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use grader::nearest_name::suggestion;
+
 use crate::entry::Person;
 use crate::names::{are_equal, fold};
 
@@ -24,25 +26,27 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
 }
 
 /// Returns the index of the submission with this id, or of the only one of people with this name or
-/// identifier. `all` has the id and the people of each submission. If several could be meant, or none,
-/// the error has their indices.
-pub fn find_submission<'a>(
-    who: &str,
-    all: impl Iterator<Item = (&'a str, &'a [Person])> + Clone,
-) -> Result<usize, Vec<usize>> {
-    if let Some(index) = all.clone().position(|(id, _)| are_equal(id, who)) {
+/// identifier. `all` has the id and the people of each submission.
+pub fn find_submission(who: &str, all: &[(&str, &[Person])]) -> Result<usize, String> {
+    if let Some(index) = all.iter().position(|(id, _)| are_equal(id, who)) {
         return Ok(index);
     }
-    let is_theirs = |people: &[Person]| {
-        let mut names = people.iter().flat_map(Person::identifiers);
+    let is_theirs = |index: &usize| {
+        let mut names = all[*index].1.iter().flat_map(Person::identifiers);
         names.any(|name| are_equal(name, who))
     };
-    let theirs = all.enumerate().filter(|(_, (_, people))| is_theirs(people));
-    let theirs: Vec<usize> = theirs.map(|(index, _)| index).collect();
-    match theirs.as_slice() {
-        [only] => Ok(*only),
-        _ => Err(theirs),
-    }
+    let theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
+    Err(match theirs.as_slice() {
+        [only] => return Ok(*only),
+        [one, other, ..] => format!(
+            "{who:?} could be {} or {}: write the name of the submission's folder",
+            all[*one].0, all[*other].0
+        ),
+        [] => format!(
+            "no submission is named {who:?}, and nobody in one has this name or identifier{}",
+            suggestion(who, all.iter().map(|(id, _)| *id))
+        ),
+    })
 }
 
 /// Returns a number for each person in the list. All records of the same person get the same

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use grader::nearest_name::suggestion;
 use grader::options::GradeOptions;
 use grader::question_ref::QuestionRef;
 use grader::replay::replay;
@@ -65,18 +64,6 @@ fn find_result(store: &Store, who: &str) -> Result<EntryResult, Error> {
     let mut results = store.results()?;
     let all = results.iter();
     let all = all.map(|result| (result.id.as_str(), result.info.people.as_slice()));
-    match find_submission(who, all) {
-        Ok(index) => Ok(results.swap_remove(index)),
-        Err(several) => Err(Error::user(match several.as_slice() {
-            [one, other, ..] => format!(
-                "{who:?} could be {} or {}: write the name of the submission's folder",
-                results[*one].id, results[*other].id
-            ),
-            _ => format!(
-                "nobody with the name or identifier {who:?} was graded{}; the folder students has the \
-                 submissions",
-                suggestion(who, results.iter().map(|result| result.id.as_str()))
-            ),
-        })),
-    }
+    let index = find_submission(who, &all.collect::<Vec<_>>()).map_err(Error::user)?;
+    Ok(results.swap_remove(index))
 }

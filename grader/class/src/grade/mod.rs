@@ -76,7 +76,7 @@ pub fn grade_class_with(
             similarity::check_folder(folder, &others, option)?;
         }
     }
-    let input = Input::open_as(
+    let input = Input::open(
         &arguments.choice,
         path,
         &workspace.cache_folder().join("classes"),

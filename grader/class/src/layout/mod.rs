@@ -75,20 +75,10 @@ pub fn is_record(name: &str) -> bool {
     lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
 }
 
-/// Recognises the layout of a folder and returns its entries. `metadata` is the text of
+/// Recognises the layout of a folder, unless it is chosen, and returns its entries. `metadata` is the text of
 /// Gradescope's metadata file, if there is one, and `known` are the people on lists. Only names in the
 /// folder itself count, which the platform or the teacher has chosen, and nothing in an entry.
 pub fn recognise(
-    root: &Node,
-    metadata: Option<&str>,
-    handed_out: &HandedOut,
-    known: &[Member],
-) -> Result<RecognisedClass, Error> {
-    read_as(&LayoutChoice::default(), root, metadata, handed_out, known)
-}
-
-/// Like [`recognise`], unless the layout is chosen.
-pub fn read_as(
     choice: &LayoutChoice,
     root: &Node,
     metadata: Option<&str>,

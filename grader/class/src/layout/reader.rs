@@ -301,6 +301,7 @@ impl Reader<'_> {
         entry.info.needs_staff = !files.is_empty() && matches!(entry.source, Source::Missing(_));
         entry.info.late = late;
         entry.info.marks_late = platform.files.iter().any(|name| name.contains("{late}"));
+        entry.info.attempt = parts.get("attempt").parse().ok();
         entry.info.submitted = written_time(parts.get("time"));
         entry.info.hand_back_as = match platform.hand_back {
             HandBackName::None => None,

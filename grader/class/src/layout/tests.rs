@@ -24,7 +24,9 @@ fn folder(name: &str, inside: Vec<Node>) -> Node {
 }
 
 fn layout(root: &Node) -> Layout {
-    recognise(root, None, &RAYS, &[]).unwrap().layout
+    recognise(&LayoutChoice::default(), root, None, &RAYS, &[])
+        .unwrap()
+        .layout
 }
 
 /// A student can write everything in a folder, and sometimes its name. The archive's name is the
@@ -61,7 +63,10 @@ fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
 
 /// Returns the folder's entries that are not graded because they seem to be of several people.
 fn mixtures(root: &Node) -> usize {
-    recognise(root, None, &RAYS, &[]).unwrap().mixtures.len()
+    recognise(&LayoutChoice::default(), root, None, &RAYS, &[])
+        .unwrap()
+        .mixtures
+        .len()
 }
 
 #[test]
@@ -125,7 +130,14 @@ fn the_majority_of_names_decides_the_layout() {
 #[test]
 fn ids_that_differ_only_in_case_get_numbers() {
     let names = ["Ann", "ann", "a/n", "Jose\u{301}", "José"].map(|name| folder(name, vec![]));
-    let found = recognise(&folder("x", names.to_vec()), None, &RAYS, &[]).unwrap();
+    let found = recognise(
+        &LayoutChoice::default(),
+        &folder("x", names.to_vec()),
+        None,
+        &RAYS,
+        &[],
+    )
+    .unwrap();
     let ids: Vec<&str> = found
         .entries
         .iter()

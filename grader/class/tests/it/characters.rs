@@ -55,6 +55,7 @@ fn info(text: &str) -> EntryInfo {
         marks_late: true,
         is_corrected: true,
         needs_staff: false,
+        attempt: Some(2),
         listed: Some(ListedTime {
             submitted: text.to_owned(),
             late: true,

@@ -87,13 +87,10 @@ fn choose(
         AttemptRule::Ask => None,
         AttemptRule::Latest => {
             let info = |row: &usize| &rows[*row].result.info;
-            let number = |row: &usize| {
-                // Numbers of different groups say nothing about the order.
-                let is_same = info(row).people == info(&candidates[0]).people;
-                info(row).attempt.filter(|_| is_same)
-            };
-            let numbers: Option<Vec<u32>> = candidates.iter().map(number).collect();
-            if let Some(numbers) = numbers {
+            // Numbers of different groups say nothing about the order.
+            let people = &info(candidates.first()?).people;
+            let number = |row: &usize| info(row).attempt.filter(|_| info(row).people == *people);
+            if let Some(numbers) = candidates.iter().map(number).collect::<Option<Vec<u32>>>() {
                 return only_last(&candidates, &numbers);
             }
             let time = |row: &usize| submission_time(policy, info(row)).ok()?;

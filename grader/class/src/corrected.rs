@@ -55,7 +55,7 @@ pub fn replace_files(
             )));
         }
         entry.source = source;
-        entry.info.from = format!("{}; corrected: {}", entry.info.from, info.from);
+        entry.info.from = format!("{} (corrected: {})", entry.info.from, info.from);
         entry.info.is_corrected = true;
         entry.info.needs_staff = false;
     }
@@ -70,10 +70,8 @@ pub fn replace_files(
 /// Rejects a run without corrected hand-ins if the last run had some: their submissions would be
 /// graded from the first files again.
 pub fn check_none_lost(store: &Store) -> Result<(), Error> {
-    let is_corrected = |id: &String| {
-        let result = store.result(id).ok().flatten();
-        result.is_some_and(|result| result.info.is_corrected)
-    };
+    let is_corrected =
+        |id: &String| matches!(store.result(id), Ok(Some(result)) if result.info.is_corrected);
     match store.ids()?.into_iter().find(is_corrected) {
         Some(id) => Err(Error::user(format!(
             "{} has points for corrected hand-ins, such as {id}: pass their folder with --corrected \

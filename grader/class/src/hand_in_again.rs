@@ -33,10 +33,8 @@ pub fn write_texts(
         }
     }
     let mut used = BTreeSet::new();
-    let people = class
-        .rows
-        .iter()
-        .map(|row| row.result.info.people.as_slice());
+    let people = class.rows.iter();
+    let people = people.map(|row| row.result.info.people.as_slice());
     for attempts in attempts_by_person(people) {
         let reason = |(row, index): &(usize, usize)| {
             let row = &class.rows[*row];
@@ -44,10 +42,7 @@ pub fn write_texts(
             match &row.result.outcome {
                 // Staff have decided, or the student did nothing wrong.
                 _ if row.grades[*index].counted.is_some() || info.needs_staff => None,
-                EntryOutcome::NothingToGrade(why) if attempts.len() > 1 => {
-                    Some(format!("{}: {why}", info.from))
-                }
-                EntryOutcome::NothingToGrade(why) => Some(why.clone()),
+                EntryOutcome::NothingToGrade(why) => Some(format!("{}: {why}", info.from)),
                 EntryOutcome::Graded(_) | EntryOutcome::Fault(_) => None,
             }
         };
@@ -69,8 +64,7 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
         "" => String::new(),
         email => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
     };
-    let reasons = reasons.iter();
-    let reasons = reasons.map(|why| format!("- {}\n", sanitize_line(why, MAX_CHARS)));
+    let reason = |why: &String| format!("- {}\n", sanitize_line(why, MAX_CHARS));
     format!(
         "To: {name}{address}\n\
          Subject: Please hand in again\n\
@@ -89,7 +83,7 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
          \n\
          Then send us handin.zip as an answer to this message. The time of your first submission\n\
          counts, so please hand in your code as it was then.\n",
-        reasons.collect::<String>(),
+        reasons.iter().map(reason).collect::<String>(),
         handed_out.file_list(),
     )
 }

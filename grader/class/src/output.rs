@@ -107,14 +107,10 @@ impl ClassContext<'_> {
         for name in ["grades.csv", "class.html"] {
             print_path(store, name);
         }
-        let texts = write_texts(class, store, self.handed_out)?;
-        if texts > 0 {
+        if let texts @ 1.. = write_texts(class, store, self.handed_out)? {
+            print_path(store, FOLDER);
             let texts = counted(texts, "text");
-            let folder = store.folder().join(FOLDER);
-            print_line(format_args!(
-                "  {}: {texts} to people who have to hand in again",
-                folder.display()
-            ));
+            print_line(format!("    {texts} to people who have to hand in again"));
         }
         print_line("");
         Ok(match class.fault_count() {

@@ -72,9 +72,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
     let report = class_row.result.score();
     let report = report.map(|_| format!("students/{id}/report.html"));
     let manual = grade.counted.as_ref().map_or(0, |counted| counted.manual);
-    let comments = grade.manual.iter().map(ToString::to_string);
-    let correction = class_row.correction().map(str::to_owned);
-    let comments: Vec<String> = comments.chain(correction).collect();
+    let comments: Vec<String> = grade.manual.iter().map(ToString::to_string).collect();
     row.extend([
         match manual {
             0 => String::new(),

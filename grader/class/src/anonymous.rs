@@ -54,6 +54,7 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
     row.result.info = EntryInfo {
         people: (1..=row.grades.len()).map(person).collect(),
         late: row.result.info.is_late(),
+        is_corrected: row.result.info.is_corrected,
         from: pseudonym.to_owned(),
         ..EntryInfo::default()
     };

@@ -87,18 +87,21 @@ fn choose(
     match policy.attempts.counts {
         AttemptRule::Ask => None,
         AttemptRule::Latest => {
-            let time = |row: &usize| submission_time(policy, &rows[*row].result.info).ok()?;
+            let info = |row: &usize| &rows[*row].result.info;
+            // Numbers of different groups say nothing about the order.
+            let people = &info(candidates.first()?).people;
+            let number = |row: &usize| info(row).attempt.filter(|_| info(row).people == *people);
+            if let Some(numbers) = candidates.iter().map(number).collect::<Option<Vec<u32>>>() {
+                return only_last(&candidates, &numbers);
+            }
+            let time = |row: &usize| submission_time(policy, info(row)).ok()?;
             let times: Option<Vec<_>> = candidates.iter().map(time).collect();
             let times = times?;
             let (earliest, latest) = (times.iter().min()?, times.iter().max()?);
             if are_far_apart(*earliest, *latest) {
                 return None;
             }
-            let dated = candidates.iter().zip(&times);
-            let mut last = dated.filter(|(_, time)| *time == latest);
-            let (chosen, _) = last.next()?;
-            // If two were submitted at the same time, neither is the latest.
-            last.next().is_none().then_some(*chosen)
+            only_last(&candidates, &times)
         }
         AttemptRule::Best => {
             let points = |row: &usize| {
@@ -116,6 +119,15 @@ fn choose(
             Some(candidates[best])
         }
     }
+}
+
+/// Returns the candidate with the greatest time or number. Of two with the same, neither is the last.
+fn only_last<T: Ord>(candidates: &[usize], keys: &[T]) -> Option<usize> {
+    let latest = keys.iter().max()?;
+    let all = candidates.iter().zip(keys);
+    let mut last = all.filter(|(_, key)| *key == latest);
+    let (chosen, _) = last.next()?;
+    last.next().is_none().then_some(*chosen)
 }
 
 #[cfg(test)]

@@ -76,6 +76,11 @@ pub struct ClassArguments {
     #[arg(long, value_name = "K/N", conflicts_with = "regrade")]
     pub shard: Option<Shard>,
 
+    /// Folder with corrected hand-ins: a folder or archive for each, named after the submission or one
+    /// of its people. Their files replace the first ones, whose time counts. Repeat it in each run
+    #[arg(long, value_name = "FOLDER", conflicts_with = "replay")]
+    pub corrected: Option<PathBuf>,
+
     /// Run one question of a graded submission again, such as `ann sphere.from_inside#7`, and show the
     /// whole answer; ID is the submission's folder or anything that identifies one person
     #[arg(long, value_names = ["ID", "ITEM[#N]"], num_args = 2, requires = "out")]

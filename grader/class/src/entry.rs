@@ -35,6 +35,15 @@ pub struct EntryInfo {
     /// time.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub marks_late: bool,
+    /// Whether corrected files, which were handed in again, have replaced the first ones.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub is_corrected: bool,
+    /// Whether there is nothing to grade because of names or the export, which only staff can correct.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub needs_staff: bool,
+    /// The number of the attempt among those of the same people, if the platform counts them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attempt: Option<u32>,
     /// The submission time in the platform's export, in its format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
@@ -112,6 +121,12 @@ pub struct Person {
 }
 
 impl Entry {
+    /// Marks the entry as one without files, which only staff can correct.
+    pub fn leave_to_staff(&mut self, why: String) {
+        self.source = Source::Missing(why);
+        self.info.needs_staff = true;
+    }
+
     /// Returns the entry of one person, which was read from the file or folder `from`.
     pub fn new(id: impl Into<String>, person: Person, from: &str, source: Source) -> Self {
         let info = EntryInfo {

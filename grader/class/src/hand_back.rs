@@ -96,7 +96,8 @@ fn cannot_write(error: io::Error) -> Error {
 fn own_texts(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Vec<String> {
     let name = person.display_name();
     let name = (name != row.result.id).then(|| name.to_owned());
-    name.into_iter().chain(grade.explanation()).collect()
+    let texts = name.into_iter().chain(grade.explanation());
+    texts.chain(row.correction().map(str::to_owned)).collect()
 }
 
 /// Adds a page under the name the platform expects. `who` lists the people's names, for use in a

@@ -2,8 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use grader::nearest_name::suggestion;
+
 use crate::entry::Person;
-use crate::names::fold;
+use crate::names::{are_equal, fold};
 
 /// One person's part of a submission: the index of the row and of the person in it.
 pub type Attempt = (usize, usize);
@@ -21,6 +23,30 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
         groups.entry(id).or_default().push(attempt);
     }
     groups.into_values().collect()
+}
+
+/// Returns the index of the submission with this id, or of the only one of people with this name or
+/// identifier. `all` has the id and the people of each submission.
+pub fn find_submission(who: &str, all: &[(&str, &[Person])]) -> Result<usize, String> {
+    if let Some(index) = all.iter().position(|(id, _)| are_equal(id, who)) {
+        return Ok(index);
+    }
+    let is_theirs = |index: &usize| {
+        let mut names = all[*index].1.iter().flat_map(Person::identifiers);
+        names.any(|name| are_equal(name, who))
+    };
+    let theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
+    Err(match theirs.as_slice() {
+        [only] => return Ok(*only),
+        [one, other, ..] => format!(
+            "{who:?} could be {} or {}: write the name of the submission's folder",
+            all[*one].0, all[*other].0
+        ),
+        [] => format!(
+            "no submission is named {who:?}, and nobody in one has this name or identifier{}",
+            suggestion(who, all.iter().map(|(id, _)| *id))
+        ),
+    })
 }
 
 /// Returns a number for each person in the list. All records of the same person get the same

@@ -35,16 +35,6 @@ impl Input {
     /// Opens the folder or archive at `path`. An archive is unpacked into a temporary folder in
     /// `parent`. Ambiguous names are compared with `known`, the people on lists.
     pub fn open(
-        path: &Path,
-        parent: &Path,
-        handed_out: &'static HandedOut,
-        known: &[Member],
-    ) -> Result<Self, Error> {
-        Input::open_as(&LayoutChoice::default(), path, parent, handed_out, known)
-    }
-
-    /// Like [`Input::open`], unless the layout is chosen.
-    pub fn open_as(
         choice: &LayoutChoice,
         path: &Path,
         parent: &Path,
@@ -80,7 +70,7 @@ impl Input {
         let metadata = root.find(METADATA).map(|node| files::read(&node.path));
         let metadata = metadata.transpose().map_err(Error::user)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-        let mut class = layout::read_as(choice, &root, metadata.as_deref(), handed_out, known)?;
+        let mut class = layout::recognise(choice, &root, metadata.as_deref(), handed_out, known)?;
         class.notes.extend(note);
         let unpacked = unpacked.map(|unpacked| {
             class.unmatched.extend(unpacked.problems);
@@ -138,7 +128,7 @@ fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec
             Some(entry) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 let why = format!("{} cannot be unpacked: {}", sanitize(&name, 200), file.why);
-                entry.source = Source::Missing(why);
+                entry.leave_to_staff(why);
             }
             None => class.unmatched.push(file),
         }

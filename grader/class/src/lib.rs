@@ -13,8 +13,8 @@
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
 //! | grading of entries, changes of scores, and questions about them | [`entry_grader`], [`regrade_diff`], [`replay`] |
-//! | what is made of grades; the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`summary`], [`input`] |
-//! | grades, lists and the grader | [`attempts`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
+//! | what is made of grades; the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`hand_in_again`], [`summary`], [`input`] |
+//! | grades, lists and the grader | [`attempts`], [`corrected`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
@@ -25,6 +25,7 @@ pub mod anonymous;
 pub mod archive;
 pub mod attempts;
 pub mod cli;
+pub mod corrected;
 pub mod distribution;
 pub mod entry;
 pub mod entry_grader;
@@ -36,6 +37,7 @@ pub mod gradebook;
 pub mod graded_class;
 pub mod groups;
 pub mod hand_back;
+pub mod hand_in_again;
 pub mod identity;
 pub mod input;
 pub mod late;

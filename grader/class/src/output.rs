@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use grader::handed_out::HandedOut;
 use grader::policy::Policy;
-use grader::printing::{print, print_line};
+use grader::printing::{counted, print, print_line};
 
 use crate::anonymous::Pseudonyms;
 use crate::attempts::count_points;
@@ -13,6 +14,7 @@ use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
+use crate::hand_in_again::{FOLDER, write_texts};
 use crate::list_kind::{KeptLists, ListKind};
 use crate::lists::ListFindings;
 use crate::outcome::{EntryResult, exam_tasks};
@@ -41,6 +43,8 @@ pub struct ClassContext<'a> {
     pub lists: &'a Lists,
     /// The course's policy.
     pub policy: &'a Policy,
+    /// The assignment.
+    pub handed_out: &'a HandedOut,
     /// The facts found in the lists.
     pub findings: ListFindings,
 }
@@ -102,6 +106,11 @@ impl ClassContext<'_> {
         print_line("");
         for name in ["grades.csv", "class.html"] {
             print_path(store, name);
+        }
+        if let texts @ 1.. = write_texts(class, store, self.handed_out)? {
+            print_path(store, FOLDER);
+            let texts = counted(texts, "text");
+            print_line(format!("    {texts} to people who have to hand in again"));
         }
         print_line("");
         Ok(match class.fault_count() {

@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use grader::nearest_name::suggestion;
 use grader::options::GradeOptions;
 use grader::question_ref::QuestionRef;
 use grader::replay::replay;
 use judging::sanitize::sanitize;
 
-use crate::entry::Person;
 use crate::error::Error;
-use crate::names::are_equal;
+use crate::identity::find_submission;
 use crate::outcome::{EntryResult, id_and_names};
 use crate::store::Store;
 
@@ -63,25 +61,9 @@ pub fn replay_question(
 /// Returns the result of the submission with this id, or of the only person with this name or
 /// identifier.
 fn find_result(store: &Store, who: &str) -> Result<EntryResult, Error> {
-    let results = store.results()?;
-    if let Some(result) = results.iter().find(|result| result.id == who) {
-        return Ok(result.clone());
-    }
-    let is_theirs = |result: &&EntryResult| {
-        let mut names = result.info.people.iter().flat_map(Person::identifiers);
-        names.any(|name| are_equal(name, who))
-    };
-    let theirs: Vec<&EntryResult> = results.iter().filter(is_theirs).collect();
-    Err(Error::user(match theirs.as_slice() {
-        [result] => return Ok((*result).clone()),
-        [one, other, ..] => format!(
-            "{who:?} could be {} or {}: write the name of the submission's folder",
-            one.id, other.id
-        ),
-        [] => format!(
-            "nobody with the name or identifier {who:?} was graded{}; the folder students has the \
-             submissions",
-            suggestion(who, results.iter().map(|result| result.id.as_str()))
-        ),
-    }))
+    let mut results = store.results()?;
+    let all = results.iter();
+    let all = all.map(|result| (result.id.as_str(), result.info.people.as_slice()));
+    let index = find_submission(who, &all.collect::<Vec<_>>()).map_err(Error::user)?;
+    Ok(results.swap_remove(index))
 }

@@ -252,8 +252,11 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
     let problem = |row: &ClassRow| {
         let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
         let advice = match (&row.result.outcome, &grade.problem) {
+            (EntryOutcome::NothingToGrade(_), None) if row.result.info.needs_staff => {
+                "; or give points by hand"
+            }
             (EntryOutcome::NothingToGrade(_), None) => {
-                "; ask for the files, or give points by hand"
+                "; ask for the files, with the text in hand-in-again, or give points by hand"
             }
             (EntryOutcome::Fault(_), _) => "; run this again",
             (_, _) => "",

@@ -12,6 +12,7 @@ use judging::content_hash::file_hash;
 
 use crate::anonymous::Pseudonyms;
 use crate::cli::{ClassArguments, Lists};
+use crate::corrected;
 use crate::entry::{Entry, EntryInfo};
 use crate::entry_grader::EntryGrader;
 use crate::error::Error;
@@ -75,7 +76,7 @@ pub fn grade_class_with(
             similarity::check_folder(folder, &others, option)?;
         }
     }
-    let input = Input::open_as(
+    let input = Input::open(
         &arguments.choice,
         path,
         &workspace.cache_folder().join("classes"),
@@ -94,6 +95,13 @@ pub fn grade_class_with(
     let lists = resolve_lists(&input, given);
     let findings = lists::complete_entries(&lists, options.handed_out, &mut infos)?;
     recognised.notes.extend_from_slice(&findings.warnings);
+    match (&arguments.corrected, out) {
+        (Some(folder), _) => {
+            corrected::replace_files(&mut recognised, folder, path, options.handed_out)?;
+        }
+        (None, Some(out)) => corrected::check_none_lost(&Store::new(out))?,
+        (None, None) => {}
+    }
     if let Some(folder) = &arguments.similarity_input {
         let written = similarity::write_input(folder, &recognised.entries, options.handed_out);
         print(written?);
@@ -156,6 +164,7 @@ pub fn grade_class_with(
         run: &run,
         lists: given,
         policy: grader.policy(),
+        handed_out: options.handed_out,
         findings,
     };
     class.finish(results, removed)

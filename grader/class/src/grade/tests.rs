@@ -6,6 +6,7 @@ use std::fs;
 use grader::handed_out::RAYS;
 
 use super::*;
+use crate::layout::LayoutChoice;
 use crate::store::tests::{run, store};
 
 #[test]
@@ -75,7 +76,14 @@ fn the_roster_beside_clones_is_used_unless_another_is_given() {
     let scores = folder.path().join(CLASSROOM50_SCORES);
     fs::write(&scores, "username\nann\n").unwrap();
     let parent = tempfile::tempdir().unwrap();
-    let input = Input::open(folder.path(), parent.path(), &RAYS, &[]).unwrap();
+    let input = Input::open(
+        &LayoutChoice::default(),
+        folder.path(),
+        parent.path(),
+        &RAYS,
+        &[],
+    )
+    .unwrap();
     let given = |roster: Option<&str>| Lists {
         roster: roster.map(Into::into),
         hand_back: true,

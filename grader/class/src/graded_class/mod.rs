@@ -135,7 +135,16 @@ impl ClassRow {
     /// Returns sentences that explain how the score contributes to each person's grade. A sentence
     /// that applies to everyone doesn't contain names.
     pub fn counted_texts(&self) -> Vec<String> {
-        self.merge(PersonGrade::explanation)
+        let mut texts = self.merge(PersonGrade::explanation);
+        texts.extend(self.correction().map(str::to_owned));
+        texts
+    }
+
+    /// Returns a sentence about the files of a submission that was handed in again.
+    pub fn correction(&self) -> Option<&'static str> {
+        let sentence = "The files are those that were handed in again; the time is that of the first \
+            submission.";
+        self.result.info.is_corrected.then_some(sentence)
     }
 
     /// Returns notes for staff: why there are no final points or else how they were computed, the
@@ -158,6 +167,7 @@ impl ClassRow {
             let manual = grade.manual.iter().map(ToString::to_string);
             problem.into_iter().chain(counted).chain(manual).collect()
         });
+        notes.extend(self.correction().map(str::to_owned));
         notes.extend_from_slice(self.result.ignored_copies());
         notes
     }

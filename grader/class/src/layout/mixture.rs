@@ -44,7 +44,7 @@ pub(super) fn reject_mixtures(
             })
         });
         if let Some(why) = why {
-            entry.source = Source::Missing(why.clone());
+            entry.leave_to_staff(why.clone());
             mixtures.push(why);
         }
     }

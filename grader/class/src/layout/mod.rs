@@ -75,20 +75,10 @@ pub fn is_record(name: &str) -> bool {
     lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
 }
 
-/// Recognises the layout of a folder and returns its entries. `metadata` is the text of Gradescope's
-/// metadata file, if any, and `known` are the people on lists. The contents of entries are ignored:
-/// only names in the folder itself are used, which the platform or the teacher has chosen.
+/// Recognises the layout of a folder, unless it is chosen, and returns its entries. `metadata` is the text of
+/// Gradescope's metadata file, if there is one, and `known` are the people on lists. Only names in the
+/// folder itself count, which the platform or the teacher has chosen, and nothing in an entry.
 pub fn recognise(
-    root: &Node,
-    metadata: Option<&str>,
-    handed_out: &HandedOut,
-    known: &[Member],
-) -> Result<RecognisedClass, Error> {
-    read_as(&LayoutChoice::default(), root, metadata, handed_out, known)
-}
-
-/// Like [`recognise`], unless a layout was chosen.
-pub fn read_as(
     choice: &LayoutChoice,
     root: &Node,
     metadata: Option<&str>,
@@ -214,15 +204,19 @@ fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
         let id: String = entry.id.nfc().collect();
-        let wanted = safe_folder_name(&id);
-        let mut id = wanted.clone();
-        let mut number = 2;
-        while !used.insert(id.to_lowercase()) {
-            id = format!("{wanted}-{number}");
-            number += 1;
-        }
-        entry.id = id;
+        entry.id = unique_name(&safe_folder_name(&id), &mut used);
     }
+}
+
+/// Returns the name, with a number if it is used, and adds it to the used ones in lower case.
+pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
+    let mut name = wanted.to_owned();
+    let mut number = 2;
+    while !used.insert(name.to_lowercase()) {
+        name = format!("{wanted}-{number}");
+        number += 1;
+    }
+    name
 }
 
 /// The entries of a layout, and the paths that don't belong to any.

@@ -150,13 +150,14 @@ impl Reader<'_> {
                 platform.has_attachments() && !files.is_empty() && names_of[number(&parts)] > 1;
             let mut entry = self.entry(&parts, files, texts, &mut unmatched);
             if is_shared {
-                entry.source = Source::Missing(SHARED_NUMBER.to_owned());
+                entry.leave_to_staff(SHARED_NUMBER.to_owned());
             }
             entries.push(record.describe(entry));
         }
         for (name, record) in records {
             let source = Source::Missing("its folder is not in the export".to_owned());
-            let entry = Entry::new(&name, Person::named_by_file(&name), &name, source);
+            let mut entry = Entry::new(&name, Person::named_by_file(&name), &name, source);
+            entry.info.needs_staff = true;
             entries.push(record.describe(entry));
         }
         Ok((entries, unmatched))
@@ -296,8 +297,11 @@ impl Reader<'_> {
         }
         let id = parts.fill_first(platform.ids);
         let mut entry = Entry::new(id, person(platform, parts), &from, source);
+        // Files that were handed in lead to no reason here but their names.
+        entry.info.needs_staff = !files.is_empty() && matches!(entry.source, Source::Missing(_));
         entry.info.late = late;
         entry.info.marks_late = platform.files.iter().any(|name| name.contains("{late}"));
+        entry.info.attempt = parts.get("attempt").parse().ok();
         entry.info.submitted = written_time(parts.get("time"));
         entry.info.hand_back_as = match platform.hand_back {
             HandBackName::None => None,
@@ -495,6 +499,7 @@ fn ambiguous(ways: &[Parts], node: &Node) -> Entry {
     );
     let person = Person::named_by_file(&node.name);
     let mut entry = Entry::new(&node.name, person, &node.name, Source::Missing(why));
+    entry.info.needs_staff = true;
     entry.info.late = ways.iter().any(|parts| parts.has("late"));
     entry
 }

@@ -23,8 +23,12 @@ fn folder(name: &str, inside: Vec<Node>) -> Node {
     }
 }
 
+fn recognised(root: &Node) -> RecognisedClass {
+    recognise(&LayoutChoice::default(), root, None, &RAYS, &[]).unwrap()
+}
+
 fn layout(root: &Node) -> Layout {
-    recognise(root, None, &RAYS, &[]).unwrap().layout
+    recognised(root).layout
 }
 
 /// A student can choose everything in a folder and sometimes its name. The archive's name is chosen
@@ -62,7 +66,7 @@ fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
 /// Returns the number of the folder's entries that aren't graded because they seem to belong to
 /// several people.
 fn mixtures(root: &Node) -> usize {
-    recognise(root, None, &RAYS, &[]).unwrap().mixtures.len()
+    recognised(root).mixtures.len()
 }
 
 #[test]
@@ -126,7 +130,7 @@ fn the_majority_of_names_decides_the_layout() {
 #[test]
 fn ids_that_differ_only_in_case_get_numbers() {
     let names = ["Ann", "ann", "a/n", "Jose\u{301}", "José"].map(|name| folder(name, vec![]));
-    let found = recognise(&folder("x", names.to_vec()), None, &RAYS, &[]).unwrap();
+    let found = recognised(&folder("x", names.to_vec()));
     let ids: Vec<&str> = found
         .entries
         .iter()

@@ -120,6 +120,7 @@ pub fn merge_shards(
         run,
         lists,
         policy: &policy,
+        handed_out,
         findings,
     };
     class.finish(rows, removed)

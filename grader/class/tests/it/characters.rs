@@ -6,6 +6,7 @@ use class::final_grades::GradeChanges;
 use class::gradebook::{CellChange, FilledGradebook};
 use class::graded_class::{ClassRow, GradedClass};
 use class::hand_back::HandBack;
+use class::hand_in_again;
 use class::layout::{Layout, RecognisedClass, UnmatchedPath};
 use class::manual_points::ManualPoints;
 use class::outcome::{
@@ -52,6 +53,9 @@ fn info(text: &str) -> EntryInfo {
         late: true,
         submitted: Some(text.to_owned()),
         marks_late: true,
+        is_corrected: true,
+        needs_staff: false,
+        attempt: Some(2),
         listed: Some(ListedTime {
             submitted: text.to_owned(),
             late: true,
@@ -201,6 +205,10 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
                 pages: 0,
                 left_out: vec![text.to_owned()],
             }),
+        ),
+        (
+            "the text about handing in again",
+            hand_in_again::render(&info(text).people[0], &[text.to_owned()], &RAYS),
         ),
         ("the preview", preview_with(text)),
     ]

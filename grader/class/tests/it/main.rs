@@ -6,6 +6,7 @@ mod every_oddity;
 mod faulty_submissions;
 mod gradebooks;
 mod handing_back;
+mod handing_in_again;
 mod harness;
 mod identity;
 mod layouts;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use class::entry::Source;
-use class::layout::{Layout, LayoutChoice, read_as};
+use class::layout::{Layout, LayoutChoice, recognise};
 use class::listing::list_folder;
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
@@ -248,6 +248,23 @@ fn one_of_several_assignments_in_teams_is_chosen_by_its_title() {
     assert_contains(&error, &["has the title \"Eßay\"", "Essay, Path tracer"]);
 }
 
+/// The tenth version is the last one, although its name comes before those of others.
+#[test]
+fn the_last_version_in_teams_counts_if_the_policy_says_so() {
+    let version = |number: u32| format!("Submitted files/Ann Lee/Path tracer/Version {number}");
+    let class = TestClass::named("library")
+        .with_starter(&version(2))
+        .with_reference(&version(10))
+        .with_starter(&version(9));
+    let exam = class.small_exam(&["camera.offset"]);
+    let policy = ("policy", "[attempts]\ncounts = 'latest'\n");
+    class.graded_with(&exam, &[policy], &[]);
+    let status = |id: &str| cell(&class, id, "Ann Lee", "status");
+    let all = ["Ann_Lee_2", "Ann_Lee_9", "Ann_Lee_10"].map(status);
+    let other = "another attempt counts";
+    assert_eq!(all, [other, other, "graded"]);
+}
+
 /// Microsoft translates the names of the folders.
 #[test]
 fn a_teams_library_in_another_language_is_read_if_it_is_chosen() {
@@ -426,7 +443,7 @@ proptest! {
         let root = list_folder(&class.input()).unwrap();
         for layout in Layout::value_variants() {
             let choice = LayoutChoice { layout: Some(*layout), title: None };
-            let found = read_as(&choice, &root, None, &RAYS, &[]).unwrap();
+            let found = recognise(&choice, &root, None, &RAYS, &[]).unwrap();
             let is_known = |name: &str| {
                 let path = class.input().join(name);
                 found.unmatched.iter().any(|other| other.name.starts_with(name))

@@ -1,0 +1,83 @@
+//! Corrected hand-ins, whose files replace those of submissions that could not be graded. Such a
+//! submission keeps its people and its time.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use grader::handed_out::HandedOut;
+use judging::sanitize::sanitize_line;
+
+use crate::entry::Entry;
+use crate::error::Error;
+use crate::identity::find_submission;
+use crate::layout::{Layout, LayoutChoice, RecognisedClass, recognise};
+use crate::listing::list_folder;
+use crate::paths::contains;
+use crate::store::Store;
+
+/// The maximum length of a name in a message, in characters.
+const MAX_CHARS: usize = 200;
+
+/// Replaces the files of the submissions that `folder` has corrected hand-ins for, each named after
+/// the submission or one of its people. `input` is the path of the class.
+pub fn replace_files(
+    class: &mut RecognisedClass,
+    folder: &Path,
+    input: &Path,
+    handed_out: &HandedOut,
+) -> Result<(), Error> {
+    let shown = folder.display();
+    if contains(input, folder) {
+        return Err(Error::user(format!(
+            "{shown} is in {}: the corrected hand-ins would be taken for submissions of their own; \
+             move the folder out of it",
+            input.display()
+        )));
+    }
+    let listed = list_folder(folder).map_err(Error::user)?;
+    let choice = LayoutChoice {
+        layout: Some(Layout::Plain),
+        title: None,
+    };
+    let corrected = recognise(&choice, &listed, None, handed_out, &[])?;
+    let mut used: BTreeMap<usize, String> = BTreeMap::new();
+    for Entry { info, source, .. } in corrected.entries {
+        let path = sanitize_line(&info.from, MAX_CHARS);
+        let all = class.entries.iter();
+        let all = all.map(|entry| (entry.id.as_str(), entry.info.people.as_slice()));
+        let index = find_submission(&info.display_names(), &all.collect::<Vec<_>>())
+            .map_err(|why| Error::user(format!("{shown}: {path}: {why}")))?;
+        let entry = &mut class.entries[index];
+        if let Some(other) = used.insert(index, path.clone()) {
+            return Err(Error::user(format!(
+                "{shown}: {other} and {path} both correct {}: remove one",
+                entry.id
+            )));
+        }
+        entry.source = source;
+        entry.info.from = format!("{} (corrected: {})", entry.info.from, info.from);
+        entry.info.is_corrected = true;
+        entry.info.needs_staff = false;
+    }
+    let unmatched = corrected.unmatched.into_iter().map(|mut file| {
+        file.name = format!("{shown}/{}", file.name);
+        file
+    });
+    class.unmatched.extend(unmatched);
+    Ok(())
+}
+
+/// Rejects a run without corrected hand-ins if the last run had some: their submissions would be
+/// graded from the first files again.
+pub fn check_none_lost(store: &Store) -> Result<(), Error> {
+    let is_corrected =
+        |id: &String| matches!(store.result(id), Ok(Some(result)) if result.info.is_corrected);
+    match store.ids()?.into_iter().find(is_corrected) {
+        Some(id) => Err(Error::user(format!(
+            "{} has points for corrected hand-ins, such as {id}: pass their folder with --corrected \
+             again; if the first files are to count, pass an empty folder",
+            store.folder().display()
+        ))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,89 @@
+//! Texts to the people whose submissions cannot be graded: what was wrong, and how to hand in again.
+//! Staff send them; nothing is sent here.
+
+use std::collections::BTreeSet;
+
+use grader::files;
+use grader::handed_out::HandedOut;
+use judging::sanitize::{safe_folder_name, sanitize_line};
+
+use crate::entry::Person;
+use crate::error::Error;
+use crate::graded_class::GradedClass;
+use crate::identity::attempts_by_person;
+use crate::layout::unique_name;
+use crate::outcome::EntryOutcome;
+use crate::store::Store;
+
+/// The folder of the texts in the output folder.
+pub const FOLDER: &str = "hand-in-again";
+/// The maximum length of a name or a reason, in characters.
+const MAX_CHARS: usize = 1_000;
+
+/// Writes a text for each person none of whose submissions can be graded, and removes those of the
+/// last run. Returns the number of texts.
+pub fn write_texts(
+    class: &GradedClass,
+    store: &Store,
+    handed_out: &HandedOut,
+) -> Result<usize, Error> {
+    for path in store.list(FOLDER)? {
+        if path.extension().is_some_and(|extension| extension == "txt") {
+            files::remove_if_exists(path)?;
+        }
+    }
+    let mut used = BTreeSet::new();
+    let people = class.rows.iter();
+    let people = people.map(|row| row.result.info.people.as_slice());
+    for attempts in attempts_by_person(people) {
+        let reason = |(row, index): &(usize, usize)| {
+            let row = &class.rows[*row];
+            let info = &row.result.info;
+            match &row.result.outcome {
+                // Staff have decided, or the student did nothing wrong.
+                _ if row.grades[*index].counted.is_some() || info.needs_staff => None,
+                EntryOutcome::NothingToGrade(why) => Some(format!("{}: {why}", info.from)),
+                EntryOutcome::Graded(_) | EntryOutcome::Fault(_) => None,
+            }
+        };
+        let reasons: Option<Vec<String>> = attempts.iter().map(reason).collect();
+        if let (Some(reasons), [(row, index), ..]) = (reasons, attempts.as_slice()) {
+            let person = &class.rows[*row].result.info.people[*index];
+            let name = unique_name(&safe_folder_name(person.display_name()), &mut used);
+            let text = render(person, &reasons, handed_out);
+            store.write(format!("{FOLDER}/{name}.txt"), text)?;
+        }
+    }
+    Ok(used.len())
+}
+
+/// Renders the text to a person, with the reasons why nothing could be graded.
+pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> String {
+    let name = sanitize_line(person.display_name(), MAX_CHARS);
+    let address = match person.email.as_str() {
+        "" => String::new(),
+        email => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
+    };
+    let reason = |why: &String| format!("- {}\n", sanitize_line(why, MAX_CHARS));
+    format!(
+        "To: {name}{address}\n\
+         Subject: Please hand in again\n\
+         \n\
+         Hello {name},\n\
+         \n\
+         Your submission could not be graded. This is what is wrong with it:\n\
+         \n\
+         {}\n\
+         Please pack your files again. To do so, run this command in the folder of the assignment:\n\
+         \n    cargo handin\n\
+         \n\
+         It makes the archive handin.zip from your {}.\n\
+         It also reads the archive as the grader will, and lists each file. If one is missing, put\n\
+         it beside the others, under exactly this name, and run the command again.\n\
+         \n\
+         Then send us handin.zip as an answer to this message. The time of your first submission\n\
+         counts, so please hand in your code as it was then.\n",
+        reasons.iter().map(reason).collect::<String>(),
+        handed_out.file_list(),
+    )
+}

@@ -1,0 +1,149 @@
+//! Texts for people whose submissions cannot be graded, and the corrected hand-ins that replace them.
+
+use std::fs;
+
+use grader::handed_out::RAYS;
+
+use crate::harness::{
+    TestClass, assert_contains, cell, class_command, files_below, refusal, source, zip,
+};
+
+const ITEMS: [&str; 1] = ["camera.offset"];
+const ROSTER: &str = "name,username,email,datetime\n\
+    Ann Lee,ann,,\n\
+    Bob Kim,bob,bob@x.edu,2026-11-20 12:00:00 +0000\n\
+    Carl Ode,carl,carl@x.edu,2026-11-20 13:00:00 +0000\n\
+    Dora Day,dora,,\n\
+    Eve Fox,eve,eve@x.edu,\n";
+const SENTENCE: &str = "The files are those that were handed in again";
+
+fn solution() -> Vec<u8> {
+    let read = |file: &'static str| (file, source(&format!("reference/src/{file}")));
+    zip(RAYS.file_names().map(read))
+}
+
+/// Bob's archive is damaged, Carl handed in another file, and Dora nothing. Eve handed in one file
+/// twice, in two submissions. Whose the files in `tut` are, only staff can find out.
+fn class() -> TestClass {
+    TestClass::named("class")
+        .with_reference("ann")
+        .with("bob.zip", "PK\x03\x04 and no more")
+        .with("carl/notes.txt", "later")
+        .with_folder("dora")
+        .with("eve/a/camera.rs", "// one")
+        .with("eve/b/camera.rs", "// another")
+        .with_folder("eve@x.edu")
+        .with("tut/camera.rs", "// one")
+        .with("tut/camera (1).rs", "// another")
+        .with("tut/camera (2).rs", "// a third")
+}
+
+/// Adds a corrected hand-in beside the class.
+fn correct(class: &TestClass, path: &str, bytes: impl AsRef<[u8]>) {
+    let path = class.path_beside("corrected").join(path);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, bytes).unwrap();
+}
+
+fn texts(class: &TestClass) -> Vec<String> {
+    let files = files_below(&class.out().join("hand-in-again")).into_iter();
+    let text = |path: std::path::PathBuf| {
+        let name = path.file_name().unwrap().display().to_string();
+        format!("== {name}\n{}", fs::read_to_string(path).unwrap())
+    };
+    files.map(text).collect()
+}
+
+#[test]
+fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
+    let class = class();
+    let exam = class.small_exam(&ITEMS);
+    let lists = [("roster", ROSTER)];
+    let printed = class.graded_with(&exam, &lists, &[]);
+    assert_contains(&printed, &["4 texts to people who have to hand in again"]);
+    insta::assert_snapshot!(texts(&class).join("\n"));
+
+    correct(&class, "bob@x.edu.zip", solution());
+    correct(
+        &class,
+        "Carl Ode/student/src/camera.rs",
+        source("reference/src/camera.rs"),
+    );
+    correct(&class, "dora/still not.txt", "");
+    let folder = class.path_beside("corrected").display().to_string();
+    let corrected = ["--corrected", &folder];
+    let printed = class.graded_with(&exam, &lists, &corrected);
+    assert_contains(&printed, &["2 texts to people who have to hand in again"]);
+    let of = |id, name, columns: [&str; 3]| columns.map(|column| cell(&class, id, name, column));
+    let columns = ["status", "submitted", "from"];
+    let time = "2026-11-20 12:00:00 +0000";
+    let bob = of("bob", "Bob Kim", columns);
+    assert_eq!(bob, ["graded", time, "bob.zip (corrected: bob@x.edu.zip)"]);
+    let carl = of("carl", "Carl Ode", columns);
+    let time = "2026-11-20 13:00:00 +0000";
+    assert_eq!(carl, ["graded", time, "carl (corrected: Carl Ode)"]);
+    let dora = cell(&class, "dora", "Dora Day", "why");
+    assert_contains(&dora, &["only still not.txt"]);
+    for page in [
+        "class.html",
+        "students/bob/report.html",
+        "students/bob/feedback.html",
+    ] {
+        assert_contains(&class.read(page), &[SENTENCE]);
+    }
+    assert!(!class.read("students/ann/feedback.html").contains(SENTENCE));
+
+    let refused = class.refused(&exam, &[]);
+    let expected = "has points for corrected hand-ins, such as bob: pass their folder";
+    assert_contains(&refused, &[expected]);
+    let empty = class.path_beside("empty");
+    fs::create_dir(&empty).unwrap();
+    class.graded(&exam, &["--corrected", empty.to_str().unwrap()]);
+    assert_eq!(
+        of("bob", "Bob Kim", columns),
+        ["nothing to grade", "2026-11-20 12:00:00 +0000", "bob.zip"]
+    );
+    assert_eq!(texts(&class).len(), 4);
+}
+
+#[test]
+fn a_corrected_hand_in_without_its_submission_is_an_error() {
+    let class = class();
+    let roster = class.write_beside("roster.csv", ROSTER);
+    let run = |folder: &str| {
+        let mut command = class_command();
+        command
+            .arg(class.input())
+            .args(["--dry-run", "--roster", &roster]);
+        let folder = class.path_beside(folder);
+        let error = refusal(&command.arg("--corrected").arg(folder).output().unwrap());
+        error.replace(&class.path_beside("").display().to_string(), "")
+    };
+    let mut errors = vec![run("missing"), run("class/dora")];
+    for names in [
+        &["bobb.zip"][..],
+        &["Eve Fox.zip"],
+        &["bob.zip", "Bob Kim.zip"],
+    ] {
+        names
+            .iter()
+            .for_each(|name| correct(&class, name, solution()));
+        errors.push(run("corrected"));
+        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+    }
+    insta::assert_snapshot!(errors.join("\n"));
+}
+
+#[test]
+fn the_dry_run_shows_corrected_files_and_those_of_nobody() {
+    let class = class();
+    correct(&class, "bob.zip", solution());
+    correct(&class, "camera.rs", "// whose?");
+    let folder = class.path_beside("corrected").display().to_string();
+    let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+    let expected = [
+        "bob: all 5 files\n      bob.zip (corrected: bob.zip)",
+        "corrected/camera.rs: neither a folder nor an archive",
+    ];
+    assert_contains(&preview, &expected);
+}

@@ -177,7 +177,8 @@ impl Person {
     }
 
     /// Returns whether the person has this number and a name similar to the one that a list has for
-    /// the number. A list without names has the number instead, such as `Participant 51`.
+    /// the number. A list without names gives the number in place of the name, such as
+    /// `Participant 51`.
     pub fn has_number(&self, number: &str, name: &str) -> bool {
         let numbered = || format!("{}{}", self.name, self.number);
         let is_alike = || {
@@ -237,7 +238,7 @@ impl Person {
     }
 
     /// Returns whether both records describe the same person. Only unique identifiers are compared.
-    /// A name on its own is never enough, since two people may have the same name, and neither is a
+    /// A name on its own is never enough, since two people may share a name, and neither is a
     /// number.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = self.own_identifiers().into_iter();
@@ -247,7 +248,7 @@ impl Person {
     }
 
     /// Returns whether both records describe the same person, or can only be compared by name and
-    /// have the same one.
+    /// share it.
     pub fn is_same(&self, other: &Person) -> bool {
         let is_bare =
             |person: &Person| person.own_identifiers() == [""; 3] && person.number.is_empty();

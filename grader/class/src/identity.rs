@@ -26,7 +26,7 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
 }
 
 /// Returns the index of the submission with this id, or of the only one of people with this name or
-/// identifier. `all` has the id and the people of each submission.
+/// identifier. `all` lists the id and the people of each submission.
 pub fn find_submission(who: &str, all: &[(&str, &[Person])]) -> Result<usize, String> {
     if let Some(index) = all.iter().position(|(id, _)| are_equal(id, who)) {
         return Ok(index);

@@ -44,7 +44,7 @@ impl Node {
         children.find(|node| node.name == name && !node.is_link)
     }
 
-    /// Returns whether this file has the name of an archive, even if the format isn't supported.
+    /// Returns whether this file is named like an archive, even if the format isn't supported.
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }

@@ -17,8 +17,8 @@ pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) 
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns what happened, in one sentence. The text is empty if the item has no message or if the
-/// message is hidden.
+/// Returns what happened, in one sentence. The text is empty if the item's message is missing or
+/// hidden.
 pub fn item_message(item: &ItemScore) -> String {
     match (item.verdict == Verdict::Pending, item.message.is_empty()) {
         (true, _) => item.verdict.label().to_owned(),

@@ -66,7 +66,8 @@ pub enum ZipError {
 }
 
 impl<R: ReaderAt> Zip<R> {
-    /// Reads the directory of a zip of `length` bytes. Fails if there are more than `most` entries.
+    /// Reads the directory of a zip that is `length` bytes long. Fails if there are more than
+    /// `most` entries.
     pub fn open(bytes: R, length: u64, most: usize) -> Result<Self, ZipError> {
         let mut buffer = vec![0; RECOMMENDED_BUFFER_SIZE];
         let located = ZipLocator::new().locate_in_reader(bytes, &mut buffer, length);

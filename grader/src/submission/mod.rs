@@ -209,7 +209,7 @@ impl Submission {
     }
 }
 
-/// Returns whether a link has the name of a task file or of a folder that people hand in.
+/// Returns whether a link is named like a task file or a folder that people hand in.
 fn may_lead_to_files(link: &str, handed_out: &HandedOut) -> bool {
     let name = link.rsplit('/').next().unwrap_or(link);
     let mut folders = handed_out.assignment.folders.iter();

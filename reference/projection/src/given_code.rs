@@ -27,8 +27,8 @@ pub enum GivenCodeError {
 /// the same name: a method to write, a given method, or a given struct that the variant adds
 /// private fields to.
 ///
-/// The given code follows the variant's own, so that the compiler's errors have the line numbers of
-/// the variant's file.
+/// The given code follows the variant's own, so that the compiler's errors refer to lines of the
+/// variant's file.
 pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeError> {
     let lines: Vec<&str> = lines_without_solutions(reference)?
         .into_iter()

@@ -76,7 +76,7 @@ enum KeyKind {
     /// The platform's own number. A file name can contain the same number by chance, so the names
     /// must be alike too.
     Number,
-    /// A student id. A person has only one, so a row with a different id is somebody else's.
+    /// A student id. It is unique per person, so a row with a different id is somebody else's.
     Sid,
     /// An account name, or the email address used as one. A person may have several.
     Login,

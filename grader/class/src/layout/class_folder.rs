@@ -50,14 +50,14 @@ fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
     Some((submitted, Some(note)))
 }
 
-/// Returns whether a folder has the name that Gradescope gives to an export, `assignment_55_export`.
+/// Returns whether a folder is named like an export from Gradescope, `assignment_55_export`.
 fn is_gradescopes(node: &Node) -> bool {
     let number = node.name.strip_prefix("assignment_");
     let number = number.and_then(|rest| rest.strip_suffix("_export"));
     number.is_some_and(is_number) && node.find(METADATA).is_some()
 }
 
-/// Returns whether an archive has the name of the folder in it, as if the folder had been packed.
+/// Returns whether an archive is named after the folder in it, as if the folder had been packed.
 /// Drives and browsers append a time or a number.
 fn is_packed(folder: &str, archive: &str) -> bool {
     let letters =

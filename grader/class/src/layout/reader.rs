@@ -81,8 +81,8 @@ pub(super) fn is_name(platform: &Platform, name: &str) -> bool {
 
 impl Reader<'_> {
     /// Returns whether the files can be a download from Canvas, rather than other files with two
-    /// numbers in their names, such as a date. Those have the same number or name where Canvas has the
-    /// students', or two files with the same attachment.
+    /// numbers in their names, such as a date. Those repeat a number or name where Canvas gives the
+    /// students', or contain the same attachment twice.
     pub fn is_canvas_download(&self, root: &Node) -> bool {
         let nodes = root.children().iter();
         let names = nodes.map(|node| (node, first_readings(self.platform.files, &node.name)));

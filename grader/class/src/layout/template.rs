@@ -20,7 +20,7 @@ impl<'a> Parts<'a> {
         self.0.get(field).copied().unwrap_or_default()
     }
 
-    /// Returns whether the name has the field.
+    /// Returns whether the name contains the field.
     pub fn has(&self, field: &str) -> bool {
         !self.get(field).is_empty()
     }

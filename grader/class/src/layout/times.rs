@@ -11,8 +11,8 @@ pub fn written_time(text: &str) -> Option<String> {
         .or_else(|| with_month(text))
 }
 
-/// Writes the digits of a time between the punctuation of `written`, if it has the form `form`, where `0`
-/// stands for a digit.
+/// Writes the digits of a time between the punctuation of `written`, if it matches `form`, where
+/// `0` stands for a digit.
 fn with_signs(text: &str, form: &str, written: &str) -> Option<String> {
     let as_form = |sign: char| if sign.is_ascii_digit() { '0' } else { sign };
     let mut digits = text.chars().filter(char::is_ascii_digit);

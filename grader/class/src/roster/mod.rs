@@ -67,7 +67,7 @@ pub struct Member {
     pub submitted: String,
     /// Whether the list marks the submission as late.
     pub late: bool,
-    /// Whether another person in the list has the same name. If so, the name identifies neither of
+    /// Whether another person in the list shares the name. If so, the name identifies neither of
     /// them.
     has_namesake: bool,
 }

@@ -58,7 +58,7 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
     assert_eq!(tab.errors(), Vec::<String>::new());
 }
 
-/// Returns the text of a section of the page, with a line for each row, item and heading.
+/// Returns the text of one section, with a line for each row, item and heading.
 fn section(page: &str, id: &str) -> String {
     let start = page
         .find(&format!("<section aria-labelledby=\"{id}\""))

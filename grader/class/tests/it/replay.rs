@@ -12,8 +12,8 @@ const MANUAL: &str = "student,task,delta,comment,author,date\n\
     ann,camera,0,asked about the offset,Tess,\n";
 const ROSTER: &str = "name,username,email\nBob Lee,bob,bob@x.edu\nBob Lee,bo,bo@x.edu\n";
 
-/// Returns a graded class. Bob has a mistake in `camera.offset`, and another person has the same
-/// name.
+/// Returns a graded class. Bob, who shares his name with another person, has a mistake in
+/// `camera.offset`.
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")

@@ -11,8 +11,8 @@ const ITEMS: [&str; 3] = ["camera.offset", "camera.unit_length", "sphere.radius"
 /// Manual points for the submission that cannot be graded.
 const MANUAL: &str = "student,task,delta,comment,author\ncarl,sphere,1,drawn on paper,Tess\n";
 
-/// Returns a graded class. Ann has all points. Bob has none for `camera.offset`, which blocks his
-/// wrong `sphere.radius`.
+/// Returns a graded class. Ann gets full marks. Bob earns nothing for `camera.offset`, which blocks
+/// his wrong `sphere.radius`.
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")

@@ -67,7 +67,7 @@ pub struct TaskFile {
 /// Clues to what is wrong with a task's code, for failures that don't explain themselves.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TaskClues {
-    /// The clue for code whose rays never hit anything. `None` if the task has no rays that should
+    /// The clue for code whose rays never hit anything. `None` if none of the task's rays should
     /// hit something.
     pub if_nothing_is_hit: Option<&'static str>,
     /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.

@@ -132,7 +132,7 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
 
 /// Returns the error at each position of a picture, in the order of the question's elements.
 /// [`judge`] decides from the same numbers. Returns `None` if the question doesn't ask for a
-/// picture, or if the answer has the wrong size.
+/// picture, or if the answer is the wrong size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
     let positions = comparison(question, answer)?.positions()?;
     Some(positions.iter().map(Mismatch::first_at).collect())

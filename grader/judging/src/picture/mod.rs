@@ -61,7 +61,7 @@ pub fn asks_for_picture(question: &ExamQuestion) -> bool {
 }
 
 /// Compares a submitted picture with the expected one. Returns `None` if the question doesn't ask
-/// for a picture, or if the answer has the wrong size.
+/// for a picture, or if the answer is the wrong size.
 pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
     let (film, per_pixel) = grid(&question.question)?;
     let all_mismatches = mismatches(question, answer)?;

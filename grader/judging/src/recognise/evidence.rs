@@ -192,7 +192,7 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns whether items a mistake leaves correct fail in the same way as those it affects: a
-    /// tree has the same defect, or several items have no answer for the same reason. If so, the
+    /// tree shows the same defect, or several items lack an answer for the same reason. If so, the
     /// failures have a different cause. A single such item proves nothing, since the same mistake
     /// in different code may give no answer.
     fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {

@@ -64,7 +64,7 @@ fn left_in_groups(mounts: &Path, groups: &str) -> Option<u64> {
     least
 }
 
-/// Returns the memory available in one group, or `None` if it has no limit.
+/// Returns the memory available in one group, or `None` if it is unlimited.
 fn left_in_group(folder: &Path, files: &Files) -> Option<u64> {
     let read = |name| fs::read_to_string(folder.join(name)).ok();
     let limit: u64 = read(files.limit)?.trim().parse().ok()?;

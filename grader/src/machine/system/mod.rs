@@ -1,7 +1,7 @@
 //! Functions that differ between operating systems.
 //!
-//! Every system has the same functions. A function that a system doesn't support does nothing or
-//! returns `None` there, as documented.
+//! The functions are the same on every system. A function that a system doesn't support does
+//! nothing or returns `None` there, as documented.
 
 use std::ffi::OsStr;
 use std::io;

@@ -39,7 +39,7 @@ const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
 pub enum Reload {
     /// The page never reloads.
     Never,
-    /// The page reloads every 1.5 seconds while its window doesn't have the focus.
+    /// The page reloads every 1.5 seconds while its window isn't focused.
     WhileUnfocused,
 }
 

@@ -65,7 +65,7 @@ pub(super) fn dedicated_user(request: &LaunchRequest) -> Option<u32> {
     })
 }
 
-/// Returns whether a user id is mapped by the text of a `uid_map` file, whose lines have the form
+/// Returns whether a user id is mapped by the text of a `uid_map` file, whose lines look like
 /// `first outside count`.
 fn is_mapped(map: &str, user: u32) -> bool {
     map.lines().any(|line| {

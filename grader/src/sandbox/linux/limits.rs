@@ -9,7 +9,7 @@ use super::while_doing;
 use crate::machine::system::{resources, rlimit};
 
 /// The maximum number of threads of a probe, including the two that every probe has. This limit is
-/// only set for a dedicated user, which has no other processes.
+/// only set for a dedicated user, which runs nothing else.
 const PROBE_THREADS: u64 = 34;
 /// The maximum number of processes and threads of the compiler, the linker and their helpers.
 const COMPILER_PROCESSES: u64 = 256;

@@ -41,7 +41,7 @@ pub(super) fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
 
 /// Normalises a path for comparison: two paths become equal if any common file system treats them
 /// as the same. The result is in lower case (macOS, Windows) and in Unicode's composed form, NFC
-/// (macOS), and its names have no trailing dots or spaces (Windows).
+/// (macOS), and its names don't end in dots or spaces (Windows).
 fn folded_path(path: &str) -> String {
     let folded: String = path.to_lowercase().nfc().collect();
     let names = folded

@@ -362,7 +362,7 @@ pub const NUMBERS: &[&str] = &[
     "the largest",
 ];
 
-/// Returns the class of the number of a shape.
+/// Returns the class of a shape's number.
 pub fn number_class(number: u32) -> usize {
     match number {
         0 => 0,
@@ -392,7 +392,7 @@ pub fn weights_inside(rng: &mut Rng, least: f64) -> [f64; 3] {
     parts.map(|part| least + (1.0 - 3.0 * least) * part)
 }
 
-/// Returns the exponent of the power of two nearest to a count, which must not be 0.
+/// Returns a count's base-two logarithm, rounded. The count must not be 0.
 pub fn powers_of_two(count: usize) -> usize {
     (count as f64).log2().round() as usize
 }

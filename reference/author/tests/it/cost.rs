@@ -9,7 +9,7 @@ use judging::exam::ExamQuestion;
 
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 
-/// Returns the questions of `build.one_split` without the control. Each has one best split.
+/// Returns the questions of `build.one_split` without the control. In each, one split is best.
 fn one_split(seed: u64) -> Vec<ExamQuestion> {
     let items = resolve(build::TASK.draw(Seed(seed)));
     let item = items.into_iter().find(|item| item.id == "build.one_split");

@@ -152,7 +152,7 @@ impl<'a> SpatialBuilder<'a> {
         splits.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
-    /// Returns the boxes of the parts of an item below and above a plane, or `None` for an empty
+    /// Returns the boxes around an item's parts below and above a plane, or `None` for an empty
     /// part.
     fn pieces(&self, item: &Item, axis: usize, plane: f32) -> [Option<Bounds>; 2] {
         let (mut upper, mut lower) = (item.bounds.upper.to_array(), item.bounds.lower.to_array());

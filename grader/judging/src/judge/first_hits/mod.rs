@@ -170,7 +170,8 @@ impl FirstHits<'_> {
 
 /// Returns the deviations at one position, up to the first wrong quantity. Each quantity is
 /// compared to the closest of the answers in `right` that agree with it in all earlier quantities.
-/// A correct miss only has the first quantity. `alike` is a buffer whose contents are overwritten.
+/// A correct miss consists only of the first quantity. `alike` is a buffer whose contents are
+/// overwritten.
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,

@@ -8,12 +8,12 @@ use crate::domains::Call;
 use crate::oracle::scan;
 
 impl ShapeCall {
-    /// Returns the call with a smaller shape that has the same centre.
+    /// Returns the call with a smaller shape around the same centre.
     pub fn smaller(&self, _: DVec3) -> Self {
         self.scaled(0.75)
     }
 
-    /// Returns the call with a shape that has the same centre and is larger by less than 1%.
+    /// Returns the call with a shape around the same centre that is larger by less than 1%.
     pub fn slightly_larger(&self, random: DVec3) -> Self {
         self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
     }

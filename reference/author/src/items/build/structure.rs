@@ -52,7 +52,7 @@ fn is_in_small_leaves(call: &BuildCall) -> bool {
     call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
-/// Creates a question about small random triangles for each pair of a number of triangles and a
+/// Creates a question about small random triangles for each combination of triangle count and
 /// maximum leaf size. Up to seven more triangles are added. Every other question is far from the
 /// origin.
 fn soup_questions(

@@ -166,6 +166,11 @@ pub struct Lists {
     #[arg(long, value_name = "FOLDER")]
     pub anonymous: Option<PathBuf>,
 
+    /// Show similar submissions side by side: the folder of an earlier --similarity-input, and a
+    /// checker's results (Dolos's pairs.csv or JPlag's results.csv). Repeat it in each run
+    #[arg(long, value_names = ["FOLDER", "RESULTS"], num_args = 2)]
+    pub similar: Vec<PathBuf>,
+
     /// Gradebook exported from Canvas; the points are written to a copy
     #[arg(long, value_name = "CSV")]
     pub canvas: Option<PathBuf>,

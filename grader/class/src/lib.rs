@@ -16,7 +16,7 @@
 //! | what is made of grades; the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`hand_in_again`], [`summary`], [`input`] |
 //! | grades, lists and the grader | [`attempts`], [`corrected`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
-//! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`store`] |
+//! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`similar_pairs`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
 //! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`layout_kind`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
@@ -62,6 +62,7 @@ pub mod report;
 pub mod roster;
 pub mod run;
 pub mod shard;
+pub mod similar_pairs;
 pub mod similarity;
 pub mod store;
 pub mod submission_grader;

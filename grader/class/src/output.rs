@@ -21,6 +21,7 @@ use crate::outcome::{EntryResult, exam_tasks};
 use crate::regrade_diff::{Changes, find_regrade_changes, find_resubmitted};
 use crate::report::{grades, page, text};
 use crate::run::Run;
+use crate::similar_pairs::{SimilarPair, read_similar_pairs};
 use crate::store::{Store, json};
 use crate::summary::ClassSummary;
 
@@ -60,6 +61,7 @@ impl ClassContext<'_> {
         let ClassContext {
             store, run, lists, ..
         } = self;
+        let similar = read_similar_pairs(lists)?;
         let settings = &run.settings;
         let regrade = find_regrade_changes(store, run, &results)?;
         let resubmitted = find_resubmitted(store, &results)?;
@@ -86,7 +88,7 @@ impl ClassContext<'_> {
             removed,
             grades: history.changes(),
         };
-        let summary = write_results(class, store, &changes)?;
+        let summary = write_results(class, store, &changes, &similar)?;
         print(text::render_summary(&summary));
         print(
             changes
@@ -125,6 +127,7 @@ fn write_results(
     class: &GradedClass,
     store: &Store,
     changes: &Changes,
+    similar: &[SimilarPair],
 ) -> Result<ClassSummary, Error> {
     let summary = ClassSummary::new(class);
     for row in &class.rows {
@@ -135,7 +138,10 @@ fn write_results(
         store.write_counted(id, &texts)?;
     }
     store.write("class.json", json(&summary))?;
-    store.write("class.html", page::render_page(class, &summary, changes))?;
+    store.write(
+        "class.html",
+        page::render_page(class, &summary, changes, similar),
+    )?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
     if let Some(regrade) = &changes.regrade {
         store.write("drift.json", json(&regrade.drifts))?;
@@ -171,7 +177,7 @@ fn write_for_graders(
             .collect(),
         ..run.clone()
     })?;
-    write_results(&hidden, &copy, &Changes::default())?;
+    write_results(&hidden, &copy, &Changes::default(), &[])?;
     print_path(&copy, "class.html");
     Ok(())
 }
@@ -204,8 +210,9 @@ fn print_path(store: &Store, name: &str) {
     print_line(format_args!("  {}", store.folder().join(name).display()));
 }
 
-/// Checks, before the class is graded, that the gradebooks can be filled in.
+/// Checks, before the class is graded, that the gradebooks and a checker's results can be used.
 pub fn check_lists(lists: &Lists) -> Result<(), Error> {
+    read_similar_pairs(lists)?;
     fill_gradebooks(&GradedClass::default(), lists).map(drop)
 }
 

@@ -1,4 +1,4 @@
-//! Compares paths of folders that may not exist yet.
+//! Paths of folders that may not exist yet.
 
 use std::path::{Path, PathBuf};
 
@@ -16,4 +16,10 @@ fn real_path(path: &Path) -> PathBuf {
         Some(folder.canonicalize().ok()?.join(rest))
     });
     real.unwrap_or_else(|| absolute.clone())
+}
+
+/// Returns the path of a file next to a folder. Its name begins with the folder's name.
+pub fn beside(folder: &Path, end: &str) -> PathBuf {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    folder.with_file_name(format!("{name}-{end}"))
 }

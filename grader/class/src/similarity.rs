@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use grader::files;
 use grader::handed_out::{HandedOut, own_lines};
@@ -16,7 +16,7 @@ use judging::content_hash::ContentHash;
 use crate::entry::{Entry, EntryInfo};
 use crate::error::Error;
 use crate::input::collect_submission;
-use crate::paths::contains;
+use crate::paths::{beside, contains};
 use crate::report::text::one_line;
 use crate::table::{Table, safe_cell};
 
@@ -107,12 +107,6 @@ pub fn write_input(
     let list = beside(folder, "identical.csv");
     files::write(&list, identical_table(&identical).to_csv())?;
     Ok(render(folder, &key, &list, all.len(), &identical))
-}
-
-/// Returns the path of a file next to a folder. Its name begins with the folder's name.
-fn beside(folder: &Path, end: &str) -> PathBuf {
-    let name = folder.file_name().unwrap_or_default().to_string_lossy();
-    folder.with_file_name(format!("{name}-{end}"))
 }
 
 fn key_table(all: &[OwnWork]) -> Table {

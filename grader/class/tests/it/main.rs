@@ -22,6 +22,7 @@ mod resuming;
 mod runner_commands;
 mod second_run;
 mod shards;
+mod similar_pairs;
 mod similarity;
 mod stored_class;
 mod times;

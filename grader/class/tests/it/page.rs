@@ -59,7 +59,7 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
 }
 
 /// Returns the text of one section, with a line for each row, item and heading.
-fn section(page: &str, id: &str) -> String {
+pub fn section(page: &str, id: &str) -> String {
     let start = page
         .find(&format!("<section aria-labelledby=\"{id}\""))
         .unwrap();

@@ -66,7 +66,7 @@ impl Error {
                     trace.normal.x = self.number(trace.normal.x + 1.0) - 1.0;
                     trace.uv.y = self.number(trace.uv.y + 1.0) - 1.0;
                     trace.origin = self.vector(trace.origin);
-                    trace.shape += 1;
+                    trace.shape = trace.shape.wrapping_add(1);
                 }
                 None => *hit = Some(HIT),
             }),

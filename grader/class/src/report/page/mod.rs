@@ -2,6 +2,7 @@
 //! the most common mistakes, and a link to each report.
 
 mod changes;
+mod similar;
 mod submissions;
 mod times;
 
@@ -16,6 +17,7 @@ use sha2::{Digest, Sha256};
 use crate::distribution::Distribution;
 use crate::graded_class::GradedClass;
 use crate::regrade_diff::Changes;
+use crate::similar_pairs::SimilarPair;
 use crate::summary::{Cause, ClassSummary, Outlier};
 use grader::printing::counted;
 
@@ -24,7 +26,12 @@ const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
 /// Renders the page of a class.
-pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Changes) -> String {
+pub fn render_page(
+    class: &GradedClass,
+    summary: &ClassSummary,
+    changes: &Changes,
+    similar: &[SimilarPair],
+) -> String {
     let submissions = counted(class.rows.len(), "submission");
     let title = format!("{submissions}, {} exam", class.exam);
     let page = html! {
@@ -55,6 +62,7 @@ pub fn render_page(class: &GradedClass, summary: &ClassSummary, changes: &Change
                     (times::section(class))
                     (changes::sections(changes))
                     (submissions::section(class))
+                    (similar::section(class, similar))
                 }
                 footer {
                     p {

@@ -1,0 +1,54 @@
+//! The section about submissions that a similarity checker found similar.
+
+use judging::sanitize::sanitize;
+use maud::{Markup, html};
+
+use super::sanitized;
+use super::submissions::report_link;
+use crate::graded_class::GradedClass;
+use crate::outcome::id_and_names;
+use crate::similar_pairs::SimilarPair;
+use crate::table::safe_cell;
+
+/// Renders the pairs, if there are any, with their lines side by side.
+pub(super) fn section(class: &GradedClass, pairs: &[SimilarPair]) -> Markup {
+    html! {
+        @if !pairs.is_empty() {
+            section aria-labelledby="similar" {
+                h2 #similar { "Similar submissions" }
+                p {
+                    "A similarity checker compared the students' own lines. Code can be similar for "
+                    "other reasons than copying, so compare it yourself. Points don't depend on this."
+                }
+                @for pair in pairs { (side_by_side(class, pair)) }
+            }
+        }
+    }
+}
+
+fn side_by_side(class: &GradedClass, pair: &SimilarPair) -> Markup {
+    let results = pair.files.each_ref().map(|file| {
+        let mut results = class.rows.iter().map(|row| &row.result);
+        results.find(|result| safe_cell(&result.id) == file.submission)
+    });
+    let titles = [0, 1].map(|side| match results[side] {
+        Some(result) => id_and_names(&result.id, &result.info.display_names()),
+        None => format!("{}, no longer in the class", pair.files[side].submission),
+    });
+    html! {
+        details {
+            summary {
+                (format!("{:.0} %, ", 100.0 * pair.similarity))
+                code { (sanitized(&format!("{}.rs", pair.files[0].task))) }
+                ": " (sanitized(&titles.join(" and ")))
+            }
+            div .pair { @for ((file, result), title) in pair.files.iter().zip(results).zip(&titles) {
+                @let graded = result.filter(|result| result.score().is_some());
+                div {
+                    p { a href=[graded.map(|result| report_link(&result.id))] { (sanitized(title)) } }
+                    pre tabindex="0" { code { (sanitize(&file.lines, 40_000)) } }
+                }
+            } }
+        }
+    }
+}

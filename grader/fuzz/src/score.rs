@@ -38,7 +38,9 @@ pub fn read(bytes: &[u8]) {
         missing: Vec::new(),
     };
     let class_summary = ClassSummary::new(&class);
-    assert!(page::render_page(&class, &class_summary, &Changes::default()).ends_with("</html>"));
+    assert!(
+        page::render_page(&class, &class_summary, &Changes::default(), &[]).ends_with("</html>")
+    );
     assert!(!grades::grades_table(&class).to_csv().is_empty());
     assert!(!text::render_summary(&class_summary).is_empty());
 }

@@ -4,7 +4,7 @@
 //! Some rays have an unreferenced primitive (one that isn't in any leaf) in front of the correct hit.
 //! A linear scan over all primitives, which ignores the tree, returns this wrong primitive.
 //! [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that should have
-//! been skipped. [`cells`] distributes their kinds, leaves, levels and ranges. One item tests the
+//! been skipped. `cells` distributes their kinds, leaves, levels and ranges. One item tests the
 //! position of the root. In all others, starting at the first or the last node also gives correct
 //! answers.
 

@@ -108,8 +108,7 @@ pub struct Person {
     /// The status in Moodle's worksheet, which may include an extension.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
-    /// Whether `name` comes from the name of a file or folder, in which case a name in a list is
-    /// preferred.
+    /// Whether `name` comes from the name of a file or folder. If so, a list's name is preferred.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
     /// Whether only the roster's groups say that the person belongs to the submission.

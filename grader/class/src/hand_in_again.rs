@@ -57,7 +57,7 @@ pub fn write_texts(
     Ok(used.len())
 }
 
-/// Renders the text to a person, with the reasons why nothing could be graded.
+/// Renders the message that tells a person why nothing could be graded and how to hand in again.
 pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> String {
     let name = sanitize_line(person.display_name(), MAX_CHARS);
     let address = match person.email.as_str() {

@@ -83,8 +83,8 @@ impl CountedPoints {
         self.is_changed().then(|| self.explanation())
     }
 
-    /// Returns the rules that apply to this submission, but not its points, from which the points
-    /// of hidden items could be computed. Returns `None` if no rule applies.
+    /// Returns the rules that apply to this submission. Its points are left out, since they would reveal
+    /// those of hidden items. Returns `None` if no rule applies.
     pub fn rules(&self) -> Option<String> {
         let mut rules = Vec::new();
         if self.max_points != self.earned_of {

@@ -75,9 +75,9 @@ pub fn is_record(name: &str) -> bool {
     lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
 }
 
-/// Recognises the layout of a folder, unless it is chosen, and returns its entries. `metadata` is the text of
-/// Gradescope's metadata file, if there is one, and `known` are the people on lists. Only names in the
-/// folder itself count, which the platform or the teacher has chosen, and nothing in an entry.
+/// Returns a folder's entries. Recognises the layout if `choice` doesn't name one. `metadata` is the
+/// text of Gradescope's metadata file, if any, and `known` are the people on lists. The contents of
+/// entries are ignored: only the names that the platform or the teacher has chosen are used.
 pub fn recognise(
     choice: &LayoutChoice,
     root: &Node,
@@ -208,7 +208,8 @@ fn make_ids_unique(entries: &mut [Entry]) {
     }
 }
 
-/// Returns the name, with a number if it is used, and adds it to the used ones in lower case.
+/// Returns the name, with a number appended if the name is taken. Adds the result to `used`, in lower
+/// case.
 pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
     let mut name = wanted.to_owned();
     let mut number = 2;

@@ -51,7 +51,7 @@ pub struct Platform {
     pub ids: &'static [&'static str],
     /// Templates of the person's name.
     pub names: &'static [&'static str],
-    /// Whether people's names come from file names, in which case names in lists are preferred.
+    /// Whether people's names come from file names. If so, names in lists are preferred.
     pub is_named_by_file: bool,
     /// The source of the people and the time, if not the name.
     pub record: Record,
@@ -137,8 +137,8 @@ pub static PLATFORMS: [Platform; 10] = [
         ..FOLDERS
     },
     // "Download submissions": `doejane_LATE_7001_9001_camera.rs`, with the student's sortable name without
-    // punctuation, the numbers of the user and the attachment, and the student's file name, to which
-    // Canvas appends `-1`, `-2`, … if the file is handed in again.
+    // punctuation, the numbers of the user and the attachment, and the student's file name. If the file
+    // is handed in again, Canvas appends `-1`, `-2`, … to its name.
     Platform {
         layout: Layout::Canvas,
         description: "a Canvas download",

@@ -103,8 +103,8 @@ fn next_item(template: &'static str) -> Option<(Item, &'static str)> {
     }
 }
 
-/// Adds the readings of a text that follow the templates in `pending`, the last of which comes
-/// first.
+/// Adds the readings of a text that follow the templates in `pending`, beginning with the last
+/// template.
 fn find_readings<'a>(
     mut pending: Vec<&'static str>,
     text: &'a str,

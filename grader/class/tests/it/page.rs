@@ -81,8 +81,8 @@ pub fn section(page: &str, id: &str) -> String {
         .join("\n")
 }
 
-/// Two mistakes, of which one hides the other in Finn's submission; a file that does not compile; a submission that cannot
-/// be graded; and two people whose names look alike.
+/// There are two mistakes, and one hides the other in Finn's submission. One file doesn't compile, one
+/// submission can't be graded, and two people's names look alike.
 #[test]
 fn the_page_shows_what_needs_attention_root_causes_and_failure_rates_by_section() {
     let mistake = |class: TestClass, who: &str| {

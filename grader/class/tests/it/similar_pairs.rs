@@ -1,12 +1,12 @@
-//! The results of similarity checkers, in the forms in which Dolos and JPlag export them.
+//! The results of similarity checkers, as Dolos and JPlag export them.
 
 use std::fs;
 
 use crate::harness::{TestClass, assert_contains, class_command, files_below, successful_stdout};
 use crate::page::section;
 
-/// Returns a class of three, of which two are in the same group, and writes the input for a checker
-/// to the folder `own` next to it.
+/// Returns a class of three people. Two are in the same group. Writes the input for a checker to the
+/// folder `own` next to the class.
 fn compared_class() -> TestClass {
     let class = TestClass::named("class");
     let class = ["ann", "bob", "carl"]
